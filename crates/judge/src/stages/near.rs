@@ -471,6 +471,9 @@ pub(super) struct Edge {
     pub(super) is_forward: bool,
 }
 
+/// The coefficients of a plane that is read off are multiples of this: each is off by half of it, and what is less is 0.
+const STEP: f64 = 1e-6;
+
 /// A triangle and what was left of it.
 #[derive(Clone)]
 pub struct Cut<'a> {
@@ -671,14 +674,17 @@ impl NearCut {
         let Some(far) = far.filter(|far| away(far) > 0.0) else { return Vec::new() };
         let (z, w) = (first[3] - far[3], far[2] - first[2]);
         let size = z.abs().max(w.abs());
-        let [z, w] = [z, w].map(|v| if v.abs() < 1e-6 * size { 0.0 } else { v / size });
+        let [z, w] = [z, w].map(|v| if v.abs() < STEP * size { 0.0 } else { v / size });
         let by = if z == 0.0 { w } else { z };
-        let simple = |v: f64| (v / by * 1e6).round() / 1e6;
+        let simple = |v: f64| (v / by / STEP).round() * STEP;
         let plane = [z, w, -z * first[2] - w * first[3]].map(simple);
-        let tolerance = parts.first().map_or(0.0, |cut| cut.tolerance).max(1e-6);
+        // No new corner is farther from the first than the one that the plane goes through as well. So where each corner is off by
+        // the tolerance, the plane is off by three times as much at any of them, and the corner itself by one more.
+        let tolerance = parts.first().map_or(0.0, |cut| cut.tolerance);
+        let steepness = plane[0].abs() + plane[1].abs();
+        let off = 4.0 * tolerance * steepness + STEP / 2.0;
         let is_on = |p: &&ClipCorner| {
-            Plane::At(plane).distance(**p, false).abs()
-                <= 10.0 * tolerance * (1.0 + p[2].abs() + p[3].abs())
+            Plane::At(plane).distance(**p, false).abs() <= off * (1.0 + p[2].abs() + p[3].abs())
         };
         if new.len() <= 8 || !new.iter().all(is_on) {
             return Vec::new();

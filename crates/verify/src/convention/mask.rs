@@ -40,6 +40,11 @@ impl Mask {
         self.0[y_px as usize] >> x_px & 1 == 1
     }
 
+    /// A row, with the first column as its last bit.
+    pub(crate) fn row(&self, y_px: i32) -> u32 {
+        self.0[y_px as usize]
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.count() == 0
     }

@@ -2,6 +2,7 @@
 
 use super::picture::{MARGIN, Picture};
 use super::question::{AnyQuestion, Room};
+use super::trial::Work;
 use crate::convention::{
     Ask, AskLine, Declarations, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
     RULES, Shape, Ties, TriangleConvention, TriangleQuestion,
@@ -39,7 +40,12 @@ pub(super) trait Drawer {
     /// Where samples lie in their pixel, in subpixels.
     fn sample(&self) -> [i64; 2];
     fn room(&mut self) -> &mut Room;
+    /// What may still be done with the answers: each picture that is drawn is counted.
+    fn work(&self) -> &Work;
 }
+
+/// Steps of [`Work`] for a picture, besides one for each of its pixels.
+const PICTURE: usize = 64;
 
 /// The side of the windows that a convention draws at once.
 const BLOCK_PX: i32 = 32;
@@ -57,8 +63,11 @@ fn in_blocks(
                 .map(|(start, side)| BLOCK_PX.min(side + MARGIN - start));
             let mask = draw([left, top], PixelRect::window(width as u32, height as u32))?;
             for y in 0..height {
-                for x in (0..width).filter(|x| mask.has(*x, y)) {
-                    picture.set([left + x, top + y], 1);
+                // From one pixel that is covered to the next.
+                let mut row = mask.row(y) & (u32::MAX >> (BLOCK_PX - width));
+                while row != 0 {
+                    picture.set([left + row.trailing_zeros() as i32, top + y], 1);
+                    row &= row - 1;
                 }
             }
         }
@@ -79,6 +88,7 @@ pub(super) struct Triangles<'a> {
     sample: [i64; 2],
     /// Whether a pixel drawn twice cannot be seen.
     is_mask: bool,
+    work: Work,
 }
 
 impl<'a> Triangles<'a> {
@@ -114,12 +124,14 @@ impl<'a> Triangles<'a> {
             }
         }
         let is_plain = expected.mirror == Mirror::None;
-        is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask: known.mask })
+        let (is_mask, work) = (known.mask, Work::default());
+        is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask, work })
     }
 }
 
 impl Drawer for Triangles<'_> {
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
+        self.work.spend(PICTURE + question.pixels());
         in_blocks(question.side, &|block, window| {
             let corner = |i: usize| {
                 let [x, y] = [0, 1].map(|axis| {
@@ -176,6 +188,10 @@ impl Drawer for Triangles<'_> {
     fn room(&mut self) -> &mut Room {
         &mut self.room
     }
+
+    fn work(&self) -> &Work {
+        &self.work
+    }
 }
 
 /// A line drawer. Pixels that come twice are not told from others.
@@ -184,6 +200,7 @@ pub(super) struct Lines<'a> {
     conventions: Vec<LineConvention>,
     rules: Vec<String>,
     room: Room,
+    work: Work,
 }
 
 impl<'a> Lines<'a> {
@@ -210,12 +227,13 @@ impl<'a> Lines<'a> {
                 rules.push(format!("as if its rule for ties were '{}'", tie.name()));
             }
         }
-        Self { ask, conventions, rules, room }
+        Self { ask, conventions, rules, room, work: Work::default() }
     }
 }
 
 impl Drawer for Lines<'_> {
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
+        self.work.spend(PICTURE + question.pixels());
         in_blocks(question.side, &|block, window| {
             let ends = [0, 1].map(|i| {
                 [0, 1].map(|axis| {
@@ -269,5 +287,9 @@ impl Drawer for Lines<'_> {
 
     fn room(&mut self) -> &mut Room {
         &mut self.room
+    }
+
+    fn work(&self) -> &Work {
+        &self.work
     }
 }

@@ -8,21 +8,21 @@ use super::question::AnyQuestion;
 use super::rule::{self, Table, Terms, all_hold};
 use super::say;
 use super::search::Search;
+use super::trial::Work;
 
 /// When the program is wrong, and where the wrong pixels lie.
 pub(super) fn sentences(search: &Search<'_>) -> Vec<String> {
     let names = &search.vocabulary.names;
     let of_question = &names[..search.vocabulary.of_question];
     let mut said = told_apart("wrong answers", "right ones", of_question, &answers(search));
-    for wrong in Wrong::ALL {
-        let table = search.table(&Model::default(), wrong);
+    for (wrong, table) in Wrong::ALL.into_iter().zip(&*search.tables(&Model::default())) {
         let (kind, others) = match wrong {
             Wrong::Missing => ("missing pixels", "pixels that are rightly drawn"),
             Wrong::Extra => ("extra pixels", "pixels that are rightly not drawn"),
             Wrong::Twice => ("pixels drawn more than once", "pixels drawn once"),
         };
         if table.yes.len() >= LEAST_PIXELS {
-            said.extend(told_apart(kind, others, names, &table));
+            said.extend(told_apart(kind, others, names, table));
         }
     }
     said
@@ -48,7 +48,8 @@ fn answers(search: &Search<'_>) -> Table {
 /// What is true of all that is wrong; and what is true of most of it and of little else.
 fn told_apart(kind: &str, others: &str, names: &[Name], table: &Table) -> Vec<String> {
     let terms = Terms { most: 3, need: 3, slack: 30, wanted: 1 };
-    let most = rule::best(names, table, terms).into_iter().next().map(|found| found.facts);
+    let most = rule::best(names, table, terms, &Work::default()).into_iter().next();
+    let most = most.map(|found| found.facts);
     let all = rule::common(names, table, 3).0;
     let mut said = Vec::new();
     for facts in [all, most.unwrap_or_default()] {

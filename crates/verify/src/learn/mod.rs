@@ -26,13 +26,15 @@ mod say;
 mod search;
 pub mod trial;
 
+use std::cell::OnceCell;
+
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
 use model::{Model, Vocabulary, facts_of};
 use question::AnyQuestion;
 use search::Search;
-use trial::{AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Trial};
+use trial::{AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, nearest};
 
 /// What was learned of a wrong program.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -101,10 +103,6 @@ const MOST_FIRST: usize = 1200;
 const FRESH: [usize; 2] = [200, 150];
 /// How often the first are asked, as long as too few of them are wrong.
 const MOST_FRESH: usize = 4;
-/// Searches at most: what refutes one is learned from by the next.
-const MOST_ROUNDS: usize = 3;
-/// Of so many new answers, one that is not predicted after the second search ends it.
-const HOPELESS: u64 = 8;
 
 /// Learns from a rasterizer of triangles, as [`of_triangles`] does.
 pub type LearnTriangles = fn(&mut dyn Ask, &Declarations, &TriangleConvention) -> Option<Learned>;
@@ -138,28 +136,6 @@ struct Learner<'a> {
     answered: Vec<LearnedAnswer>,
 }
 
-/// What came of new questions.
-#[derive(Default)]
-struct Round {
-    trial: Trial,
-    /// Wrong answers that are predicted and in which something is drawn: where nothing is, much predicts the same.
-    visible: u64,
-    /// Numbers of those that it does not predict.
-    missed: Vec<usize>,
-}
-
-impl Round {
-    fn add(&mut self, other: &Self) {
-        self.visible += other.visible;
-        let (trial, more) = (&mut self.trial, other.trial);
-        trial.independent += more.independent;
-        for (count, more) in [(&mut trial.wrong, more.wrong), (&mut trial.right, more.right)] {
-            count.drawn += more.drawn;
-            count.of += more.of;
-        }
-    }
-}
-
 impl<'a> Learner<'a> {
     fn new(drawer: &'a mut dyn Drawer) -> Self {
         let sample = drawer.room().question();
@@ -172,39 +148,8 @@ impl<'a> Learner<'a> {
         if self.wrong().count() < LEAST_WRONG {
             return None;
         }
-        let mut best: Option<(Round, Model)> = None;
-        let mut refuted = true;
-        let mut searches = 0;
-        for _ in 0..MOST_ROUNDS {
-            let model = match &best {
-                Some((_, model)) if !refuted => model.clone(),
-                _ => self.search().explain(),
-            };
-            let mut round = self.try_out(&model)?;
-            let was_right = !refuted;
-            refuted = round.trial.missed() > 0;
-            self.put_first(&round.missed);
-            if was_right {
-                // What was not refuted before is asked for more.
-                best.iter().for_each(|(before, _)| round.add(before));
-            }
-            let is_enough = round.trial.is_enough();
-            let is_better = best
-                .as_ref()
-                .is_none_or(|(before, _)| round.trial.missed() <= before.trial.missed());
-            if is_better {
-                best = Some((round, model));
-            }
-            let is_hopeless = best.as_ref().is_some_and(|(Round { trial, .. }, _)| {
-                trial.missed() > (trial.wrong.of + trial.right.of) / HOPELESS
-            });
-            searches += usize::from(!was_right);
-            if !refuted && is_enough || self.left == 0 || searches > 1 && is_hopeless {
-                break;
-            }
-        }
-        let (round, model) = best?;
-        let mut learned = self.learned(&round, &model);
+        let (trial, model) = self.explained()?;
+        let mut learned = self.learned(&trial, &model);
         if !learned.is_certain {
             learned.known.extend(self.nearest_right());
         }
@@ -230,7 +175,12 @@ impl<'a> Learner<'a> {
     }
 
     fn search(&self) -> Search<'_> {
-        Search { drawer: &*self.drawer, vocabulary: &self.vocabulary, answered: &self.answered }
+        Search {
+            drawer: &*self.drawer,
+            vocabulary: &self.vocabulary,
+            answered: &self.answered,
+            first: OnceCell::new(),
+        }
     }
 
     /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
@@ -270,38 +220,6 @@ impl<'a> Learner<'a> {
         (!self.drawer.is_abandoned()).then_some(())
     }
 
-    /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
-    fn try_out(&mut self, model: &Model) -> Option<Round> {
-        let before = self.answered.len();
-        let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
-        // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
-        let mut independent = 0;
-        for _ in 0..MOST_FRESH {
-            let from = self.answered.len();
-            let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
-            self.ask(questions)?;
-            independent += self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
-            if independent >= ENOUGH_INDEPENDENT {
-                break;
-            }
-        }
-        let mut questions: Vec<AnyQuestion> = Vec::new();
-        questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
-        questions.extend(self.at_limits(model));
-        self.ask(questions)?;
-        let trial = Trial { independent, ..Trial::default() };
-        let mut round = Round { trial, ..Round::default() };
-        let search = self.search();
-        for i in before..self.answered.len() {
-            let a = &self.answered[i];
-            let fits = search.fits(model, a);
-            round.trial.add(a.is_wrong(), fits);
-            round.visible += u64::from(fits && a.is_wrong() && !a.drawn.is_empty());
-            round.missed.extend((!fits).then_some(i));
-        }
-        Some(round)
-    }
-
     /// Questions near both sides of each limit of a fact of the question.
     fn at_limits(&mut self, model: &Model) -> Vec<AnyQuestion> {
         let mut questions = Vec::new();
@@ -316,17 +234,15 @@ impl<'a> Learner<'a> {
     /// The questions nearest to a limit, of many beside those that are nearest so far.
     fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<AnyQuestion> {
         let distance = |facts: &[i64]| facts[quantity].saturating_sub(limit).saturating_abs();
-        let mut nearest: Vec<usize> = (0..self.answered.len()).collect();
-        nearest.sort_by_key(|&i| distance(&self.answered[i].facts));
+        let mut order: Vec<usize> = (0..self.answered.len()).collect();
+        order.sort_by_key(|&i| distance(&self.answered[i].facts));
         let start: Vec<AnyQuestion> =
-            nearest.iter().take(30).map(|&i| self.answered[i].question.clone()).collect();
-        let mut found: Vec<(i64, AnyQuestion)> = Vec::new();
-        for _ in 0..NEAR_TRIED {
+            order.iter().take(30).map(|&i| self.answered[i].question.clone()).collect();
+        let make = || {
             let question = self.question(&start, true);
-            found.push((distance(&facts_of(&question)), question));
-        }
-        found.sort_by_key(|(distance, _)| *distance);
-        found.into_iter().take(NEAR_ASKED).map(|(_, question)| question).collect()
+            Some((distance(&facts_of(&question)), question))
+        };
+        nearest(NEAR_TRIED, NEAR_ASKED, make).collect()
     }
 
     /// What refutes a model is looked at first by the next search; of new answers as many as of old ones.
@@ -341,18 +257,63 @@ impl<'a> Learner<'a> {
         self.answered = first;
     }
 
-    fn learned(&self, round: &Round, model: &Model) -> Learned {
-        let Trial { wrong, right, .. } = round.trial;
-        let is_certain = round.trial.missed() == 0
-            && round.trial.is_enough()
+    fn learned(&self, trial: &Trial, model: &Model) -> Learned {
+        let Trial { wrong, right, .. } = *trial;
+        let is_certain = trial.missed() == 0
+            && trial.is_enough()
             && (model.chain.iter().all(|step| step.base.is_nothing())
-                || round.visible >= ENOUGH_INDEPENDENT);
-        let does = match round.trial.explains() {
+                || trial.visible >= ENOUGH_INDEPENDENT);
+        let does = match trial.explains() {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),
             false => Vec::new(),
         };
         let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
         Learned { is_certain, does, wrong, right, part: "", known }
+    }
+}
+
+impl Learn for Learner<'_> {
+    type Found = Model;
+
+    fn search(&mut self) -> Model {
+        self.drawer.work().begin();
+        Self::search(self).explain()
+    }
+
+    /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
+    fn try_out(&mut self, model: &Model) -> Option<Trial> {
+        let before = self.answered.len();
+        let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
+        // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
+        let mut trial = Trial::default();
+        for _ in 0..MOST_FRESH {
+            let from = self.answered.len();
+            let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
+            self.ask(questions)?;
+            trial.independent +=
+                self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
+            if trial.independent >= ENOUGH_INDEPENDENT {
+                break;
+            }
+        }
+        let mut questions: Vec<AnyQuestion> = Vec::new();
+        questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
+        questions.extend(self.at_limits(model));
+        self.ask(questions)?;
+        let search = Self::search(self);
+        let mut missed = Vec::new();
+        for (i, a) in self.answered.iter().enumerate().skip(before) {
+            let fits = search.fits(model, a);
+            trial.add(a.is_wrong(), fits);
+            trial.visible += u64::from(fits && a.is_wrong() && !a.drawn.is_empty());
+            missed.extend((!fits).then_some(i));
+        }
+        self.put_first(&missed);
+        Some(trial)
+    }
+
+    fn is_over(&self) -> bool {
+        self.left == 0
     }
 }
 

@@ -77,6 +77,10 @@ impl Vocabulary {
     }
 }
 
+/// Steps of [`super::trial::Work`] for the facts of a pixel in a rule, and for all quantities of one.
+const PIXEL: usize = 30;
+pub(super) const ALL_OF_A_PIXEL: usize = 400;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wrong {
     Missing,
@@ -285,6 +289,7 @@ impl Step {
             })
         };
         for at in before.all().filter(|at| self.wrong.may_befall(before.hits(*at))) {
+            drawer.work().spend(PIXEL);
             if holds(at) {
                 after.set(at, self.wrong.hits());
             }

@@ -55,19 +55,29 @@ impl Picture {
         pixels([-MARGIN; 2], self.side.map(|side| side + MARGIN))
     }
 
-    /// Pixels of the window that are drawn otherwise than in another picture.
+    /// The rows of the window.
+    fn rows(&self) -> impl Iterator<Item = &[u8]> {
+        let [columns, _] = self.side.map(|side| (side + 2 * MARGIN) as usize);
+        let [width, height] = self.side.map(|side| side as usize);
+        let margin = MARGIN as usize;
+        let rows = self.hits.chunks_exact(columns).skip(margin).take(height);
+        rows.map(move |row| &row[margin..margin + width])
+    }
+
+    /// Pixels of the window that are drawn otherwise than in another picture of its size.
     pub(super) fn differs(&self, other: &Self) -> usize {
-        self.pixels().filter(|at| self.hits(*at) != other.hits(*at)).count()
+        let rows = self.rows().zip(other.rows()).filter(|(a, b)| a != b);
+        rows.map(|(a, b)| a.iter().zip(b).filter(|(a, b)| a != b).count()).sum()
     }
 
     /// Whether nothing is drawn in the window.
     pub(super) fn is_empty(&self) -> bool {
-        !self.pixels().any(|at| self.has(at))
+        self.rows().all(|row| row.iter().all(|hits| *hits == 0))
     }
 
-    /// Whether the window looks as in another picture.
+    /// Whether the window looks as in another picture of its size.
     pub(super) fn is_as(&self, other: &Self) -> bool {
-        self.pixels().all(|at| self.hits(at) == other.hits(at))
+        self.rows().eq(other.rows())
     }
 }
 
@@ -98,9 +108,11 @@ impl Runs {
     pub(super) fn of(picture: &Picture) -> Self {
         let [width, height] = picture.side.map(|side| side as usize);
         let (mut rows, mut columns) = (vec![EMPTY; height], vec![EMPTY; width]);
-        for at in picture.pixels().filter(|at| picture.has(*at)) {
-            rows[at[1] as usize].add(at[0]);
-            columns[at[0] as usize].add(at[1]);
+        for (y, row) in picture.rows().enumerate() {
+            for x in (0..width).filter(|x| row[*x] > 0) {
+                rows[y].add(x as i32);
+                columns[x].add(y as i32);
+            }
         }
         let whole = |runs: &[Run]| {
             let mut whole = EMPTY;

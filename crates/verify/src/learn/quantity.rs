@@ -1,7 +1,6 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
-use std::cell::OnceCell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::picture::{MARGIN, Picture, Runs};
 use super::question::{AnyQuestion, Unit};
@@ -247,13 +246,24 @@ pub(super) struct Scene<'a> {
     pub(super) question: &'a AnyQuestion,
     /// What is drawn within the window; beyond it, what would be.
     pub(super) drawn: &'a Picture,
-    runs: Arc<Runs>,
+    shape: Arc<Shape>,
     /// Where samples lie in their pixel, in subpixels.
     sample: [i64; 2],
     /// Twice the edge functions begin at these corners, turned so that inside is positive.
     edges: Vec<Edge>,
+}
+
+/// What is computed once of a question and its picture, for all of its pixels.
+pub(super) struct Shape {
+    runs: Runs,
     /// Of each column and each row of the window and its margin, from the first on.
-    crossings: [OnceCell<Vec<Option<Crossings>>>; 2],
+    crossings: [OnceLock<Vec<Option<Crossings>>>; 2],
+}
+
+impl Shape {
+    pub(super) fn of(drawn: &Picture) -> Self {
+        Self { runs: Runs::of(drawn), crossings: [OnceLock::new(), OnceLock::new()] }
+    }
 }
 
 /// Whether an edge with this direction faces somewhere.
@@ -268,14 +278,14 @@ struct Edge {
 
 impl<'a> Scene<'a> {
     pub(super) fn new(question: &'a AnyQuestion, drawn: &'a Picture, sample: [i64; 2]) -> Self {
-        Self::with_runs(question, drawn, Arc::new(Runs::of(drawn)), sample)
+        Self::with_shape(question, drawn, Arc::new(Shape::of(drawn)), sample)
     }
 
-    /// With the runs of the picture, for whoever looks at it again and again.
-    pub(super) fn with_runs(
+    /// For whoever looks at the question and the picture again and again, with the same sample.
+    pub(super) fn with_shape(
         question: &'a AnyQuestion,
         drawn: &'a Picture,
-        runs: Arc<Runs>,
+        shape: Arc<Shape>,
         sample: [i64; 2],
     ) -> Self {
         let turn = if question.is_line() { 0 } else { question.twice_area() };
@@ -285,8 +295,7 @@ impl<'a> Scene<'a> {
             Edge { from: question.points[a], by, length: length(by).max(1) }
         });
         let edges = edges.collect();
-        let crossings = [OnceCell::new(), OnceCell::new()];
-        Self { question, drawn, runs, sample, edges, crossings }
+        Self { question, drawn, shape, sample, edges }
     }
 
     fn is_shown(&self, at: [i32; 2]) -> bool {
@@ -331,8 +340,8 @@ impl<'a> Scene<'a> {
 
     /// Its place in its row, its column and the shape.
     fn places(&self, [x, y]: [i32; 2], out: &mut Quantities) {
-        let row = self.runs.row(y);
-        let column = self.runs.column(x);
+        let row = self.shape.runs.row(y);
+        let column = self.shape.runs.column(x);
         let count = |value: Option<i32>| value.map_or(NONE, i64::from);
         out.put(
             Unit::Paired,
@@ -364,7 +373,7 @@ impl<'a> Scene<'a> {
             count(column.map(|c| c.count)),
             &["the number of pixels in its column"],
         );
-        let (rows, columns) = (self.runs.of_rows, self.runs.of_columns);
+        let (rows, columns) = (self.shape.runs.of_rows, self.shape.runs.of_columns);
         let of = |value: i32| if rows.count == 0 { NONE } else { i64::from(value) };
         out.put(
             Unit::Paired,
@@ -394,7 +403,7 @@ impl<'a> Scene<'a> {
             ["it is in the last column of the shape", "it is not in the last column of the shape"],
         );
         let first = rows.first.min(y);
-        let empty = (first..y).filter(|y| self.runs.row(*y).is_none()).count() as i64;
+        let empty = (first..y).filter(|y| self.shape.runs.row(*y).is_none()).count() as i64;
         out.number(
             Unit::Count,
             empty,
@@ -482,6 +491,15 @@ impl<'a> Scene<'a> {
                     filled as i64,
                     &["the number of pixels drawn in its ", word, " px tile"],
                 );
+            }
+            // Who decides tiles at once often looks at their corners.
+            if side > 2 && !self.question.is_line() {
+                let [right, below] = [left, top].map(|start| start + side - 1);
+                let corners = [[left, top], [right, top], [left, below], [right, below]];
+                let covered = corners.iter().filter(|at| self.is_covered(**at)).count();
+                let noun =
+                    ["the number of corner pixels of its ", word, " px tile that are covered"];
+                out.number(Unit::Involved, covered as i64, &noun);
             }
         }
     }
@@ -632,11 +650,21 @@ impl Scene<'_> {
     /// The same, each computed once.
     fn crossed(&self, axis: usize, place: i64) -> Option<&Crossings> {
         let margin = i64::from(MARGIN);
-        let all = self.crossings[axis].get_or_init(|| {
+        let all = self.shape.crossings[axis].get_or_init(|| {
             let places = -margin..i64::from(self.drawn.side[axis]) + margin;
             places.map(|place| self.crossings(axis, place)).collect()
         });
         all.get(usize::try_from(place + margin).ok()?)?.as_ref()
+    }
+
+    /// Whether a triangle covers a pixel, in the window or not.
+    fn is_covered(&self, [x, y]: [i32; 2]) -> bool {
+        let (row, known) = (i64::from(y), -MARGIN..self.drawn.side[1] + MARGIN);
+        let is_between = |c: &Crossings| (c.ends[0]..=c.ends[1]).contains(&i64::from(x));
+        match known.contains(&y) {
+            true => self.crossed(1, row).is_some_and(is_between),
+            false => self.crossings(1, row).as_ref().is_some_and(is_between),
+        }
     }
 
     /// The crossings of a row, axis 1, or of a column, axis 0.

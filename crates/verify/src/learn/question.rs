@@ -16,6 +16,11 @@ impl AnyQuestion {
         self.points.len() == 2
     }
 
+    /// How many pixels its window has.
+    pub(super) fn pixels(&self) -> usize {
+        self.side.iter().map(|side| *side as usize).product()
+    }
+
     /// Steps of a coordinate in a pixel.
     pub(super) fn one(&self) -> i64 {
         if self.is_line() { 1 } else { 256 }

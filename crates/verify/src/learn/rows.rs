@@ -5,11 +5,12 @@
 
 use std::sync::Arc;
 
-use super::picture::{Picture, Runs};
-use super::quantity::{self, Name, Scene};
+use super::picture::Picture;
+use super::quantity::{self, Name, Scene, Shape};
 use super::question::AnyQuestion;
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
 use super::say;
+use super::trial::Work;
 use crate::cases::facts::{self, Topic};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
@@ -154,10 +155,18 @@ impl Examples {
 
     /// The best condition for the rows that it should hold of.
     #[must_use]
-    pub fn best(&self, names: &Vocabulary, wanted: ConditionTerms) -> Option<Condition> {
+    pub fn best(
+        &self,
+        names: &Vocabulary,
+        wanted: ConditionTerms,
+        work: &Work,
+    ) -> Option<Condition> {
         let ConditionTerms { facts, questions, slack } = wanted;
         let terms = Terms { most: facts, need: questions, slack, wanted: 1 };
-        rule::best(&names.0, &self.0, terms).into_iter().next().map(|found| Condition(found.facts))
+        rule::best(&names.0, &self.0, terms, work)
+            .into_iter()
+            .next()
+            .map(|found| Condition(found.facts))
     }
 
     /// Conditions of which one should hold: each is the best for the rows of which none before it does.
@@ -167,12 +176,13 @@ impl Examples {
         names: &Vocabulary,
         wanted: ConditionTerms,
         most: usize,
+        work: &Work,
     ) -> Vec<Condition> {
         let mut all = Vec::new();
         let Table { yes, no, groups } = &self.0;
         let mut left = Self(Table { yes: yes.clone(), no: no.clone(), groups: groups.clone() });
-        while !left.0.yes.is_empty() && all.len() < most {
-            let Some(best) = left.best(names, wanted) else { break };
+        while !left.0.yes.is_empty() && all.len() < most && !work.is_done() {
+            let Some(best) = left.best(names, wanted, work) else { break };
             // What needs many conditions is none.
             let is_much = |rows: usize| FEWEST * rows >= yes.len();
             if !is_much(left.held(&best)[0]) {
@@ -221,7 +231,7 @@ pub fn of_topic(topic: &Topic, numbers: &[i64], out: &mut Quantities) {
 pub struct TriangleInWindow {
     question: AnyQuestion,
     covered: Picture,
-    runs: Arc<Runs>,
+    shape: Arc<Shape>,
 }
 
 impl TriangleInWindow {
@@ -235,8 +245,8 @@ impl TriangleInWindow {
         let points = corners.iter().map(|c| [c.x.into(), c.y.into()]).collect();
         let mut picture = Picture::new(side);
         covered.for_each(|at| picture.set(at, 1));
-        let runs = Arc::new(Runs::of(&picture));
-        Self { question: AnyQuestion { points, side }, covered: picture, runs }
+        let shape = Arc::new(Shape::of(&picture));
+        Self { question: AnyQuestion { points, side }, covered: picture, shape }
     }
 
     /// The quantities of the question.
@@ -246,7 +256,7 @@ impl TriangleInWindow {
 
     /// The quantities of a pixel.
     pub fn of_pixel(&self, at: [i32; 2], out: &mut Quantities) {
-        let runs = Arc::clone(&self.runs);
-        Scene::with_runs(&self.question, &self.covered, runs, [128; 2]).of_pixel(at, out);
+        let shape = Arc::clone(&self.shape);
+        Scene::with_shape(&self.question, &self.covered, shape, [128; 2]).of_pixel(at, out);
     }
 }

@@ -8,6 +8,7 @@ use std::collections::HashSet;
 
 use super::quantity::{NONE, Name, RATIO};
 use super::question::Unit;
+use super::trial::Work;
 
 /// A quantity, or one compared with another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -222,12 +223,13 @@ fn places(bits: &[u64]) -> impl Iterator<Item = usize> {
 }
 
 /// The best rules: each the best for the rows that those before do not hold of.
-pub(super) fn best(names: &[Name], table: &Table, terms: Terms) -> Vec<Found> {
+pub(super) fn best(names: &[Name], table: &Table, terms: Terms, work: &Work) -> Vec<Found> {
+    work.spend(names.len() * (table.yes.len() + table.no.len()) / VALUES_A_STEP);
     let [with, without] = [&table.yes, &table.no].map(|rows| Values::of(names.len(), rows));
     let mut all = Vec::new();
     let mut left: Vec<usize> = (0..table.yes.len()).collect();
     for _ in 0..terms.wanted {
-        let rule = best_of(names, [&with, &without], &table.groups, terms, &left);
+        let rule = best_of(names, [&with, &without], &table.groups, (terms, work), &left);
         let Some(mut rule) = rule else { break };
         let held = with.held(&rule.facts);
         left.retain(|i| held[i / 64] >> (i % 64) & 1 == 0);
@@ -242,7 +244,7 @@ fn best_of(
     names: &[Name],
     [with, without]: [&Values; 2],
     groups: &[usize],
-    terms: Terms,
+    (terms, work): (Terms, &Work),
     left: &[usize],
 ) -> Option<Found> {
     let yes: Vec<usize> = spread(left.len(), MOST_YES).into_iter().map(|i| left[i]).collect();
@@ -251,7 +253,7 @@ fn best_of(
     left.iter().for_each(|i| is_left[i / 64] |= 1 << (i % 64));
     for _ in 0..ROUNDS {
         let mut refuting = Vec::new();
-        for mut rule in Matrix::of(names, [with, without], &yes, &no).search(terms) {
+        for mut rule in Matrix::of(names, [with, without], &yes, &no, work).search(terms, work) {
             sharpen(&mut rule.facts, names, [with, without]);
             let held = both(&with.held(&rule.facts), &is_left);
             let bad = without.held(&rule.facts);
@@ -285,7 +287,7 @@ pub(super) fn common(names: &[Name], table: &Table, most: usize) -> (Conjunction
     if yes.is_empty() || no.is_empty() {
         return (facts, left);
     }
-    let matrix = Matrix::of(names, [&with, &without], &yes, &no);
+    let matrix = Matrix::of(names, [&with, &without], &yes, &no, &Work::default());
     let mut candidates: Vec<&Column> =
         matrix.columns.iter().filter(|c| count(&c.yes) == yes.len()).collect();
     let mut bits = ones(no.len());
@@ -319,12 +321,13 @@ fn distinct(groups: impl Iterator<Item = usize>) -> usize {
     all.len()
 }
 
-/// A fact and the rows that it holds of, as bits.
+/// A fact and the rows that it holds of, as bits, with how many of both these are.
 struct Column {
     fact: Fact,
     cost: f64,
     yes: Vec<u64>,
     no: Vec<u64>,
+    counts: [usize; 2],
 }
 
 struct Matrix {
@@ -339,6 +342,7 @@ struct Partial {
     cost: f64,
     yes: Vec<u64>,
     no: Vec<u64>,
+    counts: [usize; 2],
 }
 
 fn count(bits: &[u64]) -> usize {
@@ -359,22 +363,28 @@ impl Matrix {
         [all_with, all_without]: [&Values; 2],
         yes: &[usize],
         no: &[usize],
+        work: &Work,
     ) -> Self {
         let mut columns: Vec<Column> = Vec::new();
-        for of in sources(names) {
-            let (with, without) = (all_with.some(of, yes), all_without.some(of, no));
-            for test in tests(names, of, &with, &without) {
-                let held = test.bits(&with);
+        let sources = sources(names);
+        work.spend(sources.len() * (yes.len() + no.len()) / ORDERED_A_STEP);
+        for of in sources {
+            let mut with = Tested::new(all_with.some(of, yes));
+            let mut without = Tested::new(all_without.some(of, no));
+            for test in tests(names, of, &with.in_order, &without.in_order) {
+                let held = with.bits(test);
                 let all = count(&held);
                 if all < 3.max(yes.len() / 50) {
                     continue;
                 }
-                let others = test.bits(&without);
-                if all == yes.len() && count(&others) == no.len() {
+                let others = without.bits(test);
+                let no_count = count(&others);
+                if all == yes.len() && no_count == no.len() {
                     continue;
                 }
                 let fact = Fact { of, test };
-                columns.push(Column { fact, cost: fact.cost(names), yes: held, no: others });
+                let cost = fact.cost(names);
+                columns.push(Column { fact, cost, yes: held, no: others, counts: [all, no_count] });
             }
         }
         // Of facts that hold of the same rows, the cheapest is kept.
@@ -383,25 +393,27 @@ impl Matrix {
         columns.dedup_by(|a, b| a.yes == b.yes && a.no == b.no);
         let mut matrix = Self { columns, rows: yes.len(), others: no.len() };
         // A fact that tells a little is needed beside others.
-        let share = |bits: &[u64], rows: usize| count(bits) as f64 / rows.max(1) as f64;
-        let tells = |c: &Column| share(&c.yes, yes.len()) - share(&c.no, no.len());
+        let share = |count: usize, rows: usize| count as f64 / rows.max(1) as f64;
+        let tells = |c: &Column| share(c.counts[0], yes.len()) - share(c.counts[1], no.len());
         matrix.columns.sort_by(|a, b| tells(b).total_cmp(&tells(a)));
         matrix.columns.truncate(MOST_FACTS);
         matrix
     }
 
     /// The best conjunctions, one fact longer at each step.
-    fn search(&self, terms: Terms) -> Vec<Found> {
+    fn search(&self, terms: Terms, work: &Work) -> Vec<Found> {
         let mut found = Vec::new();
         let (yes, no) = (ones(self.rows), ones(self.others));
-        let mut beam = vec![Partial { facts: Vec::new(), cost: 1.0, yes, no }];
+        let counts = [self.rows, self.others];
+        let mut beam = vec![Partial { facts: Vec::new(), cost: 1.0, yes, no, counts }];
         for length in 0..terms.most {
             // All single facts are combined with each other.
             let most_kept = if length == 0 { MOST_FACTS } else { BEAM };
             let mut grown = Vec::new();
             let mut least = f64::NEG_INFINITY;
             for (number, partial) in beam.iter().enumerate() {
-                self.grow(partial, number, terms, least, &mut found, &mut grown);
+                let counted = self.grow(partial, number, terms, least, &mut found, &mut grown);
+                work.spend(counted * (partial.yes.len() + partial.no.len()) / WORDS_A_STEP);
                 // The same facts come from each of them; what is far behind is forgotten.
                 let wanted = most_kept * (length + 1);
                 if grown.len() > 2 * wanted {
@@ -423,7 +435,8 @@ impl Matrix {
         found
     }
 
-    /// Adds every fact to a conjunction: what then holds of no other row is found, and what still does may be grown.
+    /// Adds every fact to a conjunction: what then holds of no other row is found, and what still does may be grown. How many
+    /// had to be counted.
     fn grow(
         &self,
         partial: &Partial,
@@ -432,18 +445,31 @@ impl Matrix {
         least: f64,
         found: &mut Vec<Found>,
         grown: &mut Vec<Grown>,
-    ) {
+    ) -> usize {
+        let mut counted = 0;
         let length = partial.facts.len();
         // Pairs are tried once.
         let from = if length == 1 { partial.facts[0] + 1 } else { 0 };
+        let longer = LONGER.powi(length as i32);
         for (fact, column) in self.columns.iter().enumerate().skip(from) {
+            let worth = longer / (partial.cost * column.cost);
+            let wanted = FAR_BEHIND * found.first().map_or(0.0, |best| best.value);
+            // No more rows than each of both holds of, and no fewer others than must be common to both: what is neither found
+            // nor grown with these is not counted.
+            let most = partial.counts[0].min(column.counts[0]);
+            let fewest = (partial.counts[1] + column.counts[1]).saturating_sub(self.others);
+            let may_be_found = most as f64 * worth >= wanted && fewest * 1000 <= terms.slack * most;
+            if !may_be_found && gain(most, fewest, self.rows, self.others) <= least {
+                continue;
+            }
+            counted += 1;
             let yes = count_both(&partial.yes, &column.yes);
             if yes < LEAST_ROWS || partial.facts.contains(&fact) {
                 continue;
             }
-            let value = yes as f64 * LONGER.powi(length as i32) / (partial.cost * column.cost);
+            let value = yes as f64 * worth;
             // Far behind the best one it is not wanted.
-            let is_behind = value < FAR_BEHIND * found.first().map_or(0.0, |best| best.value);
+            let is_behind = value < wanted;
             if is_behind && yes as f64 / (self.rows.max(1) as f64) < least {
                 continue;
             }
@@ -466,6 +492,7 @@ impl Matrix {
                 found.swap(0, last);
             }
         }
+        counted
     }
 
     /// The conjunctions with the largest gain.
@@ -479,7 +506,8 @@ impl Matrix {
             facts.sort_unstable();
             if seen.insert(facts.clone()) {
                 let (yes, no) = (both(&parent.yes, &column.yes), both(&parent.no, &column.no));
-                kept.push(Partial { facts, cost: parent.cost * column.cost, yes, no });
+                let counts = [count(&yes), count(&no)];
+                kept.push(Partial { facts, cost: parent.cost * column.cost, yes, no, counts });
             }
             if kept.len() == most {
                 break;
@@ -504,6 +532,11 @@ impl Grown {
     }
 }
 
+/// Values that are moved, values that are put in order, and words of 64 rows that are counted, in a step of [`Work`].
+const VALUES_A_STEP: usize = 16;
+const ORDERED_A_STEP: usize = 4;
+const WORDS_A_STEP: usize = 8;
+
 /// Rows below which a rule says nothing.
 const LEAST_ROWS: usize = 3;
 /// The share of the best rule's worth below which a rule is left aside.
@@ -515,6 +548,116 @@ const MOST_FOUND: usize = 60;
 fn gain(yes: usize, no: usize, rows: usize, others: usize) -> f64 {
     let (rows, others) = (rows.max(1) as f64, others.max(1) as f64);
     yes as f64 / rows - no as f64 / others.sqrt() / 8.0 - no as f64 / others / 4.0
+}
+
+/// A value with the row that has it.
+#[derive(Clone, Copy)]
+struct Placed {
+    value: i64,
+    row: usize,
+}
+
+/// The values of a quantity in some rows, so that the rows that a test holds of need no look at each row: a limit is a place in
+/// their order, and the limits of one direction come one after another.
+struct Tested {
+    values: Vec<i64>,
+    /// In the order of values, without rows that have none.
+    in_order: Vec<Placed>,
+    known: Vec<u64>,
+    /// The first so many of the order, as bits.
+    first: (usize, Vec<u64>),
+    /// The rows by the remainder of a division by [`DIVISOR`], once one is wanted.
+    by_remainder: Vec<Vec<u64>>,
+}
+
+/// Remainders of smaller divisors are made of those of this one.
+const DIVISOR: i64 = 16;
+
+impl Tested {
+    fn new(values: Vec<i64>) -> Self {
+        let placed = values.iter().enumerate().map(|(row, &value)| Placed { value, row });
+        let mut in_order: Vec<Placed> = placed.filter(|placed| placed.value != NONE).collect();
+        in_order.sort_unstable_by_key(|placed| placed.value);
+        let mut known = none(values.len());
+        in_order.iter().for_each(|placed| set(&mut known, placed.row));
+        let first = (0, none(values.len()));
+        Self { values, in_order, known, first, by_remainder: Vec::new() }
+    }
+
+    /// How many values are less than a number.
+    fn below(&self, number: i64) -> usize {
+        self.in_order.partition_point(|placed| placed.value < number)
+    }
+
+    /// How many values are no more than a number.
+    fn up_to(&self, number: i64) -> usize {
+        self.in_order.partition_point(|placed| placed.value <= number)
+    }
+
+    /// The rows of the first so many values.
+    fn first(&mut self, end: usize) -> &[u64] {
+        if end < self.first.0 {
+            self.first = (0, none(self.values.len()));
+        }
+        let (start, bits) = &mut self.first;
+        self.in_order[*start..end].iter().for_each(|placed| set(bits, placed.row));
+        *start = end;
+        bits
+    }
+
+    /// The rows of one value.
+    fn equal(&self, value: i64) -> Vec<u64> {
+        let mut bits = none(self.values.len());
+        let range = self.below(value)..self.up_to(value);
+        self.in_order[range].iter().for_each(|placed| set(&mut bits, placed.row));
+        bits
+    }
+
+    /// The rows whose value has one of some remainders of [`DIVISOR`].
+    fn remaining(&mut self, is_one: impl Fn(i64) -> bool) -> Vec<u64> {
+        if self.by_remainder.is_empty() {
+            self.by_remainder = (0..DIVISOR).map(|_| none(self.values.len())).collect();
+            for placed in &self.in_order {
+                set(&mut self.by_remainder[(placed.value & (DIVISOR - 1)) as usize], placed.row);
+            }
+        }
+        let mut bits = none(self.values.len());
+        for (rest, rows) in (0..).zip(&self.by_remainder) {
+            if is_one(rest) {
+                bits.iter_mut().zip(rows).for_each(|(all, more)| *all |= more);
+            }
+        }
+        bits
+    }
+
+    /// The rows that a test holds of.
+    fn bits(&mut self, test: Test) -> Vec<u64> {
+        match test {
+            Test::Is(value) => self.equal(value),
+            Test::IsNot(value) => without(&self.known, &self.equal(value)),
+            Test::AtMost(limit) => self.first(self.up_to(limit)).to_vec(),
+            Test::AtLeast(limit) => {
+                let below = self.first(self.below(limit)).to_vec();
+                without(&self.known, &below)
+            }
+            Test::Remainder(by, rest) if by <= DIVISOR => self.remaining(|r| r & (by - 1) == rest),
+            Test::NoMultiple(by) if by <= DIVISOR => self.remaining(|r| r & (by - 1) != 0),
+            Test::Remainder(..) | Test::NoMultiple(_) => test.bits(&self.values),
+        }
+    }
+}
+
+fn set(bits: &mut [u64], row: usize) {
+    bits[row / 64] |= 1 << (row % 64);
+}
+
+/// No row of so many.
+fn none(rows: usize) -> Vec<u64> {
+    vec![0; rows.div_ceil(64)]
+}
+
+fn without(a: &[u64], b: &[u64]) -> Vec<u64> {
+    a.iter().zip(b).map(|(a, b)| a & !b).collect()
 }
 
 /// As many bits as there are rows.
@@ -542,7 +685,7 @@ fn sources(names: &[Name]) -> Vec<Of> {
 const MOST_VALUES: usize = 24;
 
 /// The tests of a quantity, with numbers read off its values.
-fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
+fn tests(names: &[Name], of: Of, with: &[Placed], without: &[Placed]) -> Vec<Test> {
     let unit = match of {
         Of::One(i) => names[i].unit,
         Of::Difference(..) => {
@@ -562,17 +705,16 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
     }
     let mut all =
         vec![Test::IsNot(0), Test::AtMost(-1), Test::AtMost(0), Test::AtLeast(0), Test::AtLeast(1)];
-    let (with, without) = (ordered(with), ordered(without));
-    let mut values = with.clone();
+    let mut values: Vec<i64> = with.iter().map(|placed| placed.value).collect();
     values.dedup();
     if values.len() <= MOST_VALUES {
         all.extend(values.iter().map(|v| Test::Is(*v)));
     } else {
         all.push(Test::Is(0));
     }
-    for limits in [&with, &without] {
+    for limits in [with, without] {
         let places = [0, 10, 25, 50, 75, 90, 100].map(|p| limits.len().saturating_sub(1) * p / 100);
-        for &limit in places.iter().filter_map(|&place| limits.get(place)) {
+        for limit in places.iter().filter_map(|&place| Some(limits.get(place)?.value)) {
             all.extend([-1, 0].map(|by| Test::AtMost(limit.saturating_add(by))));
             all.extend([0, 1].map(|by| Test::AtLeast(limit.saturating_add(by))));
         }
@@ -590,12 +732,6 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
     all.sort_unstable();
     all.dedup();
     all
-}
-
-fn ordered(values: &[i64]) -> Vec<i64> {
-    let mut values: Vec<i64> = values.iter().copied().filter(|v| *v != NONE).collect();
-    values.sort_unstable();
-    values
 }
 
 /// Moves each limit as far as no other row is let in: between the last row and the next other one, to a round number where

@@ -4,10 +4,11 @@ use super::border::{self, Crossing, Site, Tie};
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
-use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
+use super::model::{ALL_OF_A_PIXEL, GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Name, Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 /// Answers that rules are learned from, wrong and right.
@@ -31,6 +32,8 @@ pub(super) struct Search<'a> {
     pub(super) drawer: &'a dyn Drawer,
     pub(super) vocabulary: &'a Vocabulary,
     pub(super) answered: &'a [LearnedAnswer],
+    /// The tables of the empty model, which are needed again and again.
+    pub(super) first: OnceCell<Rc<[Table; 3]>>,
 }
 
 /// A model with the share of wrong and of right answers that it predicts.
@@ -89,24 +92,28 @@ impl Search<'_> {
             return self.pruned(best(&tried).model.clone());
         }
         tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
+        let may_go_on = |tried: &[Tried]| !best(tried).is_whole() && !self.drawer.work().is_done();
         // A long model may be a formula in other words.
-        if !best(&tried).is_whole() || best(&tried).model.cost() > 5 {
+        if may_go_on(&tried) || best(&tried).model.cost() > 5 {
             self.move_borders(&mut tried);
         }
-        if !best(&tried).is_whole() {
+        if may_go_on(&tried) {
             self.add_bases(&mut tried);
         }
-        if !best(&tried).is_whole() && !best(&tried).model.chain.is_empty() {
+        if may_go_on(&tried) && !best(&tried).model.chain.is_empty() {
             let model = best(&tried).model.clone();
             tried.push(self.tried(self.with_steps(&model, 2, 1)));
         }
         // What is nearly whole is not begun anew: what refutes it goes into the next search.
         let is_near = |tried: &[Tried]| best(tried).wrong > NEARLY && best(tried).right > NEARLY;
-        if !is_near(&tried) {
+        if !is_near(&tried) && may_go_on(&tried) {
             self.under_a_rule(&mut tried);
         }
         if !is_near(&tried) {
             for (_, base) in ranked.iter().take(2) {
+                if !may_go_on(&tried) {
+                    break;
+                }
                 let model = Model { chain: vec![always(base)], ..Model::default() };
                 tried.push(self.tried(self.with_steps(&model, 2, 1)));
             }
@@ -157,11 +164,10 @@ impl Search<'_> {
     }
 
     fn guard_bases(&self, ranked: &[(Nearness, Base)], tried: &mut Vec<Tried>) {
-        for (near, base) in ranked.iter().take(6) {
-            if near.exact * 5 < RANKED_BY.min(self.some(true, RANKED_BY).len()) {
-                break;
-            }
-            let Some(model) = self.guarded(&Model::default(), base) else { continue };
+        let least = RANKED_BY.min(self.some(true, RANKED_BY).len()).div_ceil(5);
+        let fitting: Vec<bool> = self.answered.iter().map(|a| !a.is_wrong()).collect();
+        for (_, base) in ranked.iter().take(6).take_while(|(near, _)| near.exact >= least) {
+            let Some(model) = self.guarded(&Model::default(), &fitting, base) else { continue };
             tried.push(self.tried(model));
             if tried.last().is_some_and(|t| t.is_whole() && t.model.cost() <= 4) {
                 break;
@@ -179,15 +185,24 @@ impl Search<'_> {
                 .filter(|a| !self.fits(&model, a))
                 .take(25)
                 .collect();
-            if left.len() < NEED || (model.chain.is_empty() && model.steps.is_empty()) {
+            if self.drawer.work().is_done()
+                || left.len() < NEED
+                || (model.chain.is_empty() && model.steps.is_empty())
+            {
                 return;
             }
             let bases = change::all(left[0].question.is_line(), self.drawer.rules().len());
             let under = Model { chain: Vec::new(), ..model.clone() };
-            for (near, base) in self.rank(bases, &left, &under).into_iter().take(4) {
-                if near.exact * 5 >= left.len() {
-                    tried.extend(self.guarded(&model, &base).map(|model| self.tried(model)));
-                }
+            let mut ranked = self.rank(bases, &left, &under);
+            ranked.truncate(4);
+            ranked.retain(|(near, _)| near.exact * 5 >= left.len());
+            if ranked.is_empty() {
+                return;
+            }
+            let fitting: Vec<bool> = self.answered.iter().map(|a| self.fits(&model, a)).collect();
+            for (_, base) in ranked {
+                let guarded = self.guarded(&model, &fitting, &base);
+                tried.extend(guarded.map(|model| self.tried(model)));
             }
         }
     }
@@ -196,7 +211,7 @@ impl Search<'_> {
     fn move_borders(&self, tried: &mut Vec<Tried>) {
         let mut model = Model::default();
         let mut score = self.tried(model.clone()).score();
-        for _ in 0..MOST_BORDERS {
+        for _ in (0..MOST_BORDERS).take_while(|_| !self.drawer.work().is_done()) {
             let candidates = self.bordered(&model).into_iter().flat_map(|model| {
                 let exchanged = Model { exchanges_ends: !model.exchanges_ends, ..model.clone() };
                 [model, exchanged].map(|model| self.tried(model))
@@ -232,6 +247,7 @@ impl Search<'_> {
             let (few_wrong, few_right) = (some(&wrong, 120), some(&right, 60));
             let sample = self.drawer.sample();
             let worth = |crossing: &Crossing| {
+                self.drawer.work().spend(few_wrong.len() + few_right.len());
                 let drawn = few_wrong.iter().filter(|&&i| wrong[i].is_drawn_by(crossing, sample));
                 let broken = few_right.iter().filter(|&&i| !right[i].is_drawn_by(crossing, sample));
                 let broken = 0.1 * broken.count() as f64;
@@ -273,6 +289,7 @@ impl Search<'_> {
 
     fn border_facts(&self, seen: &BorderSeen<'_>) -> Vec<i64> {
         let (a, scene) = &*seen.answer;
+        self.drawer.work().spend(ALL_OF_A_PIXEL);
         let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
         scene.of_pixel(seen.site.pixel(seen.right, &a.right), &mut row);
         row.values
@@ -318,13 +335,13 @@ impl Search<'_> {
     /// Takes the best rule that is nearly true, and looks for the changed question under it.
     fn under_a_rule(&self, tried: &mut Vec<Tried>) {
         for wrong in [Wrong::Missing, Wrong::Extra] {
-            if best(tried).is_whole() {
+            if best(tried).is_whole() || self.drawer.work().is_done() {
                 return;
             }
-            let table = self.table(&Model::default(), wrong);
+            let table = &self.tables(&Model::default())[wrong as usize];
             let terms = Terms { most: 2, need: 5, slack: 120, wanted: 1 };
             let names = &self.vocabulary.names;
-            for found in rule::best(names, &table, terms) {
+            for found in rule::best(names, table, terms, self.drawer.work()) {
                 let under = Model::default().with(Step { wrong, facts: found.facts });
                 let answers: Vec<&LearnedAnswer> = self
                     .some(true, 60)
@@ -337,7 +354,7 @@ impl Search<'_> {
                 }
                 let bases = change::all(answers[0].question.is_line(), self.drawer.rules().len());
                 for (near, base) in self.rank(bases, &answers, &under).into_iter().take(3) {
-                    if near.exact * 3 > answers.len() {
+                    if near.exact * 3 > answers.len() && !self.drawer.work().is_done() {
                         let start = Model { chain: vec![always(&base)], ..Model::default() };
                         tried.push(self.tried(self.with_steps(&start, 2, 1)));
                     }
@@ -360,7 +377,7 @@ impl Search<'_> {
         };
         let mut done = vec![(score(model), model.clone())];
         let mut alive = vec![model.clone()];
-        for _ in 0..most {
+        for _ in (0..most).take_while(|_| !self.drawer.work().is_done()) {
             let mut grown = Vec::new();
             for model in &alive {
                 let is_first = model.steps.is_empty();
@@ -382,11 +399,11 @@ impl Search<'_> {
     /// The pixel rules that explain most of what a model leaves wrong.
     fn candidates(&self, model: &Model, most: usize, wanted: usize) -> Vec<Step> {
         let mut all = Vec::new();
-        for wrong in Wrong::ALL {
-            let table = self.table(model, wrong);
+        let tables = self.tables(model);
+        for (wrong, table) in Wrong::ALL.into_iter().zip(&*tables) {
             let terms = Terms { most, need: NEED, slack: 0, wanted };
             if table.yes.len() >= NEED {
-                let found = rule::best(&self.vocabulary.names, &table, terms);
+                let found = rule::best(&self.vocabulary.names, table, terms, self.drawer.work());
                 all.extend(found.into_iter().map(|f| (f.rows, Step { wrong, facts: f.facts })));
             }
         }
@@ -394,16 +411,35 @@ impl Search<'_> {
         all.into_iter().map(|(_, step)| step).collect()
     }
 
-    /// The pixels that a model predicts wrongly in one way, and those that it predicts well and that could be.
-    pub(super) fn table(&self, model: &Model, wrong: Wrong) -> Table {
-        let mut table = Table::default();
+    /// The pixels that a model predicts wrongly in each way, and those that it predicts well and that could be: empty where
+    /// hardly any is wrong in this way.
+    pub(super) fn tables(&self, model: &Model) -> Rc<[Table; 3]> {
+        if *model == Model::default() {
+            return Rc::clone(self.first.get_or_init(|| Rc::new(self.new_tables(model))));
+        }
+        Rc::new(self.new_tables(model))
+    }
+
+    fn new_tables(&self, model: &Model) -> [Table; 3] {
         let some =
             [true, false].map(|is_wrong| self.some(is_wrong, LEARNED_FROM[usize::from(!is_wrong)]));
-        for (group, a) in some.into_iter().flatten().enumerate() {
-            let Some(before) = model.predict(a, self.drawer, self.vocabulary) else { continue };
-            self.add_pixels(&mut table, group, a, &before, wrong);
-        }
-        table
+        let predicted = |a| Some((a, model.predict(a, self.drawer, self.vocabulary)?));
+        let some: Vec<_> = some.into_iter().flatten().map(predicted).collect();
+        Wrong::ALL.map(|wrong| {
+            let mut table = Table::default();
+            let of_each = some.iter().flatten();
+            let is_one =
+                |(a, before): &(&LearnedAnswer, Picture)| wrong_pixels(a, before, wrong).count();
+            if of_each.map(is_one).sum::<usize>() < NEED {
+                return table;
+            }
+            for (group, (a, before)) in
+                some.iter().enumerate().filter_map(|(i, a)| Some((i, a.as_ref()?)))
+            {
+                self.add_pixels(&mut table, group, a, before, wrong);
+            }
+            table
+        })
     }
 
     fn add_pixels(
@@ -415,10 +451,11 @@ impl Search<'_> {
         wrong: Wrong,
     ) {
         let scene = Scene::new(&a.question, before, self.drawer.sample());
-        let may = |at: &[i32; 2]| wrong.may_befall(before.hits(*at));
-        let is_one = |at: &[i32; 2]| wrong.is_seen(a.drawn.hits(*at));
-        let (yes, no): (Vec<_>, Vec<_>) = before.pixels().filter(may).partition(is_one);
+        let yes: Vec<_> = wrong_pixels(a, before, wrong).collect();
+        let is_no =
+            |at: &[i32; 2]| wrong.may_befall(before.hits(*at)) && !wrong.is_seen(a.drawn.hits(*at));
         let row = |at: [i32; 2]| {
+            self.drawer.work().spend(ALL_OF_A_PIXEL);
             let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
             scene.of_pixel(at, &mut row);
             row.values
@@ -432,19 +469,20 @@ impl Search<'_> {
             let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(|[x, y]| [at[0] + x, at[1] + y]);
             beside.iter().any(|b| before.has(*b) || a.drawn.has(*b))
         };
-        let (near, far): (Vec<_>, Vec<_>) = no.into_iter().partition(is_near);
+        let (near, far): (Vec<_>, Vec<_>) = before.pixels().filter(is_no).partition(is_near);
         for (pixels, most) in [(near, MOST_OF_ONE), (far, MOST_OF_ONE / 3)] {
             let step = pixels.len().div_ceil(most).max(1);
             table.no.extend(pixels.iter().step_by(step).map(|at| row(*at)));
         }
     }
 
-    /// A model with a base before its others: where it holds is learned from the answers that one of both predicts alone.
-    fn guarded(&self, model: &Model, base: &Base) -> Option<Model> {
+    /// A model with a base before its others: where it holds is learned from the answers that one of both predicts alone. Of
+    /// each answer it is known whether the model fits.
+    fn guarded(&self, model: &Model, fitting: &[bool], base: &Base) -> Option<Model> {
         let alone = Model { chain: vec![always(base)], ..model.clone() };
         let mut table = Table::default();
-        for (number, a) in self.answered.iter().enumerate() {
-            match [self.fits(&alone, a), self.fits(model, a)] {
+        for ((number, a), &fits) in self.answered.iter().enumerate().zip(fitting) {
+            match [self.fits(&alone, a), fits] {
                 [true, false] => {
                     table.yes.push(a.facts.clone());
                     table.groups.push(number);
@@ -475,7 +513,8 @@ impl Search<'_> {
         let mut guard = Vec::new();
         while !table.yes.is_empty() && guard.len() < 3 {
             let terms = Terms { most: 3, need: 2, slack: 0, wanted: 1 };
-            let Some(found) = rule::best(names, &table, terms).into_iter().next() else { break };
+            let found = rule::best(names, &table, terms, self.drawer.work()).into_iter().next();
+            let Some(found) = found else { break };
             table.yes.retain(|row| !all_hold(&found.facts, row));
             table.groups.truncate(table.yes.len());
             guard.push(found.facts);
@@ -501,6 +540,17 @@ impl Search<'_> {
             }
         }
     }
+}
+
+/// The pixels of an answer that are predicted, and wrong in a way.
+fn wrong_pixels(
+    a: &LearnedAnswer,
+    before: &Picture,
+    wrong: Wrong,
+) -> impl Iterator<Item = [i32; 2]> {
+    before
+        .pixels()
+        .filter(move |at| wrong.may_befall(before.hits(*at)) && wrong.is_seen(a.drawn.hits(*at)))
 }
 
 /// A border that was read off an answer.

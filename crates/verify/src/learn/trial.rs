@@ -1,5 +1,7 @@
 //! What is enough to learn from, and to call something the cause: the same for pictures and for rows of numbers.
 
+use std::cell::Cell;
+
 use crate::convention::Count;
 
 /// Questions before the first search, at least.
@@ -17,11 +19,107 @@ const ENOUGH_NEW_WRONG: u64 = 50;
 /// Wrong ones that are independent of each other among these.
 pub const ENOUGH_INDEPENDENT: u64 = 12;
 
+/// How much the searches for an explanation may do. It is counted in steps and never in seconds, so that the same answers get
+/// the same explanation on a slow machine and on a fast one.
+#[derive(Debug)]
+pub struct Work {
+    /// Steps that are left in all, and those of them that are kept for later searches.
+    left: Cell<usize>,
+    kept: Cell<usize>,
+}
+
+/// Steps of all searches for one explanation. A step is some fifty instructions.
+const MOST_WORK: usize = 400_000_000;
+
+impl Default for Work {
+    fn default() -> Self {
+        Self { left: Cell::new(MOST_WORK), kept: Cell::new(0) }
+    }
+}
+
+impl Work {
+    /// A search begins: it may use three fifths of what is left. What one search does not find is seldom found by the next, which
+    /// is there for what was nearly right.
+    pub fn begin(&self) {
+        self.kept.set(self.left.get() * 2 / 5);
+    }
+
+    /// Counts some steps.
+    pub fn spend(&self, steps: usize) {
+        self.left.set(self.left.get().saturating_sub(steps));
+    }
+
+    /// Whether the search is to end with what it has.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.left.get() <= self.kept.get()
+    }
+}
+
+/// Searches at most, and rounds of new questions.
+const MOST_ROUNDS: usize = 4;
+
+/// Somebody who searches for an explanation, and tries out on new questions what was found.
+pub trait Learn {
+    /// An explanation.
+    type Found: Clone;
+
+    /// The best explanation of the answers so far.
+    fn search(&mut self) -> Self::Found;
+
+    /// How an explanation does on new questions, whose answers the next search learns from; nothing where nobody waits for it.
+    fn try_out(&mut self, found: &Self::Found) -> Option<Trial>;
+
+    /// Whether nothing more may be asked.
+    fn is_over(&self) -> bool;
+
+    /// The best explanation with what its trial showed. What refutes one is learned from by the next search; what is not
+    /// refuted is tried out until that was enough.
+    fn explained(&mut self) -> Option<(Trial, Self::Found)> {
+        let mut best: Option<(Trial, Self::Found)> = None;
+        let (mut searches, mut is_refuted) = (0, true);
+        for _ in 0..MOST_ROUNDS {
+            // What was not refuted before is asked for more.
+            let again = best.take_if(|_| !is_refuted);
+            let (before, found) = again.unwrap_or_else(|| {
+                searches += 1;
+                (Trial::default(), self.search())
+            });
+            let mut trial = self.try_out(&found)?;
+            is_refuted = trial.missed() > 0;
+            trial.add_all(&before);
+            if best.as_ref().is_none_or(|(most, _)| trial.missed() <= most.missed()) {
+                best = Some((trial, found));
+            }
+            // Where most is not predicted, another look at more answers seldom helps.
+            let is_hopeless =
+                searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
+            if !is_refuted && trial.is_enough() || is_hopeless || self.is_over() {
+                break;
+            }
+        }
+        best
+    }
+}
+
+/// The nearest of so many things that are made one after another with their distances, so many of them.
+pub fn nearest<T>(
+    made: usize,
+    kept: usize,
+    mut make: impl FnMut() -> Option<(i64, T)>,
+) -> impl Iterator<Item = T> {
+    let mut all: Vec<(i64, T)> = (0..made).filter_map(|_| make()).collect();
+    all.sort_by_key(|(distance, _)| *distance);
+    all.into_iter().take(kept).map(|(_, one)| one)
+}
+
 /// How many of some new answers an explanation predicts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Trial {
     /// Wrong answers to questions that are beside no other one.
     pub independent: u64,
+    /// Wrong answers that are predicted and show something: where nothing is shown, much predicts the same.
+    pub visible: u64,
     pub wrong: Count,
     pub right: Count,
 }
@@ -46,6 +144,16 @@ impl Trial {
     pub fn explains(&self) -> bool {
         let (wrong, right) = (self.wrong, self.right);
         wrong.drawn > 0 && 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of
+    }
+
+    /// Counts the answers of another trial, too.
+    fn add_all(&mut self, other: &Self) {
+        self.independent += other.independent;
+        self.visible += other.visible;
+        for (count, more) in [(&mut self.wrong, other.wrong), (&mut self.right, other.right)] {
+            count.drawn += more.drawn;
+            count.of += more.of;
+        }
     }
 
     /// Counts an answer.

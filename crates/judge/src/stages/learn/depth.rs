@@ -12,6 +12,7 @@ use rasterproof_verify::cases::facts::{Topic, depth};
 use rasterproof_verify::learn::rows::{
     Condition, ConditionTerms, Examples, NONE, Quantities, Unit, Vocabulary, value,
 };
+use rasterproof_verify::learn::trial::Work;
 use rasterproof_verify::mistakes::values::depths;
 
 pub struct Depths;
@@ -239,10 +240,10 @@ impl Learnable for Depths {
         );
     }
 
-    fn changes(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Vec<Change> {
+    fn changes(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work) -> Vec<Change> {
         let piles: Vec<&Pile<'_>> = wrong.iter().map(|part| &part.pile).collect();
         let tests = singles::<DepthTest>(&piles).into_iter().map(Change::Test);
-        let left_out = left_out(wrong, right);
+        let left_out = left_out(wrong, right, work);
         [Change::Nothing, Change::Second].into_iter().chain(left_out).chain(tests).collect()
     }
 
@@ -263,7 +264,7 @@ impl Learnable for Depths {
 }
 
 /// Which triangles are left out, where those that should be seen and are not have something in common.
-fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Option<Change> {
+fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work) -> Option<Change> {
     let mut examples = Examples::default();
     for part in wrong {
         let shown = part.pile.layers.iter().find(|layer| part.is_shown(layer));
@@ -285,7 +286,7 @@ fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Option<Ch
     part.of_layer(part.pile.layers.first(), IT, &mut out);
     let names = Vocabulary::of(out);
     let wanted = ConditionTerms { facts: 3, questions: 3, slack: 0 };
-    let condition = examples.best(&names, wanted)?;
+    let condition = examples.best(&names, wanted, work)?;
     let words = condition.words(&names);
     Some(Change::Without(condition, words))
 }

@@ -12,8 +12,9 @@ mod programs;
 mod samples;
 mod values;
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::HashSet;
+use std::rc::Rc;
 
 use glam::DVec2;
 use rasterproof_core::grid::SUBPIXELS;
@@ -21,12 +22,13 @@ use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::facts::Topic;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
+use rasterproof_verify::convention::Count;
 use rasterproof_verify::learn::Learned;
 use rasterproof_verify::learn::rows::{
     Condition, ConditionTerms, Examples, Quantities, Vocabulary,
 };
 use rasterproof_verify::learn::trial::{
-    AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Trial,
+    AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work, nearest,
 };
 
 use super::families;
@@ -74,7 +76,11 @@ pub trait Learnable {
     fn of_part(part: &Self::Part<'_>, change: Option<&Self::Change>, out: &mut Quantities);
 
     /// The changes that may explain wrong parts, the simplest first; what is read off is read off these, and off right ones.
-    fn changes(wrong: &[&Self::Part<'_>], right: &[&Self::Part<'_>]) -> Vec<Self::Change>;
+    fn changes(
+        wrong: &[&Self::Part<'_>],
+        right: &[&Self::Part<'_>],
+        work: &Work,
+    ) -> Vec<Self::Change>;
 
     /// The program that makes two mistakes at once, if there is one.
     fn both(_: &Self::Change, _: &Self::Change) -> Option<Self::Change> {
@@ -111,8 +117,6 @@ const MOST_FIRST: usize = 900;
 const FRESH: [usize; 2] = [180, 150];
 /// How many times the independent ones are repeated with new ones, as long as too few of them are wrong.
 const MOST_FRESH: usize = 3;
-/// Searches at most: what refutes one is learned from by the next.
-const MOST_ROUNDS: usize = 4;
 /// Cases beside those nearest to a limit that are made, and those of them that the program gets.
 const NEAR_TRIED: usize = 200;
 const NEAR_ASKED: usize = 16;
@@ -126,12 +130,12 @@ const SEED: u64 = 11;
 /// A change with the conditions under which a program does it: any of them, or always where there are none.
 struct GuardedChange<L: Learnable> {
     when: Vec<Condition>,
-    change: L::Change,
+    change: Rc<L::Change>,
 }
 
 impl<L: Learnable> Clone for GuardedChange<L> {
     fn clone(&self) -> Self {
-        Self { when: self.when.clone(), change: self.change.clone() }
+        Self { when: self.when.clone(), change: Rc::clone(&self.change) }
     }
 }
 
@@ -186,6 +190,7 @@ struct Learner<'a, L: Learnable> {
     number: u64,
     answered: Vec<LearnedCase>,
     is_wrong: Vec<bool>,
+    work: Work,
     kind: std::marker::PhantomData<L>,
 }
 
@@ -200,6 +205,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
             number: 0,
             answered: Vec::new(),
             is_wrong: Vec::new(),
+            work: Work::default(),
             kind: std::marker::PhantomData,
         }
     }
@@ -209,28 +215,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
         if self.wrong().len() < LEAST_WRONG {
             return None;
         }
-        let mut best: Option<(Trial, Chain<L>)> = None;
-        let mut is_refuted = true;
-        for searches in 1..=MOST_ROUNDS {
-            let chain = match &best {
-                Some((_, chain)) if !is_refuted => chain.clone(),
-                _ => Search::<L>::of(&self.answered, &self.truth.declared).explain(),
-            };
-            let trial = self.try_out(&chain)?;
-            is_refuted = trial.missed() > 0;
-            let is_better =
-                best.as_ref().is_none_or(|(before, _)| trial.missed() <= before.missed());
-            if is_better {
-                best = Some((trial, chain));
-            }
-            // Where most is not predicted, another look at more answers seldom helps.
-            let is_hopeless =
-                searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
-            if !is_refuted || is_hopeless || self.left == 0 {
-                break;
-            }
-        }
-        let (trial, chain) = best?;
+        let (trial, chain) = self.explained()?;
         Some(self.learned(trial, &chain))
     }
 
@@ -327,34 +312,6 @@ impl<'a, L: Learnable> Learner<'a, L> {
         }
     }
 
-    /// Asks new questions, questions beside wrong ones, and questions at the limits of a chain.
-    fn try_out(&mut self, chain: &Chain<L>) -> Option<Trial> {
-        let start = self.answered.len();
-        let mut independent = 0;
-        for _ in 0..MOST_FRESH {
-            let from = self.answered.len();
-            let cases = (0..FRESH[0]).map(|_| self.case(&[], false)).collect();
-            self.ask_in_batches(cases)?;
-            independent += self.is_wrong[from..].iter().filter(|wrong| **wrong).count() as u64;
-            if independent >= ENOUGH_INDEPENDENT {
-                break;
-            }
-        }
-        let wrong = self.wrong();
-        let mut cases: Vec<Case> = (0..FRESH[1]).map(|_| self.case(&wrong, true)).collect();
-        cases.extend(self.at_limits(chain));
-        self.ask_in_batches(cases)?;
-        let mut trial = Trial { independent, ..Trial::default() };
-        for (asked, is_wrong) in self.answered.iter_mut().zip(&self.is_wrong).skip(start) {
-            let parts = L::parts(asked, &self.truth.declared);
-            let fits = parts.iter().all(|part| predicts(chain, asked, part));
-            drop(parts);
-            asked.is_refuting = !fits;
-            trial.add(*is_wrong, fits);
-        }
-        Some(trial)
-    }
-
     fn ask_in_batches(&mut self, mut cases: Vec<Case>) -> Option<()> {
         while !cases.is_empty() && self.left > 0 {
             let rest = cases.split_off(cases.len().min(AT_ONCE));
@@ -375,18 +332,16 @@ impl<'a, L: Learnable> Learner<'a, L> {
     /// Of many cases beside those that are nearest to a limit so far, the nearest ones.
     fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<Case> {
         let distance = |facts: &[i64]| facts[quantity].saturating_sub(limit).saturating_abs();
-        let mut nearest: Vec<usize> = (0..self.answered.len()).collect();
-        nearest.sort_by_key(|&i| distance(&self.answered[i].facts));
-        nearest.truncate(30);
-        let mut found: Vec<(i64, Case)> = Vec::new();
-        for _ in 0..NEAR_TRIED {
-            let case = self.case(&nearest, true);
-            let Some(case) = self.singles(case).into_iter().next() else { continue };
+        let mut nearest_so_far: Vec<usize> = (0..self.answered.len()).collect();
+        nearest_so_far.sort_by_key(|&i| distance(&self.answered[i].facts));
+        nearest_so_far.truncate(30);
+        let make = || {
+            let case = self.case(&nearest_so_far, true);
+            let case = self.singles(case).into_iter().next()?;
             let facts = of_case::<L>(&case, &self.truth.declared, false).values;
-            found.push((distance(&facts), case));
-        }
-        found.sort_by_key(|(distance, _)| *distance);
-        found.into_iter().take(NEAR_ASKED).map(|(_, case)| case).collect()
+            Some((distance(&facts), case))
+        };
+        nearest(NEAR_TRIED, NEAR_ASKED, make).collect()
     }
 
     /// The smallest wrong case that is reached from the shortest one, and one beside it that differs in one number, or lacks one
@@ -436,7 +391,8 @@ impl<'a, L: Learnable> Learner<'a, L> {
         learned.part = L::PART;
         learned.is_certain = trial.missed() == 0 && trial.is_enough();
         let nearest = if learned.is_certain { None } else { self.nearest_right() };
-        let search = Search::<L>::of(&self.answered, &self.truth.declared);
+        let work = Work::default();
+        let search = Search::<L>::of(&self.answered, &self.truth.declared, &work);
         if trial.explains() {
             learned.does = search.sentences(chain);
         }
@@ -446,6 +402,47 @@ impl<'a, L: Learnable> Learner<'a, L> {
             learned.known.extend(nearest);
         }
         learned
+    }
+}
+
+impl<L: Learnable> Learn for Learner<'_, L> {
+    type Found = Chain<L>;
+
+    fn search(&mut self) -> Chain<L> {
+        self.work.begin();
+        Search::<L>::of(&self.answered, &self.truth.declared, &self.work).explain()
+    }
+
+    /// Asks new questions, questions beside wrong ones, and questions at the limits of a chain.
+    fn try_out(&mut self, chain: &Chain<L>) -> Option<Trial> {
+        let start = self.answered.len();
+        let mut trial = Trial::default();
+        for _ in 0..MOST_FRESH {
+            let from = self.answered.len();
+            let cases = (0..FRESH[0]).map(|_| self.case(&[], false)).collect();
+            self.ask_in_batches(cases)?;
+            trial.independent +=
+                self.is_wrong[from..].iter().filter(|wrong| **wrong).count() as u64;
+            if trial.independent >= ENOUGH_INDEPENDENT {
+                break;
+            }
+        }
+        let wrong = self.wrong();
+        let mut cases: Vec<Case> = (0..FRESH[1]).map(|_| self.case(&wrong, true)).collect();
+        cases.extend(self.at_limits(chain));
+        self.ask_in_batches(cases)?;
+        for (asked, is_wrong) in self.answered.iter_mut().zip(&self.is_wrong).skip(start) {
+            let parts = L::parts(asked, &self.truth.declared);
+            let fits = parts.iter().all(|part| predicts(chain, asked, part));
+            drop(parts);
+            asked.is_refuting = !fits;
+            trial.add(*is_wrong, fits);
+        }
+        Some(trial)
+    }
+
+    fn is_over(&self) -> bool {
+        self.left == 0
     }
 }
 
@@ -519,62 +516,106 @@ fn some_parts<'a, L: Learnable>(asked: &'a LearnedCase, declared: &Declared) -> 
 }
 
 /// A part with the number of its question.
-struct Numbered<'s, P>(usize, &'s P);
-
-impl<P> Clone for Numbered<'_, P> {
-    fn clone(&self) -> Self {
-        *self
-    }
+struct PartOf<P> {
+    question: usize,
+    part: P,
 }
-impl<P> Copy for Numbered<'_, P> {}
 
-/// All answers with their parts.
+/// What is computed once of a change: which parts it explains, and the quantities of those that are looked at.
+struct Looked {
+    explained: Vec<bool>,
+    rows: Vec<OnceCell<Vec<i64>>>,
+}
+
+/// A change with what was computed of it.
+type LookedChange<C> = (Rc<C>, Rc<Looked>);
+
+/// The parts of all answers; a part is meant by its place.
 struct Search<'a, L: Learnable> {
     answered: &'a [LearnedCase],
-    parts: Vec<Vec<L::Part<'a>>>,
+    parts: Vec<PartOf<L::Part<'a>>>,
+    is_right: Vec<bool>,
+    /// Whether an answer has right parts alone.
+    is_whole_right: Vec<bool>,
+    looked: RefCell<Vec<LookedChange<L::Change>>>,
     names: Vocabulary,
     of_question: usize,
-    /// Changes whose conditions may still be learned.
-    left: Cell<usize>,
+    work: &'a Work,
 }
 
 impl<'a, L: Learnable> Search<'a, L> {
-    fn of(answered: &'a [LearnedCase], declared: &Declared) -> Self {
-        let parts: Vec<_> = answered.iter().map(|asked| some_parts::<L>(asked, declared)).collect();
+    fn of(answered: &'a [LearnedCase], declared: &Declared, work: &'a Work) -> Self {
+        let mut parts = Vec::new();
+        for (question, asked) in answered.iter().enumerate() {
+            let of_one = some_parts::<L>(asked, declared).into_iter();
+            parts.extend(of_one.map(|part| PartOf { question, part }));
+        }
+        let is_right: Vec<bool> = parts.iter().map(|of| L::is_right(&of.part)).collect();
+        let mut is_whole_right = vec![true; answered.len()];
+        for (of, is_right) in parts.iter().zip(&is_right) {
+            is_whole_right[of.question] &= is_right;
+        }
         let mut out = answered
             .first()
             .map_or_else(Quantities::default, |asked| of_case::<L>(&asked.case, declared, true));
         let of_question = out.values.len();
-        if let Some(part) = parts.iter().flatten().next() {
-            L::of_part(part, None, &mut out);
+        if let Some(of) = parts.first() {
+            L::of_part(&of.part, None, &mut out);
         }
-        let left = Cell::new(MOST_LEARNED);
-        Self { answered, parts, names: Vocabulary::of(out), of_question, left }
+        let (looked, names) = (RefCell::default(), Vocabulary::of(out));
+        Self { answered, parts, is_right, is_whole_right, looked, names, of_question, work }
     }
 
-    fn all(&self) -> impl Iterator<Item = Numbered<'_, L::Part<'a>>> {
-        let questions = self.parts.iter().enumerate();
-        questions.flat_map(|(i, parts)| parts.iter().map(move |part| Numbered(i, part)))
+    fn looked(&self, change: &Rc<L::Change>) -> Rc<Looked> {
+        let is_one = |(other, _): &&LookedChange<L::Change>| Rc::ptr_eq(other, change);
+        if let Some((_, looked)) = self.looked.borrow().iter().find(is_one) {
+            return Rc::clone(looked);
+        }
+        self.work.spend(self.parts.len() * PART);
+        let explained = self.parts.iter().map(|of| L::explains(change, &of.part)).collect();
+        let rows = self.parts.iter().map(|_| OnceCell::new()).collect();
+        let looked = Rc::new(Looked { explained, rows });
+        self.looked.borrow_mut().push((Rc::clone(change), Rc::clone(&looked)));
+        looked
     }
 
-    fn is_whole_right(&self, i: usize) -> bool {
-        self.parts[i].iter().all(L::is_right)
+    /// The quantities of a part and of what a change makes of it.
+    fn row<'l>(&self, change: &L::Change, looked: &'l Looked, place: usize) -> &'l [i64] {
+        looked.rows[place].get_or_init(|| {
+            self.work.spend(ALL_OF_A_PART);
+            let PartOf { question, part } = &self.parts[place];
+            row::<L>(&self.answered[*question], part, Some(change))
+        })
     }
 
-    fn predicts(&self, chain: &[GuardedChange<L>], of: Numbered<'_, L::Part<'a>>) -> bool {
-        predicts(chain, &self.answered[of.0], of.1)
+    /// Whether a chain predicts each part.
+    fn predicted(&self, chain: &Chain<L>) -> Vec<bool> {
+        let mut predicted = self.is_right.clone();
+        for GuardedChange { when, change } in chain.iter().rev() {
+            let looked = self.looked(change);
+            for (place, is_predicted) in predicted.iter_mut().enumerate() {
+                let with = looked.explained[place];
+                // A condition is looked at where it matters.
+                if with != *is_predicted {
+                    let holds = |all: &Condition| all.holds(self.row(change, &looked, place));
+                    *is_predicted ^= when.is_empty() || when.iter().any(holds);
+                }
+            }
+        }
+        predicted
     }
 
     /// The share of wrong and of right answers that a chain predicts, against what it says.
     fn score(&self, chain: &Chain<L>) -> f64 {
-        let mut counts = [[0.0; 2]; 2];
-        for i in 0..self.parts.len() {
-            let fits = self.parts[i].iter().all(|part| self.predicts(chain, Numbered(i, part)));
-            let count = &mut counts[usize::from(self.is_whole_right(i))];
-            count[0] += f64::from(u8::from(fits));
-            count[1] += 1.0;
+        let mut fits = vec![true; self.answered.len()];
+        for (of, is_predicted) in self.parts.iter().zip(self.predicted(chain)) {
+            fits[of.question] &= is_predicted;
         }
-        let [wrong, right] = counts.map(|[fits, all]| fits / f64::max(all, 1.0));
+        let mut counts = [Count::default(); 2];
+        for (&fits, &is_right) in fits.iter().zip(&self.is_whole_right) {
+            counts[usize::from(is_right)].add(fits);
+        }
+        let [wrong, right] = counts.map(|c| c.drawn as f64 / c.of.max(1) as f64);
         0.75 * wrong + 0.25 * right - 0.004 * cost(chain) as f64
     }
 
@@ -582,7 +623,7 @@ impl<'a, L: Learnable> Search<'a, L> {
     fn explain(&self) -> Chain<L> {
         let mut chain: Chain<L> = Vec::new();
         let mut best = self.score(&chain);
-        for _ in 0..MOST_STEPS {
+        for _ in (0..MOST_STEPS).take_while(|_| !self.work.is_done()) {
             let Some((score, longer)) = self.with_step(&chain) else { break };
             if score <= best {
                 break;
@@ -594,7 +635,9 @@ impl<'a, L: Learnable> Search<'a, L> {
 
     /// With the step before the others that explains most of what they do not.
     fn with_step(&self, chain: &Chain<L>) -> Option<(f64, Chain<L>)> {
-        let (held, left): (Vec<_>, Vec<_>) = self.all().partition(|of| self.predicts(chain, *of));
+        let predicted = self.predicted(chain);
+        let (held, left): (Vec<_>, Vec<_>) =
+            (0..self.parts.len()).partition(|place| predicted[*place]);
         if left.is_empty() {
             return None;
         }
@@ -612,64 +655,56 @@ impl<'a, L: Learnable> Search<'a, L> {
     }
 
     /// The changes that explain most of some wrong parts, each another set of them.
-    fn ranked(
-        &self,
-        wrong: &[Numbered<'_, L::Part<'a>>],
-        right: &[Numbered<'_, L::Part<'a>>],
-    ) -> Vec<L::Change> {
-        let wrong: Vec<_> = wrong.iter().map(|of| of.1).collect();
-        let right: Vec<_> = right.iter().map(|of| of.1).collect();
-        let mut ranked = rank::<L>(L::changes(&wrong, &right), &wrong);
+    fn ranked(&self, wrong: &[usize], right: &[usize]) -> Vec<Rc<L::Change>> {
+        let wrong: Vec<_> = wrong.iter().map(|place| &self.parts[*place].part).collect();
+        let right: Vec<_> = right.iter().map(|place| &self.parts[*place].part).collect();
+        let mut ranked = rank::<L>(L::changes(&wrong, &right, self.work), &wrong, self.work);
         let most = ranked.first().map_or(0, |(count, ..)| *count);
         if most < wrong.len() {
             let firsts: Vec<_> = ranked.iter().take(PAIRED).map(|(.., change)| change).collect();
             let seconds = ranked.iter().map(|(.., change)| change);
             let pairs = seconds.flat_map(|b| firsts.iter().filter_map(move |a| L::both(a, b)));
-            let pairs = rank::<L>(pairs.collect(), &wrong);
+            let pairs = rank::<L>(pairs.collect(), &wrong, self.work);
             ranked.extend(pairs.into_iter().filter(|(count, ..)| *count > most));
             ranked.sort_by_key(|(count, ..)| std::cmp::Reverse(*count));
         }
         let mut seen = HashSet::new();
         ranked.retain(|(_, explained, _)| seen.insert(explained.clone()));
-        ranked.into_iter().take(MOST_CHANGES).map(|(.., change)| change).collect()
+        ranked.into_iter().take(MOST_CHANGES).map(|(.., change)| Rc::new(change)).collect()
     }
 
     /// The conditions under which a change explains what a chain does not, and breaks nothing; none where it never breaks
     /// anything.
     fn when(
         &self,
-        change: &L::Change,
-        left: &[Numbered<'_, L::Part<'a>>],
-        held: &[Numbered<'_, L::Part<'a>>],
+        change: &Rc<L::Change>,
+        left: &[usize],
+        held: &[usize],
     ) -> Option<Vec<Condition>> {
-        let explained = |of: &Numbered<'_, L::Part<'a>>| L::explains(change, of.1);
-        let yes: Vec<_> = left.iter().copied().filter(explained).collect();
-        let no: Vec<_> = held.iter().copied().filter(|of| !explained(of)).collect();
+        let looked = self.looked(change);
+        let row = |place: usize| self.row(change, &looked, place);
+        let yes: Vec<_> = left.iter().copied().filter(|place| looked.explained[*place]).collect();
+        let no: Vec<_> = held.iter().copied().filter(|place| !looked.explained[*place]).collect();
         if no.is_empty() {
             return (!yes.is_empty()).then(Vec::new);
         }
-        if self.left.get() == 0 {
+        if self.work.is_done() {
             return None;
         }
-        self.left.set(self.left.get() - 1);
         let mut examples = Examples::default();
-        for Numbered(i, part) in spread(&yes, LEARNED_FROM[0]) {
-            examples.should(row::<L>(&self.answered[i], part, Some(change)), i);
+        for place in spread(&yes, LEARNED_FROM[0]) {
+            examples.should(row(place).to_vec(), self.parts[place].question);
         }
         let mut some = spread(&no, LEARNED_FROM[1]);
         for round in 0..CORRECTIONS {
-            for Numbered(i, part) in some {
-                examples.should_not(row::<L>(&self.answered[i], part, Some(change)));
-            }
-            let conditions = examples.any_of(&self.names, WHEN, MOST_CONDITIONS);
+            some.iter().for_each(|place| examples.should_not(row(*place).to_vec()));
+            let conditions = examples.any_of(&self.names, WHEN, MOST_CONDITIONS, self.work);
             if conditions.is_empty() {
                 return None;
             }
             // What a condition holds of that it should not is learned from, too.
-            let broken = spread(&no, CHECKED).into_iter().filter(|Numbered(i, part)| {
-                let row = row::<L>(&self.answered[*i], part, Some(change));
-                conditions.iter().any(|condition| condition.holds(&row))
-            });
+            let is_broken = |place: &usize| conditions.iter().any(|all| all.holds(row(*place)));
+            let broken = spread(&no, CHECKED).into_iter().filter(is_broken);
             some = broken.take(LEARNED_FROM[0]).collect();
             if some.is_empty() || round + 1 == CORRECTIONS {
                 return Some(conditions);
@@ -709,14 +744,14 @@ impl<'a, L: Learnable> Search<'a, L> {
         let mut said = Vec::new();
         let (mut of_questions, mut of_parts) = (Examples::default(), Examples::default());
         for (i, asked) in self.answered.iter().enumerate() {
-            match self.is_whole_right(i) {
+            match self.is_whole_right[i] {
                 true => of_questions.should_not(asked.facts.clone()),
                 false => of_questions.should(asked.facts.clone(), i),
             }
         }
         let names = self.names.first(self.of_question);
         let mostly = ConditionTerms { facts: 2, questions: 3, slack: 30 };
-        if let Some(when) = of_questions.best(&names, mostly) {
+        if let Some(when) = of_questions.best(&names, mostly, self.work) {
             let ([wrong, right], [of_wrong, of_right]) =
                 (of_questions.held(&when), of_questions.counts());
             // What holds of few says nothing.
@@ -727,15 +762,21 @@ impl<'a, L: Learnable> Search<'a, L> {
                 ));
             }
         }
-        let in_wrong = self.all().filter(|of| !self.is_whole_right(of.0));
-        let (right, wrong): (Vec<_>, Vec<_>) = in_wrong.partition(|of| L::is_right(of.1));
-        for Numbered(i, part) in spread(&wrong, LEARNED_FROM[0]) {
-            of_parts.should(row::<L>(&self.answered[i], part, None), i);
+        let is_in_wrong = |place: &usize| !self.is_whole_right[self.parts[*place].question];
+        let (right, wrong): (Vec<_>, Vec<_>) = (0..self.parts.len())
+            .filter(is_in_wrong)
+            .partition(|place: &usize| self.is_right[*place]);
+        let row = |place: usize| {
+            let PartOf { question, part } = &self.parts[place];
+            row::<L>(&self.answered[*question], part, None)
+        };
+        for place in spread(&wrong, LEARNED_FROM[0]) {
+            of_parts.should(row(place), self.parts[place].question);
         }
-        for Numbered(i, part) in spread(&right, LEARNED_FROM[1]) {
-            of_parts.should_not(row::<L>(&self.answered[i], part, None));
+        for place in spread(&right, LEARNED_FROM[1]) {
+            of_parts.should_not(row(place));
         }
-        if let Some(place) = of_parts.best(&self.names, mostly) {
+        if let Some(place) = of_parts.best(&self.names, mostly, self.work) {
             let ([wrong, right], [of_wrong, of_right]) = (of_parts.held(&place), of_parts.counts());
             if 2 * wrong >= of_wrong && of_right > 0 {
                 said.push(format!(
@@ -752,8 +793,9 @@ impl<'a, L: Learnable> Search<'a, L> {
 /// How often a condition is learned anew with what refuted it.
 const CORRECTIONS: usize = 2;
 
-/// Changes whose conditions are learned in one search.
-const MOST_LEARNED: usize = 8;
+/// Steps of [`Work`] for a look at whether a change explains a part, and for all quantities of one.
+const PART: usize = 60;
+const ALL_OF_A_PART: usize = 600;
 
 /// Wrong parts of which a change explains one, or is left aside.
 const FEW: usize = 16;
@@ -765,13 +807,16 @@ type RankedChange<C> = (usize, Vec<bool>, C);
 fn rank<L: Learnable>(
     changes: Vec<L::Change>,
     wrong: &[&L::Part<'_>],
+    work: &Work,
 ) -> Vec<RankedChange<L::Change>> {
     let mut ranked = Vec::new();
     let few = spread(wrong, FEW);
+    work.spend(changes.len() * few.len() * PART);
     for change in changes {
         if !few.iter().any(|part| L::explains(&change, part)) {
             continue;
         }
+        work.spend(wrong.len() * PART);
         let explained: Vec<bool> = wrong.iter().map(|part| L::explains(&change, part)).collect();
         let count = explained.iter().filter(|is| **is).count();
         ranked.push((count, explained, change));

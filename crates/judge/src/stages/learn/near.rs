@@ -10,6 +10,7 @@ use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, near};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::learn::rows::{NONE, Quantities, Unit, value};
+use rasterproof_verify::learn::trial::Work;
 
 pub struct Polygons;
 
@@ -146,7 +147,7 @@ impl Learnable for Polygons {
         }
     }
 
-    fn changes(wrong: &[&PartOfPolygon<'_>], _: &[&PartOfPolygon<'_>]) -> Vec<NearCut> {
+    fn changes(wrong: &[&PartOfPolygon<'_>], _: &[&PartOfPolygon<'_>], _: &Work) -> Vec<NearCut> {
         let cuts: Vec<&Cut<'_>> = wrong.iter().map(|part| &part.cut).collect();
         singles(&cuts)
     }

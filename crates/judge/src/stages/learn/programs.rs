@@ -232,15 +232,66 @@ fn right_programs_of_other_conventions_are_not_explained() {
     }
 }
 
+/// Samples and the near plane have no other convention: the engine is right in them.
+#[test]
+fn right_samples_and_polygons_are_not_explained() {
+    for check in [Check::Samples, Check::Near, Check::Carried] {
+        let mut program = Inside::new(engines::find("scanline").unwrap());
+        let truth = Truth::of(program.declared());
+        let learned = learn(&mut program, check, &truth, 700);
+        assert!(learned.is_none(), "{:?}", learned.map(|l| l.sentences()));
+    }
+}
+
+/// A number that depends on all of an answer and on a place in it, as no rule does.
+fn noise(answer: &Answer, place: usize) -> u64 {
+    let text = format!("{answer:?}{place}");
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    }) >> 20
+}
+
 #[test]
 fn what_is_random_is_not_explained() {
-    let alter: Alter = |_, answer, _| {
+    let in_values: Alter = |_, answer, _| {
         each_value(answer, &|which, [x, y], v| {
             let mixed = (x * 7919 + y * 104_729).wrapping_mul(31) % 17 + (v * 1e6) as i32 % 13;
             if which == 1 && mixed % 5 == 0 { v + f64::from(mixed) / 64.0 } else { v }
         });
     };
-    let learned = learned(Check::Values, alter);
-    assert!(!learned.is_certain);
-    assert!(!learned.known.is_empty());
+    let in_samples: Alter = |_, answer, _| {
+        let before = answer.clone();
+        let Answer::Samples(runs) = answer else { return };
+        for (place, (_, mask)) in runs.iter_mut().enumerate() {
+            let noise = noise(&before, place);
+            *mask = if noise.is_multiple_of(5) { (noise / 5 % 15) as u8 + 1 } else { *mask };
+        }
+    };
+    let in_depths: Alter = |question, answer, _| {
+        let before = answer.clone();
+        let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else { return };
+        for (place, (_, shown)) in runs.iter_mut().enumerate() {
+            let noise = noise(&before, place);
+            let other = (noise / 5 % list.len() as u64) as u8;
+            *shown = if noise.is_multiple_of(5) { other } else { *shown };
+        }
+    };
+    let in_polygons: Alter = |_, answer, _| {
+        let before = answer.clone();
+        let Answer::Polygon(corners) = answer else { return };
+        for (place, corner) in corners.iter_mut().enumerate() {
+            let noise = noise(&before, place);
+            corner[0] += if noise.is_multiple_of(5) { (noise / 5 % 64) as f64 / 16.0 } else { 0.0 };
+        }
+    };
+    for (check, alter) in [
+        (Check::Values, in_values),
+        (Check::Samples, in_samples),
+        (Check::Depth, in_depths),
+        (Check::Near, in_polygons),
+    ] {
+        let learned = learned(check, alter);
+        assert!(!learned.is_certain, "{:?}", learned.sentences());
+        assert!(!learned.known.is_empty());
+    }
 }

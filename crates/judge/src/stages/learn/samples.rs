@@ -12,6 +12,7 @@ use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, triangles};
 use rasterproof_verify::learn::rows::{Quantities, TriangleInWindow, Unit};
+use rasterproof_verify::learn::trial::Work;
 
 pub struct Samples;
 
@@ -104,7 +105,7 @@ impl Learnable for Samples {
         out.number(Unit::Subpixels, inside, &[distance]);
     }
 
-    fn changes(wrong: &[&Sample<'_>], right: &[&Sample<'_>]) -> Vec<SampleMask> {
+    fn changes(wrong: &[&Sample<'_>], right: &[&Sample<'_>], _: &Work) -> Vec<SampleMask> {
         let pixels: Vec<&Masked<'_>> = wrong.iter().chain(right).map(|part| &*part.pixel).collect();
         singles(&pixels)
     }

@@ -13,6 +13,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use rasterproof_verify::cases::facts::{self, Topic};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::learn::rows::{NONE, Quantities, TriangleInWindow, Unit, value};
+use rasterproof_verify::learn::trial::Work;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, sum, weights};
 
 pub struct Values;
@@ -89,9 +90,12 @@ const TERMS: [Term; 22] = [
     Term::Place(0),
 ];
 
-/// Predictions are computed in doubles. A difference below this share of a value is taken for their rounding. It is chosen, and not
-/// derived: some thousand times what a few operations are rounded by.
-const ROUNDING: f64 = 1e-12;
+/// Predictions are computed in doubles, each operation rounded by at most 2^-53 of what goes into it. Differences of corners are
+/// exact within 2^16 px of each other, and so are their products. The longest way from there has 12 roundings: an edge function
+/// (1), its quotient by the area (2), the product with 1/w (1), the sum of three (2), the quotient (1), the product with the
+/// corner (1), the sum of three (2), and the number times that, added to the base (2). A slope has it twice. So a prediction is off by less than this
+/// share of the sum of all that is added up in it.
+const ROUNDING: f64 = 24.0 * f64::EPSILON / 2.0;
 
 /// What a term is added to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,11 +197,46 @@ impl ValueOfPixel<'_> {
         }
     }
 
-    /// Whether a predicted value is the given one: predictions are rounded too, but what is as near to the right value explains
-    /// nothing.
-    fn is(&self, predicted: f64) -> bool {
+    /// What is added up in a value of the triangle at a place, without signs.
+    fn size_at(&self, at: [f64; 2]) -> f64 {
+        let linear = weights(&self.of.triangle.corners(), at);
+        let inverse = self.of.triangle.vertices.map(|v| v.inv_w);
+        let parts = match self.which {
+            0 => linear,
+            _ => [0, 1, 2].map(|i| linear[i] * inverse[i]),
+        };
+        let whole: f64 = parts.iter().sum();
+        let corners = self.of.corners[self.which];
+        // Beyond the triangle what is divided by is a sum of both signs.
+        let lever = parts.iter().map(|part| (part / whole).abs()).sum::<f64>();
+        [0, 1, 2].map(|i| (parts[i] / whole * corners[i]).abs() * lever).into_iter().sum()
+    }
+
+    /// What is added up in a term, without signs.
+    fn size(&self, term: Term) -> f64 {
+        let at = self.place();
+        let next = |axis: usize| {
+            let mut next = at;
+            next[axis] += 1.0;
+            self.size_at(next) + self.size_at(at)
+        };
+        match term {
+            Term::Slope(axis) => next(axis),
+            Term::SlopeFromSide(axis) => next(axis) * f64::from(self.at[axis]),
+            // Within the triangle no weight is below 0, so that it is no more than the largest corner.
+            _ => self.term(term).abs().max(self.largest()),
+        }
+    }
+
+    fn largest(&self) -> f64 {
+        self.of.corners[self.which].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+    }
+
+    /// Whether a predicted value is the given one, where so much is added up in it: predictions are rounded too, but what is as
+    /// near to the right value explains nothing.
+    fn is(&self, predicted: f64, size: f64) -> bool {
         let off = (self.given - predicted).abs();
-        let allowed = self.allowed.max(ROUNDING * predicted.abs());
+        let allowed = self.allowed.max(ROUNDING * size);
         off <= allowed || (off <= 10.0 * allowed && 2.0 * off <= (self.given - self.right()).abs())
     }
 }
@@ -277,12 +316,13 @@ impl Learnable for Values {
     fn explains(change: &Change, part: &ValueOfPixel<'_>) -> bool {
         match change {
             Change::Relation { base, by, term } => {
-                part.is(part.base(*base) + by * part.term(*term))
+                let size = part.largest() + by.abs() * part.size(*term);
+                part.is(part.base(*base) + by * part.term(*term), size)
             }
             Change::NoNumber => !part.given.is_finite(),
             Change::Recipe(recipe) => {
                 let predicted = recipe.predict(part.of.triangle, (part.at[0], part.at[1]));
-                predicted.is_some_and(|values| part.is(values[part.which]))
+                predicted.is_some_and(|values| part.is(values[part.which], part.largest()))
             }
         }
     }
@@ -333,7 +373,7 @@ impl Learnable for Values {
         );
     }
 
-    fn changes(wrong: &[&ValueOfPixel<'_>], _: &[&ValueOfPixel<'_>]) -> Vec<Change> {
+    fn changes(wrong: &[&ValueOfPixel<'_>], _: &[&ValueOfPixel<'_>], _: &Work) -> Vec<Change> {
         let mut all = vec![Change::NoNumber];
         for base in [Base::Nothing, Base::Right, Base::Uncorrected, Base::Negated] {
             for term in TERMS {
