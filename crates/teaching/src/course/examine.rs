@@ -13,7 +13,7 @@ use rasterproof_judge::stages::Answered;
 use rasterproof_judge::timed::Timed;
 use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::mistakes::Mistakes;
+use rasterproof_verify::mistakes::{Explanation, Mistakes};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
@@ -90,8 +90,16 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
         }
     }
     program.end_at(None);
-    let unexplained = failing.as_ref().filter(|_| outcome.misconception.is_none());
+    // A function that sets no pixel in this step may do so in others, which tell why.
+    let is_named = outcome.misconception.is_some_and(|is| is.name != misconceptions::NOTHING);
+    let unexplained = failing.as_ref().filter(|_| !is_named);
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
+    let is_nothing = |cause: &Explanation| cause.name == misconceptions::NOTHING;
+    match &outcome.cause {
+        Some(cause) if cause.causes.iter().any(is_nothing) => outcome.cause = None,
+        Some(cause) if cause.is_known() => outcome.misconception = None,
+        _ => {}
+    }
     outcome.failure = failing.map(|Wrong { exercise, is, case, truth, asked }| {
         let may_be = |case: &Case| (exercise.prepare)(case.clone()).as_ref() == Some(case);
         let &Amount { seed, patience, .. } = amount;

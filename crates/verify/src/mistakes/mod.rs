@@ -21,7 +21,7 @@ pub mod values;
 mod weigh;
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::fmt;
 
 use crate::convention::{
@@ -350,6 +350,7 @@ pub fn of_triangles(
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
+    let given = Cell::new(0);
     let mut ask_all =
         |questions: &[TriangleQuestion], answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
             for questions in questions.chunks(ask.at_once()) {
@@ -358,6 +359,7 @@ pub fn of_triangles(
                     let Some(right) = right else { continue };
                     // What is not answered is not drawn.
                     let drawn = answer.filter(|a| a.bounds() == question.window);
+                    given.set(given.get() + u64::from(drawn.is_some()));
                     let hits =
                         |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
                     let twice = if known.mask { Mask::default() } else { hits(2) };
@@ -379,7 +381,7 @@ pub fn of_triangles(
         }
     }
     if answered.iter().all(AnsweredQuestion::is_blank) {
-        return None;
+        return draws_nothing(&answered, given.get());
     }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
     let sizes = limits(&answered).into_iter().map(triangles::size);
@@ -501,6 +503,25 @@ fn explain(
     conclude(hypotheses, &is_wrong, &near, &alone, &seen)
 }
 
+/// What is said where no answer has a pixel: every mistake that draws nothing would explain it. Nothing where no answer was given.
+fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mistakes> {
+    let wrong = answered.iter().filter(|answer| answer.is_wrong()).count() as u64;
+    if given == 0 || wrong == 0 {
+        return None;
+    }
+    let of = answered.len() as u64;
+    let said = Explanation::new(
+        "nothing",
+        "draws nothing".to_owned(),
+        "set the pixels whose samples are inside",
+        "judge",
+        "an answer with a pixel",
+    );
+    let all = |count: u64| Count { drawn: count, of: count };
+    let cause = Explanation { wrong: all(wrong), right: all(of - wrong), ..said };
+    Some(Mistakes { causes: vec![cause], wrong: Count { drawn: wrong, of }, ..Mistakes::default() })
+}
+
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
 pub fn of_lines(
     ask: &mut dyn AskLine,
@@ -519,6 +540,7 @@ pub fn of_lines(
         let pixels: Vec<_> = pixels.iter().map(|p| p.map_array(i64::from)).collect();
         [lines::mask(&pixels, question.window), Mask::default()]
     };
+    let mut given = 0;
     // Where few answers are wrong, some more are needed.
     'rounds: for seed in SEED..SEED + MOST_ROUNDS {
         for questions in questions::lines(known, seed).chunks(AT_ONCE) {
@@ -531,13 +553,14 @@ pub fn of_lines(
             for (question, answer) in questions.iter().zip(answers) {
                 let right = lines::of_convention(expected, wide(question.ends), question.window);
                 let Some(right) = right else { continue };
+                given += u64::from(answer.is_some());
                 let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
                 answered.push(AnsweredQuestion { question: *question, drawn, twice, right });
             }
         }
     }
     if answered.iter().all(AnsweredQuestion::is_blank) {
-        return None;
+        return draws_nothing(&answered, given);
     }
     let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
     let mut bases = vec![*expected];
