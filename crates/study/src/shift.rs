@@ -113,7 +113,7 @@ fn attributes(
         };
         let [one, other] = [normal(given), normal(snapped)];
         // The angle by its tangent: its cosine would lose half the digits of a small one.
-        let angle = one.cross(other).length().atan2(one.dot(other));
+        let angle = libm::atan2(one.cross(other).length(), one.dot(other));
         place.keep(&mut shift.normal, angle.to_degrees());
     }
 }
@@ -182,7 +182,7 @@ mod tests {
             largest(&|[_, share]| share * 255.0),
             largest(&|[below, share]| {
                 let second = share + below;
-                second.atan2(1.0 - second).to_degrees()
+                libm::atan2(second, 1.0 - second).to_degrees()
             }),
         ];
         let target = Target::new(SIDE, SIDE, Antialias::None, DepthFormat::F64).unwrap();
