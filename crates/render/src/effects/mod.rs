@@ -19,7 +19,6 @@ pub mod depth_ties;
 mod execute;
 #[cfg(feature = "parallel")]
 pub mod geometry;
-mod kernel;
 pub mod parts;
 pub mod plan;
 mod planner;
@@ -27,6 +26,7 @@ pub mod primitive;
 pub mod render;
 mod samples;
 mod scene_digest;
+mod stages;
 mod survey;
 mod table;
 

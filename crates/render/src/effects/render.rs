@@ -7,9 +7,10 @@ use super::primitive::pack;
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
 use super::execute::{Observer, draw, fit};
-use super::kernel::{Coat, Kernel};
+use super::parts::Constants;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
+use super::stages::{Program, Registers};
 use crate::pipeline::Counters;
 use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::shade::PLACED;
@@ -143,15 +144,17 @@ pub fn render_wireframe(
     target.clear_colour(scene.background, &mut counters);
     target.clear_depth(&mut counters);
     let (bounds, format) = (target.bounds(), target.format);
+    let registers = &mut Registers::new();
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
-            let coat = Coat::of(item, piece, plan, fills);
-            let kernel = Kernel::new(item, piece, plan, None, None, coat.as_ref(), fills);
+            let constants = Constants::default();
+            let program = Program::new(item, piece, plan, None, &constants, registers, fills);
+            let mut shader = program.on(registers);
             draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;
-                let colour = kernel.shade_all(&f.varying.0, f.depth);
+                let colour = shader.one(&f.varying, f.depth);
                 for plane in &mut target.planes {
                     plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
                 }

@@ -1,0 +1,759 @@
+//! Stages: what becomes of the fragments of a piece is a list of steps, and what a piece does not call for is not in its list.
+//!
+//! Fragments come in runs of at most [`RUN`]. For each number of a fragment there is a register, which holds that number of all
+//! fragments of the run, and a stage is a loop over registers: it reads some, and writes one. A list is made for each piece
+//! ([`Program::new`]). A stage whose registers are the same in all fragments is computed then, once, and leaves no step in the
+//! list. So a piece of one colour has a list of one stage, which fills it. What is left out of a product is exactly 1, and the factors
+//! keep their order, so the bits are the same.
+
+use glam::{DVec2, DVec3, DVec4};
+
+use super::conditions::mip_maps::{footprint, is_affine};
+use super::parts::Constants;
+use super::plan::{Attributes, PiecePlan};
+use super::primitive::{Piece, Prepared, WHITE, bare, pack, surfaces};
+use super::samples::OnDemand;
+use crate::pipeline::Counters;
+use crate::pipeline::fill::{FragmentStage, Lanes, Over, Way, each, fill, fill_flat};
+use crate::pipeline::fog::{Share, Veil};
+use crate::pipeline::footprint::Reading;
+use crate::pipeline::highlight::{Highlight, brightened};
+use crate::pipeline::opacity::{Drawn, OPAQUE, Opacity};
+use crate::pipeline::physical::{self, Lights, Map, Physical, Point, TextureRead};
+use crate::pipeline::shade::{Attributes as PackedAttributes, Light, PLACED, Surface};
+use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
+use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
+use crate::pipeline::texture::Texture;
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::{Interpolate, RUN};
+use rasterproof_core::grid::PixelRect;
+
+/// One number of each fragment of a run.
+type Register = [f64; RUN];
+
+/// What stages read and write.
+pub(super) struct Registers {
+    /// The numbers of a [`Surface`], in the order in which it is packed.
+    attributes: [Register; PLACED],
+    /// Base colour, colour of the corners, texel and light, as far as they are multiplied.
+    product: [Register; 3],
+    /// Of nine, the parts of the light that arrive.
+    lit: [u32; RUN],
+    /// What is read of the maps of a physical surface.
+    maps: [[Register; 3]; Map::ALL.len()],
+}
+
+#[inline]
+fn three(registers: &[Register], at: usize, i: usize) -> DVec3 {
+    DVec3::new(registers[at][i], registers[at + 1][i], registers[at + 2][i])
+}
+
+impl Registers {
+    pub fn new() -> Self {
+        let (attributes, maps) = ([[0.0; RUN]; PLACED], [[[0.0; RUN]; 3]; Map::ALL.len()]);
+        Self { attributes, product: [[0.0; RUN]; 3], lit: [TAPS; RUN], maps }
+    }
+
+    /// Takes what was interpolated to the places of its attributes.
+    #[inline]
+    fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>], interpolates: Attributes) {
+        let places = &interpolates.places()[..interpolates.components().min(N)];
+        for (number, place) in places.iter().enumerate() {
+            let register = &mut self.attributes[usize::from(*place)];
+            for (to, PackedAttributes(from)) in register.iter_mut().zip(values) {
+                *to = from[number];
+            }
+        }
+    }
+
+    #[inline]
+    fn colour(&self, i: usize) -> DVec3 {
+        three(&self.attributes, Self::COLOUR, i)
+    }
+
+    #[inline]
+    fn normal(&self, i: usize) -> DVec3 {
+        three(&self.attributes, Self::NORMAL, i)
+    }
+
+    #[inline]
+    fn uv(&self, is_second: bool, i: usize) -> DVec2 {
+        let at = if is_second { Self::SECOND_UV } else { Self::UV };
+        DVec2::new(self.attributes[at][i], self.attributes[at + 1][i])
+    }
+
+    #[inline]
+    fn tangent(&self, i: usize) -> DVec4 {
+        three(&self.attributes, Self::TANGENT, i).extend(self.attributes[Self::TANGENT + 3][i])
+    }
+
+    const COLOUR: usize = Attributes::RANGES[0].1.start;
+    const NORMAL: usize = Attributes::RANGES[1].1.start;
+    const UV: usize = Attributes::RANGES[2].1.start;
+    const PLACE: usize = Attributes::RANGES[3].1.start;
+    const WORLD: usize = Attributes::RANGES[4].1.start;
+    const TANGENT: usize = Attributes::RANGES[5].1.start;
+    const SECOND_UV: usize = Attributes::RANGES[6].1.start;
+
+    #[inline]
+    fn product(&self, from: Option<DVec3>, i: usize) -> DVec3 {
+        from.unwrap_or_else(|| three(&self.product, 0, i))
+    }
+
+    #[inline]
+    fn set_product(&mut self, i: usize, product: DVec3) {
+        let [r, g, b] = &mut self.product;
+        (r[i], g[i], b[i]) = (product.x, product.y, product.z);
+    }
+}
+
+/// One step of the fragments of a piece. `from` is the product so far where all fragments have the same; else it is read.
+#[derive(Clone, Copy)]
+enum Stage<'a> {
+    /// The product begins with the colour of the material times that of the corners.
+    Colour { base: DVec3 },
+    /// The product is multiplied by what is read of the texture.
+    Texture { from: Option<DVec3>, texture: &'a Texture },
+    /// The product is multiplied by what all fragments have.
+    Factor { from: Option<DVec3>, factor: DVec3 },
+    /// A map of a physical surface is read.
+    Map(Map, TextureRead<'a>),
+    /// It is looked up which part of the light arrives.
+    Shadow(Receiver<'a>),
+    /// The product is multiplied by the light.
+    Light { from: Option<DVec3>, light: &'a Light },
+    /// The same with the part of the light that arrives.
+    PartOfLight { from: Option<DVec3>, light: &'a Light },
+    /// The colour of a physical surface, of 8 bits.
+    Physical(PhysicalStage<'a>),
+    /// The product becomes a colour of 8 bits.
+    Round,
+    /// All fragments have one colour.
+    Fill(Colour),
+    /// As much of the highlight is added as arrives of the light.
+    Highlight(&'a Highlight),
+    /// The same of a highlight that does not vary.
+    OneHighlight([u8; 3]),
+    /// The colour is mixed with fog.
+    Fog(&'a Veil),
+}
+
+/// What a physical surface has beside what registers hold.
+#[derive(Clone, Copy)]
+struct PhysicalStage<'a> {
+    from: Option<DVec3>,
+    surface: &'a Physical,
+    parts: physical::Parts,
+    lights: Lights<'a>,
+    eye: &'a DVec4,
+}
+
+impl PhysicalStage<'_> {
+    fn colour(&self, registers: &Registers, i: usize) -> Colour {
+        let place = three(&registers.attributes, Registers::WORLD, i);
+        let point = Point {
+            base: registers.product(self.from, i),
+            normal: registers.normal(i),
+            tangent: registers.tangent(i),
+            to_eye: self.eye.truncate() - place * self.eye.w,
+            texels: [0, 1, 2, 3].map_array(|map: usize| three(&registers.maps[map], 0, i)),
+            lit: f64::from(registers.lit[i]) / f64::from(TAPS),
+            place,
+        };
+        self.surface.colour(self.lights, &point, self.parts)
+    }
+
+    /// Counts what so many evaluations have paid for.
+    fn count(&self, shaded: u64, counters: &mut Counters) {
+        let where_true = |pays: bool| if pays { shaded } else { 0 };
+        counters.reflections += where_true(self.parts.reflection);
+        counters.punctual += where_true(!self.lights.punctual.is_empty());
+        counters.bumped += where_true(self.parts.bumps);
+        counters.occluded += where_true(self.parts.occlusion);
+        counters.emitted += where_true(self.parts.emission);
+    }
+}
+
+impl Stage<'_> {
+    /// What it does, to read.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Colour { .. } => "colour of the corners",
+            Self::Texture { .. } => "x texture",
+            Self::Factor { .. } => "x constant",
+            Self::Map(Map::Emission, _) => "emission map",
+            Self::Map(Map::Metal, _) => "map of metal and roughness",
+            Self::Map(Map::Occlusion, _) => "occlusion map",
+            Self::Map(Map::Normal, _) => "normal map",
+            Self::Shadow(_) => "shadow",
+            Self::Light { .. } => "x light",
+            Self::PartOfLight { .. } => "x light that arrives",
+            Self::Physical(_) => "metal and roughness",
+            Self::Round => "round to 8 bits",
+            Self::Fill(_) => "one colour",
+            Self::Highlight(_) => "+ highlight",
+            Self::OneHighlight(_) => "+ constant highlight",
+            Self::Fog(_) => "fog",
+        }
+    }
+
+    /// Counts what so many fragments have paid for.
+    fn count(&self, shaded: u64, counters: &mut Counters) {
+        match self {
+            Self::Texture { .. } | Self::Map(..) => counters.texels += shaded,
+            Self::Shadow(_) => counters.shadowed += shaded,
+            Self::Physical(stage) => stage.count(shaded, counters),
+            Self::Highlight(_) => counters.highlights += shaded,
+            Self::Fog(_) => counters.fogged += shaded,
+            Self::Colour { .. }
+            | Self::Factor { .. }
+            | Self::Light { .. }
+            | Self::PartOfLight { .. }
+            | Self::Round
+            | Self::Fill(_)
+            | Self::OneHighlight(_) => {}
+        }
+    }
+}
+
+/// The most stages that a piece has.
+const MOST: usize = 13;
+
+/// How textures are read at levels of detail or several times; the veil gives w, which is 1 where there is none.
+type HowRead<'a> = (Reading, Option<&'a Veil>);
+
+/// What becomes of the fragments of a piece.
+#[derive(Clone, Copy)]
+pub(super) struct Program<'a> {
+    plan: PiecePlan,
+    stages: [Option<Stage<'a>>; MOST],
+    count: usize,
+    /// How textures are read at the first and at the second texture coordinates; nothing where they are read once and at level 0.
+    readings: [Option<HowRead<'a>>; 2],
+    /// Of pieces that are not opaque everywhere, with the opacity of all fragments where they have one.
+    opacity: Option<(&'a Opacity, Option<u8>)>,
+}
+
+/// Makes the list of a piece, and writes to the registers what is the same in all of its fragments.
+struct Builder<'a, 'b> {
+    item: &'a Prepared<'a>,
+    piece: &'b Piece,
+    /// The first corner, which has what does not vary.
+    first: Surface,
+    constants: &'b Constants,
+    registers: &'b mut Registers,
+    counters: &'b mut Counters,
+    program: Program<'a>,
+}
+
+impl<'a> Builder<'a, '_> {
+    fn push(&mut self, stage: Stage<'a>) {
+        self.program.stages[self.program.count] = Some(stage);
+        self.program.count += 1;
+    }
+
+    fn varies(&self, bit: u8) -> bool {
+        self.program.plan.interpolates.has(bit)
+    }
+
+    /// Whether it has an attribute, and all fragments the same.
+    fn is_constant(&self, bit: u8) -> bool {
+        self.item.carries.has(bit) && !self.varies(bit)
+    }
+
+    /// Whether textures are read at levels of detail or several times, and how.
+    fn readings(&mut self) {
+        let PiecePlan { perspective, mip_maps: at_levels, anisotropy: is_anisotropic, .. } =
+            self.program.plan;
+        let veil = (!is_affine(self.piece, perspective)).then_some(&self.item.veil);
+        // All are read in one way but for their sizes.
+        let textures = [self.item.texture, Some(&*WHITE)];
+        for (is_second, texture) in [false, true].into_iter().zip(textures) {
+            if self.varies(Attributes::uv(is_second))
+                && let Some(texture) = texture
+            {
+                let (footprint, ..) = footprint((texture, is_second), self.piece, perspective);
+                let reading = Reading { footprint, at_levels, is_anisotropic };
+                self.program.readings[usize::from(is_second)] = Some((reading, veil));
+            }
+        }
+    }
+
+    /// Colour of the material and the corners, and texel; their product where all fragments have the same.
+    fn base(&mut self) -> Option<DVec3> {
+        let base = self.item.item.material.colour;
+        let mut product = Some(base);
+        if self.varies(Attributes::COLOUR) {
+            self.push(Stage::Colour { base });
+            product = None;
+        } else if self.is_constant(Attributes::COLOUR) {
+            product = Some(base * self.first.colour);
+        }
+        let Some(texture) = self.item.texture else { return product };
+        if self.varies(Attributes::UV) {
+            self.push(Stage::Texture { from: product, texture });
+            return None;
+        }
+        self.counters.texels += 1;
+        self.multiply(product, self.constants.texel.unwrap_or_else(|| texture.at(self.first.uv)))
+    }
+
+    /// Multiplies the product so far by what all fragments have.
+    fn multiply(&mut self, product: Option<DVec3>, factor: DVec3) -> Option<DVec3> {
+        if product.is_none() && factor != DVec3::ONE {
+            self.push(Stage::Factor { from: None, factor });
+        }
+        product.map(|product| product * factor)
+    }
+
+    /// Of nine, the parts of the light that arrive; nothing where that varies.
+    fn shadow(&mut self, map: Option<&'a ShadowMap>) -> Option<u32> {
+        let mut lit = self.constants.lit.unwrap_or(TAPS);
+        if let (Some(view), Some(map)) = (&self.item.light_view, map) {
+            let receiver = view.receiver(map, surfaces(self.piece).map_array(|of| of.place));
+            if self.varies(Attributes::PLACE) {
+                self.push(Stage::Shadow(receiver));
+                return None;
+            }
+            self.counters.shadowed += 1;
+            lit = receiver.lit(self.first.place);
+        }
+        self.registers.lit = [lit; RUN];
+        Some(lit)
+    }
+
+    /// The light of a surface that is not physical; its colour where all fragments have the same.
+    fn light(&mut self, from: Option<DVec3>, lit: Option<u32>) -> Option<Colour> {
+        let light = &self.item.light;
+        let mut product = None;
+        match (self.varies(Attributes::NORMAL), lit) {
+            (true, Some(TAPS)) => self.push(Stage::Light { from, light }),
+            (true, _) | (false, None) => {
+                self.keep_constant(Attributes::NORMAL);
+                self.push(Stage::PartOfLight { from, light });
+            }
+            (false, Some(lit)) if self.item.carries.has(Attributes::NORMAL) => {
+                self.counters.lights += 1;
+                let intensity = light.intensity_in(self.first.normal, lit);
+                product = self.multiply(from, DVec3::splat(intensity));
+            }
+            (false, Some(_)) => product = from,
+        }
+        if product.is_none() {
+            self.push(Stage::Round);
+        }
+        product.map(to_colour)
+    }
+
+    /// A physical surface in its light; its colour where all fragments have the same.
+    fn physical(&mut self, from: Option<DVec3>, surface: &'a Physical) -> Option<Colour> {
+        let plan = self.program.plan;
+        let PiecePlan { emission, reflection, occlusion, normal_maps: bumps, .. } = plan;
+        let parts = physical::Parts { emission, reflection, occlusion, bumps };
+        let punctual = if plan.punctual { self.item.punctual } else { &[] };
+        let lights = Lights { main: &self.item.light, punctual };
+        let stage = PhysicalStage { from, surface, parts, lights, eye: &self.item.eye };
+        for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
+            if is_read {
+                self.map(map, surface);
+            }
+        }
+        for bit in [Attributes::NORMAL, Attributes::WORLD, Attributes::TANGENT] {
+            self.keep_constant(bit);
+        }
+        self.counters.lights += u64::from(self.is_constant(Attributes::NORMAL));
+        if plan.interpolates.is_empty() {
+            stage.count(1, self.counters);
+            return Some(stage.colour(self.registers, 0));
+        }
+        self.push(Stage::Physical(stage));
+        None
+    }
+
+    /// Reads a map in each fragment, or once.
+    fn map(&mut self, map: Map, surface: &'a Physical) {
+        let mut texel = map.missing();
+        if let Some((texture, is_second)) = surface.sampled(map) {
+            let bit = Attributes::uv(is_second);
+            if self.varies(bit) {
+                self.push(Stage::Map(map, (texture, is_second)));
+                return;
+            }
+            if self.is_constant(bit) {
+                self.counters.texels += 1;
+                texel = texture.at(self.first.uv_of(is_second));
+            }
+        }
+        for (register, number) in self.registers.maps[map as usize].iter_mut().zip(texel.to_array()) {
+            *register = [number; RUN];
+        }
+    }
+
+    /// Writes an attribute to its registers where it does not vary.
+    fn keep_constant(&mut self, bit: u8) {
+        if self.varies(bit) {
+            return;
+        }
+        let PackedAttributes(numbers) = &self.piece.vertices[0].varying;
+        for (_, range) in Attributes::RANGES.iter().filter(|(own, _)| *own == bit) {
+            for at in range.clone() {
+                self.registers.attributes[at] = [numbers[at]; RUN];
+            }
+        }
+    }
+
+    /// Highlight and fog, over one colour or over those of the fragments.
+    fn finish(&mut self, mut colour: Option<Colour>, lit: Option<u32>) {
+        let (item, plan) = (self.item, self.program.plan);
+        let mut highlight = None;
+        if plan.specular && self.varies(Attributes::NORMAL) {
+            highlight = Some(Stage::Highlight(&item.highlight));
+        } else if plan.specular && self.is_constant(Attributes::NORMAL) {
+            self.counters.highlights += 1;
+            let shine = item.highlight.at(self.first.normal);
+            match (&mut colour, lit) {
+                (Some(colour), Some(lit)) => *colour = brightened(*colour, dimmed(shine, lit)),
+                _ if shine != [0; 3] => highlight = Some(Stage::OneHighlight(shine)),
+                _ => {}
+            }
+        }
+        let fog = (plan.fog != Share::None).then_some(Stage::Fog(&item.veil));
+        for stage in [colour.map(Stage::Fill), highlight, fog].into_iter().flatten() {
+            self.push(stage);
+        }
+    }
+}
+
+impl<'a> Program<'a> {
+    /// The list of a piece, of which `constants` says what all of its fragments have in a part of it.
+    #[inline]
+    pub fn new(
+        item: &'a Prepared<'a>,
+        piece: &Piece,
+        plan: PiecePlan,
+        map: Option<&'a ShadowMap>,
+        constants: &Constants,
+        registers: &mut Registers,
+        counters: &mut Counters,
+    ) -> Self {
+        let first = Surface::from(&piece.vertices[0].varying);
+        let opacity = item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all());
+        let of_all = |opacity: &Opacity| {
+            let varies = plan.interpolates.has(Attributes::UV);
+            (!varies).then(|| constants.opacity.unwrap_or_else(|| opacity.of(first.uv)))
+        };
+        let program = Self {
+            plan,
+            stages: [const { None }; MOST],
+            count: 0,
+            readings: [None; 2],
+            opacity: opacity.map(|opacity| (opacity, of_all(opacity))),
+        };
+        let mut builder = Builder { item, piece, first, constants, registers, counters, program };
+        if plan.fog == Share::Whole && plan.is_one_colour() && opacity.is_none() {
+            builder.push(Stage::Fill(item.veil.colour()));
+            return builder.program;
+        }
+        if plan.reads_around() {
+            builder.readings();
+        }
+        let product = builder.base();
+        let lit = builder.shadow(map);
+        let colour = match item.physical() {
+            Some(surface) => builder.physical(product, surface),
+            None => builder.light(product, lit),
+        };
+        builder.finish(colour, lit);
+        builder.program
+    }
+
+    fn stages(&self) -> impl Iterator<Item = &Stage<'a>> {
+        self.stages[..self.count].iter().flatten()
+    }
+
+    /// The colour of all fragments, where they have one.
+    fn one_colour(&self) -> Option<Colour> {
+        match self.stages[..self.count] {
+            [Some(Stage::Fill(colour))] => Some(colour),
+            _ => None,
+        }
+    }
+
+    /// The texture, where each fragment has texture coordinates of its own.
+    pub fn texture(&self) -> Option<&'a Texture> {
+        self.stages().find_map(|stage| match stage {
+            Stage::Texture { texture, .. } => Some(*texture),
+            _ => None,
+        })
+    }
+
+    /// The same list with this texel in the place of what is read of the texture.
+    pub fn with_texel(&self, factor: DVec3) -> Self {
+        let stages = self.stages.map(|stage| match stage {
+            Some(Stage::Texture { from, .. }) => Some(Stage::Factor { from, factor }),
+            other => other,
+        });
+        Self { stages, ..*self }
+    }
+
+    /// What is interpolated, what a fragment is tested for, and what it is written as, around the stages: to read.
+    pub fn names(&self) -> Vec<String> {
+        let PiecePlan { interpolates, perspective, depth, alpha_test, blending, layers, .. } =
+            self.plan;
+        let mut names = vec!["cover".to_owned()];
+        if depth {
+            names.push("depth test".to_owned());
+        }
+        if !interpolates.is_empty() {
+            let how = if perspective { ", divided by 1/w" } else { "" };
+            names.push(format!("interpolate {interpolates}{how}"));
+        }
+        if self.opacity.is_some() {
+            names.push("opacity".to_owned());
+        }
+        if alpha_test == Drawn::Mixed {
+            names.push("alpha test".to_owned());
+        }
+        names.extend(self.stages().map(|stage| stage.name().to_owned()));
+        names.push(match (blending, layers) {
+            (Drawn::Mixed, true) => "keep as a layer".to_owned(),
+            (Drawn::Mixed, false) => "blend".to_owned(),
+            _ => "write".to_owned(),
+        });
+        names
+    }
+
+    /// The list at work, on these registers.
+    pub fn on<'b>(&'b self, registers: &'b mut Registers) -> Shader<'a, 'b> {
+        Shader { program: self, registers, taps: 0 }
+    }
+
+    fn way(&self) -> Way {
+        let PiecePlan { perspective, depth, layers, .. } = self.plan;
+        let over = match self.opacity {
+            None => Over::Replace,
+            Some(_) if layers => Over::Keep,
+            Some(_) => Over::Mix,
+        };
+        Way { affine: !perspective, depth_test: depth, over }
+    }
+
+    /// Draws a piece: with one copy of the rasterizer's loops for each size of what is interpolated.
+    pub fn draw(&self, engine: &impl Interpolate, piece: &Piece, to: To<'_>) {
+        match (self.one_colour(), self.plan.interpolates.components()) {
+            (Some(colour), _) if self.opacity.is_none() => self.draw_flat(engine, piece, colour, to),
+            (_, 0) => self.draw_sized::<0>(engine, piece, to),
+            (_, ..=2) => self.draw_sized::<2>(engine, piece, to),
+            (_, 3) => self.draw_sized::<3>(engine, piece, to),
+            (_, ..=5) => self.draw_sized::<5>(engine, piece, to),
+            (_, 6) => self.draw_sized::<6>(engine, piece, to),
+            (_, ..=8) => self.draw_sized::<8>(engine, piece, to),
+            _ => self.draw_sized::<PLACED>(engine, piece, to),
+        }
+    }
+
+    fn draw_flat(&self, engine: &impl Interpolate, piece: &Piece, colour: Colour, to: To<'_>) {
+        let To { target, bounds, samples, counters, .. } = to;
+        let shaded = counters.shaded;
+        if let Some(on_demand) = samples {
+            on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
+        } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
+            fill_flat(engine, piece.corners(), target, bounds, colour, counters);
+        } else {
+            let way = Way { affine: true, ..self.way() };
+            fill(engine, &bare(piece), target, bounds, way, &mut each(|_, _| colour), counters);
+        }
+        // A constant is no run of the fragment stage.
+        counters.shaded = shaded;
+    }
+
+    fn draw_sized<const N: usize>(&self, engine: &impl Interpolate, piece: &Piece, to: To<'_>) {
+        let To { target, bounds, samples, registers, counters } = to;
+        let packed = pack::<N>(piece, self.plan.interpolates);
+        let before = (counters.fragments, counters.shaded);
+        let (way, mut shader) = (self.way(), self.on(registers));
+        let visible = match samples {
+            Some(on_demand) => {
+                let piece = (piece, &packed, self.plan);
+                on_demand.draw_varying(engine, piece, target, way, &mut shader, counters)
+            }
+            None => fill(engine, &packed, target, bounds, way, &mut shader, counters),
+        };
+        counters.taps += shader.taps;
+        self.count(counters.fragments - before.0, counters.shaded - before.1, visible, counters);
+    }
+
+    /// Counts what the fragments of a piece have paid for.
+    fn count(&self, fragments: u64, shaded: u64, visible: u64, counters: &mut Counters) {
+        let where_true = |pays: bool, count: u64| if pays { count } else { 0 };
+        let PiecePlan { interpolates, perspective, mip_maps, alpha_test, blending, .. } = self.plan;
+        counters.components += fragments * interpolates.components() as u64;
+        counters.divisions += where_true(perspective, fragments);
+        counters.lights += where_true(interpolates.has(Attributes::NORMAL), shaded);
+        let is_read_around = self.readings.iter().any(Option::is_some);
+        counters.levels += where_true(mip_maps && is_read_around, shaded);
+        counters.alpha_tests += where_true(alpha_test == Drawn::Mixed, visible);
+        counters.blended += where_true(blending == Drawn::Mixed, visible);
+        self.stages().for_each(|stage| stage.count(shaded, counters));
+    }
+
+    /// Reads a texture in one fragment, at a level of detail and several times where the plan pays for it; how often as well.
+    #[inline]
+    fn read(&self, (texture, is_second): TextureRead<'_>, uv: DVec2, depth: f64) -> (DVec3, u8) {
+        match &self.readings[usize::from(is_second)] {
+            None => (texture.at(uv), 1),
+            Some((reading, veil)) => {
+                reading.texel(texture, uv, veil.map_or(1.0, |veil| veil.w(depth)))
+            }
+        }
+    }
+}
+
+/// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
+pub(super) struct To<'a> {
+    pub target: &'a mut Target,
+    pub bounds: PixelRect,
+    pub samples: Option<&'a mut OnDemand>,
+    pub registers: &'a mut Registers,
+    pub counters: &'a mut Counters,
+}
+
+/// A list at work.
+pub(super) struct Shader<'a, 'b> {
+    program: &'b Program<'a>,
+    registers: &'b mut Registers,
+    /// How often textures were read that may be read several times.
+    taps: u64,
+}
+
+impl Shader<'_, '_> {
+    /// The colour of one fragment with all attributes of the plan.
+    pub fn one(&mut self, values: &PackedAttributes<PLACED>, depth: f64) -> Colour {
+        let mut colour = [[0; 4]];
+        let values = std::slice::from_ref(values);
+        self.colours(Lanes { values, depths: &[depth], wanted: 1 }, &mut colour);
+        colour[0]
+    }
+
+    /// One stage of the fragments of a run.
+    fn run(&mut self, stage: &Stage<'_>, depths: &[f64], wanted: u32, colours: &mut [Colour]) {
+        let Self { program, registers, taps } = self;
+        let count = depths.len().min(RUN);
+        match *stage {
+            Stage::Colour { base } => {
+                for i in 0..count {
+                    registers.set_product(i, base * registers.colour(i));
+                }
+            }
+            Stage::Texture { from, texture } => {
+                for i in lanes(wanted) {
+                    let read = program.read((texture, false), registers.uv(false, i), depths[i]);
+                    registers.set_product(i, registers.product(from, i) * read.0);
+                    *taps += if program.plan.anisotropy { u64::from(read.1) } else { 0 };
+                }
+            }
+            Stage::Factor { from, factor } => {
+                for i in 0..count {
+                    registers.set_product(i, registers.product(from, i) * factor);
+                }
+            }
+            Stage::Map(map, read) => {
+                for i in lanes(wanted) {
+                    let (texel, _) = program.read(read, registers.uv(read.1, i), depths[i]);
+                    let [r, g, b] = &mut registers.maps[map as usize];
+                    (r[i], g[i], b[i]) = (texel.x, texel.y, texel.z);
+                }
+            }
+            Stage::Shadow(receiver) => {
+                for i in lanes(wanted) {
+                    registers.lit[i] =
+                        receiver.lit(three(&registers.attributes, Registers::PLACE, i));
+                }
+            }
+            Stage::Light { from, light } => {
+                for i in 0..count {
+                    let intensity = light.intensity(registers.normal(i));
+                    registers.set_product(i, registers.product(from, i) * intensity);
+                }
+            }
+            Stage::PartOfLight { from, light } => {
+                for i in 0..count {
+                    let intensity = light.intensity_in(registers.normal(i), registers.lit[i]);
+                    registers.set_product(i, registers.product(from, i) * intensity);
+                }
+            }
+            Stage::Physical(stage) => {
+                for i in lanes(wanted) {
+                    colours[i] = stage.colour(registers, i);
+                }
+            }
+            Stage::Round => {
+                for i in lanes(wanted) {
+                    colours[i] = to_colour(registers.product(None, i));
+                }
+            }
+            Stage::Fill(colour) => {
+                for i in lanes(wanted) {
+                    colours[i] = colour;
+                }
+            }
+            Stage::Highlight(highlight) => {
+                for i in lanes(wanted) {
+                    let shine = highlight.at(registers.normal(i));
+                    colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
+                }
+            }
+            Stage::OneHighlight(shine) => {
+                for i in lanes(wanted) {
+                    colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
+                }
+            }
+            Stage::Fog(veil) => {
+                for i in lanes(wanted) {
+                    colours[i] = veil.before(colours[i], veil.distance(depths[i]));
+                }
+            }
+        }
+    }
+}
+
+/// The numbers of the fragments whose bits are set.
+fn lanes(mut wanted: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let i = wanted.trailing_zeros() as usize;
+        wanted &= wanted.wrapping_sub(1);
+        (i < RUN).then_some(i)
+    })
+}
+
+impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
+    fn colours(&mut self, run: Lanes<'_, PackedAttributes<N>>, colours: &mut [Colour]) {
+        let program = self.program;
+        self.registers.load(run.values, program.plan.interpolates);
+        for stage in program.stages() {
+            self.run(stage, run.depths, run.wanted, colours);
+        }
+    }
+
+    fn opacities(&mut self, run: Lanes<'_, PackedAttributes<N>>, opacities: &mut [u8]) {
+        let program = self.program;
+        let (opacity, of_all) = match program.opacity {
+            None => (None, Some(OPAQUE)),
+            Some((opacity, of_all)) => (Some(opacity), of_all),
+        };
+        let Some(opacity) = opacity.filter(|_| of_all.is_none()) else {
+            opacities.fill(of_all.unwrap_or(OPAQUE));
+            return;
+        };
+        self.registers.load(run.values, program.plan.interpolates);
+        for i in lanes(run.wanted) {
+            let uv = self.registers.uv(false, i);
+            opacities[i] = match (&program.readings[0], opacity.levels()) {
+                (Some(_), Some(texture)) => {
+                    opacity.of_texel(program.read((texture, false), uv, run.depths[i]).0.x)
+                }
+                _ => opacity.of(uv),
+            };
+        }
+    }
+}
