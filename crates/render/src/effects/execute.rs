@@ -209,7 +209,7 @@ pub(super) fn fit<'a>(
 }
 
 /// What a plan says of each piece, in the order of the items.
-fn plans(
+pub(super) fn plans(
     plan: &Plan,
     scene: &Scene,
     assembled: &Assembled<'_>,

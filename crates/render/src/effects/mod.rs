@@ -3,7 +3,7 @@
 //!
 //! A scene becomes a picture in three steps. `survey` looks at its triangles and finds the facts of each piece, once.
 //! `planner` asks the conditions, which read only these facts, and makes a [`plan::Plan`], which is data. `execute` draws by
-//! it, with kernels without what is left out.
+//! it, by a list of stages for each piece (`stages`), in which what is left out is missing.
 //!
 //! For each [`Effect`] there is a condition that is sufficient to leave it out, known per frame, per
 //! item or per triangle (`conditions` has one file for each). A condition that is merely likely does not count:

@@ -6,7 +6,7 @@ use super::primitive::pack;
 
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
-use super::execute::{Observer, draw, fit};
+use super::execute::{Observer, draw, fit, plans};
 use super::parts::Constants;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
@@ -124,6 +124,49 @@ fn plan_and_draw(
     let word_bits = |corners: &_| engine.word_bits(corners);
     let (plan, assembled) = planner::plan(scene, &canvas, effects, &word_bits)?;
     Ok(draw(plan, assembled, scene, engine, target, observer))
+}
+
+/// How many pieces of an item have the same list of stages.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct StagedPieces {
+    pub item: usize,
+    pub pieces: u64,
+    /// What becomes of a fragment of these pieces, in order.
+    pub stages: Vec<String>,
+}
+
+/// The list of stages of each piece that the plan of a frame makes, in the order of the items.
+///
+/// # Errors
+/// [`PlanError::Scene`].
+pub fn stages(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    canvas: &Canvas,
+) -> Result<Vec<StagedPieces>, PlanError> {
+    let word_bits = |corners: &_| engine.word_bits(corners);
+    let (plan, mut assembled) = planner::plan(scene, canvas, effects, &word_bits)?;
+    if assembled.pieces.is_none() {
+        assembled.assemble(scene);
+        assembled.plans = plans(&plan, scene, &assembled)?;
+    }
+    let (registers, counters) = (&mut Registers::new(), &mut Counters::default());
+    let mut all: Vec<StagedPieces> = Vec::new();
+    for ((index, piece), plan) in assembled.pieces().iter().zip(&assembled.plans) {
+        let item = &assembled.items[*index];
+        let view = item.light_view.as_ref().filter(|_| plan.shadows);
+        let map = view.map(|view| view.map(scene, engine));
+        let constants = Constants::default();
+        let program = Program::new(item, piece, *plan, map, &constants, registers, counters);
+        let stages = program.names();
+        match all.iter_mut().find(|known| known.item == *index && known.stages == stages) {
+            Some(known) => known.pieces += 1,
+            None => all.push(StagedPieces { item: *index, pieces: 1, stages }),
+        }
+    }
+    all.sort_by_key(|known| known.item);
+    Ok(all)
 }
 
 /// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What

@@ -31,10 +31,13 @@ use rasterproof_core::grid::PixelRect;
 /// One number of each fragment of a run.
 type Register = [f64; RUN];
 
+/// Registers for what the fragments of a piece have in common: normal, place in the world and tangent.
+const COMMON: usize = 10;
+
 /// What stages read and write.
 pub(super) struct Registers {
-    /// The numbers of a [`Surface`], in the order in which it is packed.
-    attributes: [Register; PLACED],
+    /// The numbers that are interpolated, as [`pack`] puts them, and from [`PLACED`] on what all fragments have in common.
+    attributes: [Register; PLACED + COMMON],
     /// Base colour, colour of the corners, texel and light, as far as they are multiplied.
     product: [Register; 3],
     /// Of nine, the parts of the light that arrive.
@@ -43,87 +46,66 @@ pub(super) struct Registers {
     maps: [[Register; 3]; Map::ALL.len()],
 }
 
+/// The numbers of three registers in one fragment.
 #[inline]
-fn three(registers: &[Register], at: usize, i: usize) -> DVec3 {
-    DVec3::new(registers[at][i], registers[at + 1][i], registers[at + 2][i])
+fn three(registers: &[Register], i: usize) -> DVec3 {
+    let at = i % RUN;
+    DVec3::new(registers[0][at], registers[1][at], registers[2][at])
+}
+
+#[inline]
+fn put(registers: &mut [Register; 3], i: usize, numbers: DVec3) {
+    let ([r, g, b], at) = (registers, i % RUN);
+    (r[at], g[at], b[at]) = (numbers.x, numbers.y, numbers.z);
 }
 
 impl Registers {
     pub fn new() -> Self {
-        let (attributes, maps) = ([[0.0; RUN]; PLACED], [[[0.0; RUN]; 3]; Map::ALL.len()]);
-        Self { attributes, product: [[0.0; RUN]; 3], lit: [TAPS; RUN], maps }
+        let (number, map) = ([0.0; RUN], [[0.0; RUN]; 3]);
+        let maps = [map; Map::ALL.len()];
+        Self { attributes: [number; PLACED + COMMON], product: map, lit: [TAPS; RUN], maps }
     }
 
-    /// Takes what was interpolated to the places of its attributes.
+    /// Takes what was interpolated.
     #[inline]
-    fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>], interpolates: Attributes) {
-        let places = &interpolates.places()[..interpolates.components().min(N)];
-        for (number, place) in places.iter().enumerate() {
-            let register = &mut self.attributes[usize::from(*place)];
-            for (to, PackedAttributes(from)) in register.iter_mut().zip(values) {
-                *to = from[number];
+    fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>]) {
+        for (i, PackedAttributes(numbers)) in values.iter().take(RUN).enumerate() {
+            for number in 0..N.min(PLACED) {
+                self.attributes[number][i] = numbers[number];
             }
         }
     }
 
     #[inline]
-    fn colour(&self, i: usize) -> DVec3 {
-        three(&self.attributes, Self::COLOUR, i)
+    fn uv(&self, uv: usize, i: usize) -> DVec2 {
+        let at = i % RUN;
+        DVec2::new(self.attributes[uv][at], self.attributes[uv + 1][at])
     }
-
-    #[inline]
-    fn normal(&self, i: usize) -> DVec3 {
-        three(&self.attributes, Self::NORMAL, i)
-    }
-
-    #[inline]
-    fn uv(&self, is_second: bool, i: usize) -> DVec2 {
-        let at = if is_second { Self::SECOND_UV } else { Self::UV };
-        DVec2::new(self.attributes[at][i], self.attributes[at + 1][i])
-    }
-
-    #[inline]
-    fn tangent(&self, i: usize) -> DVec4 {
-        three(&self.attributes, Self::TANGENT, i).extend(self.attributes[Self::TANGENT + 3][i])
-    }
-
-    const COLOUR: usize = Attributes::RANGES[0].1.start;
-    const NORMAL: usize = Attributes::RANGES[1].1.start;
-    const UV: usize = Attributes::RANGES[2].1.start;
-    const PLACE: usize = Attributes::RANGES[3].1.start;
-    const WORLD: usize = Attributes::RANGES[4].1.start;
-    const TANGENT: usize = Attributes::RANGES[5].1.start;
-    const SECOND_UV: usize = Attributes::RANGES[6].1.start;
 
     #[inline]
     fn product(&self, from: Option<DVec3>, i: usize) -> DVec3 {
-        from.unwrap_or_else(|| three(&self.product, 0, i))
-    }
-
-    #[inline]
-    fn set_product(&mut self, i: usize, product: DVec3) {
-        let [r, g, b] = &mut self.product;
-        (r[i], g[i], b[i]) = (product.x, product.y, product.z);
+        from.unwrap_or_else(|| three(&self.product, i))
     }
 }
 
-/// One step of the fragments of a piece. `from` is the product so far where all fragments have the same; else it is read.
+/// One step of the fragments of a piece. `from` is the product so far where all fragments have the same; else it is read. A number
+/// says from which register on an attribute is read.
 #[derive(Clone, Copy)]
 enum Stage<'a> {
     /// The product begins with the colour of the material times that of the corners.
     Colour { base: DVec3 },
     /// The product is multiplied by what is read of the texture.
-    Texture { from: Option<DVec3>, texture: &'a Texture },
+    Texture { from: Option<DVec3>, texture: &'a Texture, uv: usize },
     /// The product is multiplied by what all fragments have.
     Factor { from: Option<DVec3>, factor: DVec3 },
     /// A map of a physical surface is read.
-    Map(Map, TextureRead<'a>),
+    Map { map: Map, read: TextureRead<'a>, uv: usize },
     /// It is looked up which part of the light arrives.
-    Shadow(Receiver<'a>),
-    /// The product is multiplied by the light.
-    Light { from: Option<DVec3>, light: &'a Light },
+    Shadow { receiver: Receiver<'a>, place: usize },
+    /// The product is multiplied by the light, and becomes a colour of 8 bits.
+    Light { from: Option<DVec3>, light: &'a Light, normal: usize },
     /// The same with the part of the light that arrives.
-    PartOfLight { from: Option<DVec3>, light: &'a Light },
+    PartOfLight { from: Option<DVec3>, light: &'a Light, normal: usize },
     /// The colour of a physical surface, of 8 bits.
     Physical(PhysicalStage<'a>),
     /// The product becomes a colour of 8 bits.
@@ -131,7 +113,7 @@ enum Stage<'a> {
     /// All fragments have one colour.
     Fill(Colour),
     /// As much of the highlight is added as arrives of the light.
-    Highlight(&'a Highlight),
+    Highlight { highlight: &'a Highlight, normal: usize },
     /// The same of a highlight that does not vary.
     OneHighlight([u8; 3]),
     /// The colour is mixed with fog.
@@ -146,17 +128,21 @@ struct PhysicalStage<'a> {
     parts: physical::Parts,
     lights: Lights<'a>,
     eye: &'a DVec4,
+    normal: usize,
+    world: usize,
+    tangent: usize,
 }
 
 impl PhysicalStage<'_> {
     fn colour(&self, registers: &Registers, i: usize) -> Colour {
-        let place = three(&registers.attributes, Registers::WORLD, i);
+        let attributes = &registers.attributes;
+        let (place, tangent) = (three(&attributes[self.world..], i), &attributes[self.tangent..]);
         let point = Point {
             base: registers.product(self.from, i),
-            normal: registers.normal(i),
-            tangent: registers.tangent(i),
+            normal: three(&attributes[self.normal..], i),
+            tangent: three(tangent, i).extend(tangent[3][i]),
             to_eye: self.eye.truncate() - place * self.eye.w,
-            texels: [0, 1, 2, 3].map_array(|map: usize| three(&registers.maps[map], 0, i)),
+            texels: [0, 1, 2, 3].map_array(|map: usize| three(&registers.maps[map], i)),
             lit: f64::from(registers.lit[i]) / f64::from(TAPS),
             place,
         };
@@ -181,17 +167,17 @@ impl Stage<'_> {
             Self::Colour { .. } => "colour of the corners",
             Self::Texture { .. } => "x texture",
             Self::Factor { .. } => "x constant",
-            Self::Map(Map::Emission, _) => "emission map",
-            Self::Map(Map::Metal, _) => "map of metal and roughness",
-            Self::Map(Map::Occlusion, _) => "occlusion map",
-            Self::Map(Map::Normal, _) => "normal map",
-            Self::Shadow(_) => "shadow",
-            Self::Light { .. } => "x light",
-            Self::PartOfLight { .. } => "x light that arrives",
+            Self::Map { map: Map::Emission, .. } => "emission map",
+            Self::Map { map: Map::Metal, .. } => "map of metal and roughness",
+            Self::Map { map: Map::Occlusion, .. } => "occlusion map",
+            Self::Map { map: Map::Normal, .. } => "normal map",
+            Self::Shadow { .. } => "shadow",
+            Self::Light { .. } => "x light, rounded to 8 bits",
+            Self::PartOfLight { .. } => "x light that arrives, rounded to 8 bits",
             Self::Physical(_) => "metal and roughness",
-            Self::Round => "round to 8 bits",
+            Self::Round => "rounded to 8 bits",
             Self::Fill(_) => "one colour",
-            Self::Highlight(_) => "+ highlight",
+            Self::Highlight { .. } => "+ highlight",
             Self::OneHighlight(_) => "+ constant highlight",
             Self::Fog(_) => "fog",
         }
@@ -200,10 +186,10 @@ impl Stage<'_> {
     /// Counts what so many fragments have paid for.
     fn count(&self, shaded: u64, counters: &mut Counters) {
         match self {
-            Self::Texture { .. } | Self::Map(..) => counters.texels += shaded,
-            Self::Shadow(_) => counters.shadowed += shaded,
+            Self::Texture { .. } | Self::Map { .. } => counters.texels += shaded,
+            Self::Shadow { .. } => counters.shadowed += shaded,
             Self::Physical(stage) => stage.count(shaded, counters),
-            Self::Highlight(_) => counters.highlights += shaded,
+            Self::Highlight { .. } => counters.highlights += shaded,
             Self::Fog(_) => counters.fogged += shaded,
             Self::Colour { .. }
             | Self::Factor { .. }
@@ -256,6 +242,24 @@ impl<'a> Builder<'a, '_> {
         self.program.plan.interpolates.has(bit)
     }
 
+    /// From which register on an attribute is read. One that does not vary is written there.
+    fn register(&mut self, bit: u8) -> usize {
+        if self.varies(bit) {
+            return self.program.plan.interpolates.both(Attributes(bit - 1)).components();
+        }
+        let first = match bit {
+            Attributes::NORMAL => PLACED,
+            Attributes::WORLD => PLACED + 3,
+            _ => PLACED + 6,
+        };
+        let PackedAttributes(numbers) = &self.piece.vertices[0].varying;
+        let numbers = &numbers[Attributes::range(bit)];
+        for (register, number) in self.registers.attributes[first..].iter_mut().zip(numbers) {
+            *register = [*number; RUN];
+        }
+        first
+    }
+
     /// Whether it has an attribute, and all fragments the same.
     fn is_constant(&self, bit: u8) -> bool {
         self.item.carries.has(bit) && !self.varies(bit)
@@ -291,7 +295,8 @@ impl<'a> Builder<'a, '_> {
         }
         let Some(texture) = self.item.texture else { return product };
         if self.varies(Attributes::UV) {
-            self.push(Stage::Texture { from: product, texture });
+            let uv = self.register(Attributes::UV);
+            self.push(Stage::Texture { from: product, texture, uv });
             return None;
         }
         self.counters.texels += 1;
@@ -312,7 +317,8 @@ impl<'a> Builder<'a, '_> {
         if let (Some(view), Some(map)) = (&self.item.light_view, map) {
             let receiver = view.receiver(map, surfaces(self.piece).map_array(|of| of.place));
             if self.varies(Attributes::PLACE) {
-                self.push(Stage::Shadow(receiver));
+                let place = self.register(Attributes::PLACE);
+                self.push(Stage::Shadow { receiver, place });
                 return None;
             }
             self.counters.shadowed += 1;
@@ -325,20 +331,24 @@ impl<'a> Builder<'a, '_> {
     /// The light of a surface that is not physical; its colour where all fragments have the same.
     fn light(&mut self, from: Option<DVec3>, lit: Option<u32>) -> Option<Colour> {
         let light = &self.item.light;
-        let mut product = None;
-        match (self.varies(Attributes::NORMAL), lit) {
-            (true, Some(TAPS)) => self.push(Stage::Light { from, light }),
+        let product = match (self.varies(Attributes::NORMAL), lit) {
+            (true, Some(TAPS)) => {
+                let normal = self.register(Attributes::NORMAL);
+                self.push(Stage::Light { from, light, normal });
+                return None;
+            }
             (true, _) | (false, None) => {
-                self.keep_constant(Attributes::NORMAL);
-                self.push(Stage::PartOfLight { from, light });
+                let normal = self.register(Attributes::NORMAL);
+                self.push(Stage::PartOfLight { from, light, normal });
+                return None;
             }
             (false, Some(lit)) if self.item.carries.has(Attributes::NORMAL) => {
                 self.counters.lights += 1;
                 let intensity = light.intensity_in(self.first.normal, lit);
-                product = self.multiply(from, DVec3::splat(intensity));
+                self.multiply(from, DVec3::splat(intensity))
             }
-            (false, Some(_)) => product = from,
-        }
+            (false, Some(_)) => from,
+        };
         if product.is_none() {
             self.push(Stage::Round);
         }
@@ -352,14 +362,14 @@ impl<'a> Builder<'a, '_> {
         let parts = physical::Parts { emission, reflection, occlusion, bumps };
         let punctual = if plan.punctual { self.item.punctual } else { &[] };
         let lights = Lights { main: &self.item.light, punctual };
-        let stage = PhysicalStage { from, surface, parts, lights, eye: &self.item.eye };
+        let attributes = [Attributes::NORMAL, Attributes::WORLD, Attributes::TANGENT];
+        let [normal, world, tangent] = attributes.map(|bit| self.register(bit));
+        let eye = &self.item.eye;
+        let stage = PhysicalStage { from, surface, parts, lights, eye, normal, world, tangent };
         for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
             if is_read {
                 self.map(map, surface);
             }
-        }
-        for bit in [Attributes::NORMAL, Attributes::WORLD, Attributes::TANGENT] {
-            self.keep_constant(bit);
         }
         self.counters.lights += u64::from(self.is_constant(Attributes::NORMAL));
         if plan.interpolates.is_empty() {
@@ -376,7 +386,8 @@ impl<'a> Builder<'a, '_> {
         if let Some((texture, is_second)) = surface.sampled(map) {
             let bit = Attributes::uv(is_second);
             if self.varies(bit) {
-                self.push(Stage::Map(map, (texture, is_second)));
+                let (read, uv) = ((texture, is_second), self.register(bit));
+                self.push(Stage::Map { map, read, uv });
                 return;
             }
             if self.is_constant(bit) {
@@ -384,21 +395,9 @@ impl<'a> Builder<'a, '_> {
                 texel = texture.at(self.first.uv_of(is_second));
             }
         }
-        for (register, number) in self.registers.maps[map as usize].iter_mut().zip(texel.to_array()) {
+        for (register, number) in self.registers.maps[map as usize].iter_mut().zip(texel.to_array())
+        {
             *register = [number; RUN];
-        }
-    }
-
-    /// Writes an attribute to its registers where it does not vary.
-    fn keep_constant(&mut self, bit: u8) {
-        if self.varies(bit) {
-            return;
-        }
-        let PackedAttributes(numbers) = &self.piece.vertices[0].varying;
-        for (_, range) in Attributes::RANGES.iter().filter(|(own, _)| *own == bit) {
-            for at in range.clone() {
-                self.registers.attributes[at] = [numbers[at]; RUN];
-            }
         }
     }
 
@@ -407,7 +406,8 @@ impl<'a> Builder<'a, '_> {
         let (item, plan) = (self.item, self.program.plan);
         let mut highlight = None;
         if plan.specular && self.varies(Attributes::NORMAL) {
-            highlight = Some(Stage::Highlight(&item.highlight));
+            let normal = self.register(Attributes::NORMAL);
+            highlight = Some(Stage::Highlight { highlight: &item.highlight, normal });
         } else if plan.specular && self.is_constant(Attributes::NORMAL) {
             self.counters.highlights += 1;
             let shine = item.highlight.at(self.first.normal);
@@ -500,6 +500,9 @@ impl<'a> Program<'a> {
     pub fn names(&self) -> Vec<String> {
         let PiecePlan { interpolates, perspective, depth, alpha_test, blending, layers, .. } =
             self.plan;
+        if self.plan.is_nothing() {
+            return vec!["nothing".to_owned()];
+        }
         let mut names = vec!["cover".to_owned()];
         if depth {
             names.push("depth test".to_owned());
@@ -541,7 +544,9 @@ impl<'a> Program<'a> {
     /// Draws a piece: with one copy of the rasterizer's loops for each size of what is interpolated.
     pub fn draw(&self, engine: &impl Interpolate, piece: &Piece, to: To<'_>) {
         match (self.one_colour(), self.plan.interpolates.components()) {
-            (Some(colour), _) if self.opacity.is_none() => self.draw_flat(engine, piece, colour, to),
+            (Some(colour), _) if self.opacity.is_none() => {
+                self.draw_flat(engine, piece, colour, to)
+            }
             (_, 0) => self.draw_sized::<0>(engine, piece, to),
             (_, ..=2) => self.draw_sized::<2>(engine, piece, to),
             (_, 3) => self.draw_sized::<3>(engine, piece, to),
@@ -596,17 +601,17 @@ impl<'a> Program<'a> {
         counters.blended += where_true(blending == Drawn::Mixed, visible);
         self.stages().for_each(|stage| stage.count(shaded, counters));
     }
+}
 
-    /// Reads a texture in one fragment, at a level of detail and several times where the plan pays for it; how often as well.
-    #[inline]
-    fn read(&self, (texture, is_second): TextureRead<'_>, uv: DVec2, depth: f64) -> (DVec3, u8) {
-        match &self.readings[usize::from(is_second)] {
-            None => (texture.at(uv), 1),
-            Some((reading, veil)) => {
-                reading.texel(texture, uv, veil.map_or(1.0, |veil| veil.w(depth)))
-            }
-        }
-    }
+/// What a fragment reads at a level of detail or several times, and how often.
+fn read_around(how: &HowRead<'_>, texture: &Texture, uv: DVec2, depth: f64) -> (DVec3, u8) {
+    let (reading, veil) = how;
+    reading.texel(texture, uv, veil.map_or(1.0, |veil| veil.w(depth)))
+}
+
+/// What a fragment reads of a texture.
+fn read(how: Option<&HowRead<'_>>, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
+    how.map_or_else(|| texture.at(uv), |how| read_around(how, texture, uv, depth).0)
 }
 
 /// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
@@ -635,82 +640,100 @@ impl Shader<'_, '_> {
         colour[0]
     }
 
-    /// One stage of the fragments of a run.
-    fn run(&mut self, stage: &Stage<'_>, depths: &[f64], wanted: u32, colours: &mut [Colour]) {
+    /// All stages of the fragments of a run whose attributes are there.
+    #[inline(never)]
+    fn run(&mut self, depths: &[f64], wanted: u32, colours: &mut [Colour]) {
         let Self { program, registers, taps } = self;
-        let count = depths.len().min(RUN);
-        match *stage {
-            Stage::Colour { base } => {
-                for i in 0..count {
-                    registers.set_product(i, base * registers.colour(i));
+        for stage in program.stages() {
+            match *stage {
+                Stage::Colour { base } => {
+                    // Colours are the first of all attributes.
+                    for i in lanes(wanted) {
+                        let product = base * three(&registers.attributes, i);
+                        put(&mut registers.product, i, product);
+                    }
                 }
-            }
-            Stage::Texture { from, texture } => {
-                for i in lanes(wanted) {
-                    let read = program.read((texture, false), registers.uv(false, i), depths[i]);
-                    registers.set_product(i, registers.product(from, i) * read.0);
-                    *taps += if program.plan.anisotropy { u64::from(read.1) } else { 0 };
+                Stage::Texture { from, texture, uv } => match &program.readings[0] {
+                    None => {
+                        for i in lanes(wanted) {
+                            let texel = texture.at(registers.uv(uv, i));
+                            let product = registers.product(from, i) * texel;
+                            put(&mut registers.product, i, product);
+                        }
+                    }
+                    Some(reading) => {
+                        for i in lanes(wanted) {
+                            let uv = registers.uv(uv, i);
+                            let (texel, read) = read_around(reading, texture, uv, depths[i]);
+                            let product = registers.product(from, i) * texel;
+                            put(&mut registers.product, i, product);
+                            *taps += if program.plan.anisotropy { u64::from(read) } else { 0 };
+                        }
+                    }
+                },
+                Stage::Factor { from, factor } => {
+                    for i in lanes(wanted) {
+                        let product = registers.product(from, i) * factor;
+                        put(&mut registers.product, i, product);
+                    }
                 }
-            }
-            Stage::Factor { from, factor } => {
-                for i in 0..count {
-                    registers.set_product(i, registers.product(from, i) * factor);
+                Stage::Map { map, read: (texture, is_second), uv } => {
+                    let reading = &program.readings[usize::from(is_second)];
+                    for i in lanes(wanted) {
+                        let texel = read(reading.as_ref(), texture, registers.uv(uv, i), depths[i]);
+                        put(&mut registers.maps[map as usize], i, texel);
+                    }
                 }
-            }
-            Stage::Map(map, read) => {
-                for i in lanes(wanted) {
-                    let (texel, _) = program.read(read, registers.uv(read.1, i), depths[i]);
-                    let [r, g, b] = &mut registers.maps[map as usize];
-                    (r[i], g[i], b[i]) = (texel.x, texel.y, texel.z);
+                Stage::Shadow { receiver, place } => {
+                    for i in lanes(wanted) {
+                        registers.lit[i] = receiver.lit(three(&registers.attributes[place..], i));
+                    }
                 }
-            }
-            Stage::Shadow(receiver) => {
-                for i in lanes(wanted) {
-                    registers.lit[i] =
-                        receiver.lit(three(&registers.attributes, Registers::PLACE, i));
+                Stage::Light { from, light, normal } => {
+                    for i in lanes(wanted) {
+                        let intensity = light.intensity(three(&registers.attributes[normal..], i));
+                        colours[i] = to_colour(registers.product(from, i) * intensity);
+                    }
                 }
-            }
-            Stage::Light { from, light } => {
-                for i in 0..count {
-                    let intensity = light.intensity(registers.normal(i));
-                    registers.set_product(i, registers.product(from, i) * intensity);
+                Stage::PartOfLight { from, light, normal } => {
+                    for i in lanes(wanted) {
+                        let normal = three(&registers.attributes[normal..], i);
+                        let intensity = light.intensity_in(normal, registers.lit[i]);
+                        colours[i] = to_colour(registers.product(from, i) * intensity);
+                    }
                 }
-            }
-            Stage::PartOfLight { from, light } => {
-                for i in 0..count {
-                    let intensity = light.intensity_in(registers.normal(i), registers.lit[i]);
-                    registers.set_product(i, registers.product(from, i) * intensity);
+                Stage::Physical(stage) => {
+                    for i in lanes(wanted) {
+                        colours[i] = stage.colour(registers, i);
+                    }
                 }
-            }
-            Stage::Physical(stage) => {
-                for i in lanes(wanted) {
-                    colours[i] = stage.colour(registers, i);
+                Stage::Round => {
+                    for i in lanes(wanted) {
+                        colours[i] = to_colour(registers.product(None, i));
+                    }
                 }
-            }
-            Stage::Round => {
-                for i in lanes(wanted) {
-                    colours[i] = to_colour(registers.product(None, i));
+                Stage::Fill(colour) => {
+                    for i in lanes(wanted) {
+                        colours[i] = colour;
+                    }
                 }
-            }
-            Stage::Fill(colour) => {
-                for i in lanes(wanted) {
-                    colours[i] = colour;
+                Stage::Highlight { highlight, normal } => {
+                    for i in lanes(wanted) {
+                        let shine = highlight.at(three(&registers.attributes[normal..], i));
+                        if shine != [0; 3] {
+                            colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
+                        }
+                    }
                 }
-            }
-            Stage::Highlight(highlight) => {
-                for i in lanes(wanted) {
-                    let shine = highlight.at(registers.normal(i));
-                    colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
+                Stage::OneHighlight(shine) => {
+                    for i in lanes(wanted) {
+                        colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
+                    }
                 }
-            }
-            Stage::OneHighlight(shine) => {
-                for i in lanes(wanted) {
-                    colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
-                }
-            }
-            Stage::Fog(veil) => {
-                for i in lanes(wanted) {
-                    colours[i] = veil.before(colours[i], veil.distance(depths[i]));
+                Stage::Fog(veil) => {
+                    for i in lanes(wanted) {
+                        colours[i] = veil.before(colours[i], veil.distance(depths[i]));
+                    }
                 }
             }
         }
@@ -728,11 +751,8 @@ fn lanes(mut wanted: u32) -> impl Iterator<Item = usize> {
 
 impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
     fn colours(&mut self, run: Lanes<'_, PackedAttributes<N>>, colours: &mut [Colour]) {
-        let program = self.program;
-        self.registers.load(run.values, program.plan.interpolates);
-        for stage in program.stages() {
-            self.run(stage, run.depths, run.wanted, colours);
-        }
+        self.registers.load(run.values);
+        self.run(run.depths, run.wanted, colours);
     }
 
     fn opacities(&mut self, run: Lanes<'_, PackedAttributes<N>>, opacities: &mut [u8]) {
@@ -745,12 +765,13 @@ impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
             opacities.fill(of_all.unwrap_or(OPAQUE));
             return;
         };
-        self.registers.load(run.values, program.plan.interpolates);
+        self.registers.load(run.values);
+        let uv = program.plan.interpolates.both(Attributes(Attributes::UV - 1)).components();
         for i in lanes(run.wanted) {
-            let uv = self.registers.uv(false, i);
+            let uv = self.registers.uv(uv, i);
             opacities[i] = match (&program.readings[0], opacity.levels()) {
-                (Some(_), Some(texture)) => {
-                    opacity.of_texel(program.read((texture, false), uv, run.depths[i]).0.x)
+                (Some(how), Some(texture)) => {
+                    opacity.of_texel(read_around(how, texture, uv, run.depths[i]).0.x)
                 }
                 _ => opacity.of(uv),
             };
