@@ -31,39 +31,33 @@ use rasterproof_core::grid::PixelRect;
 /// One number of each fragment of a run.
 type Register = [f64; RUN];
 
-/// Registers for what the fragments of a piece have in common: normal, place in the world and tangent.
-const COMMON: usize = 10;
+/// The first registers of what stages read and write. Before them are the numbers that are interpolated, as [`pack`] puts them.
+mod first {
+    use super::{Map, PLACED};
+
+    /// Attributes that all fragments have in common.
+    pub const NORMAL: usize = PLACED;
+    pub const WORLD: usize = NORMAL + 3;
+    pub const TANGENT: usize = WORLD + 3;
+    /// The product as far as all fragments have it in common.
+    pub const BASE: usize = TANGENT + 4;
+    /// Base colour, colour of the corners, texel and light, as far as they are multiplied.
+    pub const PRODUCT: usize = BASE + 3;
+    /// What is read of each map of a physical surface.
+    pub const MAPS: usize = PRODUCT + 3;
+    pub const END: usize = MAPS + 3 * Map::ALL.len();
+}
 
 /// What stages read and write.
 pub(super) struct Registers {
-    /// The numbers that are interpolated, as [`pack`] puts them, and from [`PLACED`] on what all fragments have in common.
-    attributes: [Register; PLACED + COMMON],
-    /// Base colour, colour of the corners, texel and light, as far as they are multiplied.
-    product: [Register; 3],
+    numbers: [Register; first::END],
     /// Of nine, the parts of the light that arrive.
     lit: [u32; RUN],
-    /// What is read of the maps of a physical surface.
-    maps: [[Register; 3]; Map::ALL.len()],
-}
-
-/// The numbers of three registers in one fragment.
-#[inline]
-fn three(registers: &[Register], i: usize) -> DVec3 {
-    let at = i % RUN;
-    DVec3::new(registers[0][at], registers[1][at], registers[2][at])
-}
-
-#[inline]
-fn put(registers: &mut [Register; 3], i: usize, numbers: DVec3) {
-    let ([r, g, b], at) = (registers, i % RUN);
-    (r[at], g[at], b[at]) = (numbers.x, numbers.y, numbers.z);
 }
 
 impl Registers {
     pub fn new() -> Self {
-        let (number, map) = ([0.0; RUN], [[0.0; RUN]; 3]);
-        let maps = [map; Map::ALL.len()];
-        Self { attributes: [number; PLACED + COMMON], product: map, lit: [TAPS; RUN], maps }
+        Self { numbers: [[0.0; RUN]; first::END], lit: [TAPS; RUN] }
     }
 
     /// Takes what was interpolated.
@@ -71,41 +65,59 @@ impl Registers {
     fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>]) {
         for (i, PackedAttributes(numbers)) in values.iter().take(RUN).enumerate() {
             for number in 0..N.min(PLACED) {
-                self.attributes[number][i] = numbers[number];
+                self.numbers[number][i] = numbers[number];
             }
         }
     }
 
+    /// Writes to registers from this one on what all fragments have in common.
+    fn set_all(&mut self, at: usize, numbers: &[f64]) {
+        for (register, number) in self.numbers[at..].iter_mut().zip(numbers) {
+            *register = [*number; RUN];
+        }
+    }
+
+    /// The numbers of one fragment in `N` registers from this one on.
     #[inline]
-    fn uv(&self, uv: usize, i: usize) -> DVec2 {
-        let at = i % RUN;
-        DVec2::new(self.attributes[uv][at], self.attributes[uv + 1][at])
+    fn of<const N: usize>(&self, at: usize, i: usize) -> [f64; N] {
+        let registers = &self.numbers[at..at + N];
+        std::array::from_fn(|number| registers[number][i])
     }
 
     #[inline]
-    fn product(&self, from: Option<DVec3>, i: usize) -> DVec3 {
-        from.unwrap_or_else(|| three(&self.product, i))
+    fn three(&self, at: usize, i: usize) -> DVec3 {
+        self.of::<3>(at, i).into()
+    }
+
+    #[inline]
+    fn uv(&self, at: usize, i: usize) -> DVec2 {
+        self.of::<2>(at, i).into()
+    }
+
+    #[inline]
+    fn put(&mut self, at: usize, i: usize, numbers: DVec3) {
+        let registers = &mut self.numbers[at..at + 3];
+        (registers[0][i], registers[1][i], registers[2][i]) = (numbers.x, numbers.y, numbers.z);
     }
 }
 
-/// One step of the fragments of a piece. `from` is the product so far where all fragments have the same; else it is read. A number
-/// says from which register on an attribute is read.
+/// One step of the fragments of a piece. Numbers say which registers it reads, `from` where the product so far is.
 #[derive(Clone, Copy)]
 enum Stage<'a> {
     /// The product begins with the colour of the material times that of the corners.
     Colour { base: DVec3 },
     /// The product is multiplied by what is read of the texture.
-    Texture { from: Option<DVec3>, texture: &'a Texture, uv: usize },
+    Texture { from: usize, texture: &'a Texture, uv: usize },
     /// The product is multiplied by what all fragments have.
-    Factor { from: Option<DVec3>, factor: DVec3 },
+    Factor { from: usize, factor: DVec3 },
     /// A map of a physical surface is read.
     Map { map: Map, read: TextureRead<'a>, uv: usize },
     /// It is looked up which part of the light arrives.
     Shadow { receiver: Receiver<'a>, place: usize },
     /// The product is multiplied by the light, and becomes a colour of 8 bits.
-    Light { from: Option<DVec3>, light: &'a Light, normal: usize },
+    Light { from: usize, light: &'a Light, normal: usize },
     /// The same with the part of the light that arrives.
-    PartOfLight { from: Option<DVec3>, light: &'a Light, normal: usize },
+    PartOfLight { from: usize, light: &'a Light, normal: usize },
     /// The colour of a physical surface, of 8 bits.
     Physical(PhysicalStage<'a>),
     /// The product becomes a colour of 8 bits.
@@ -123,7 +135,7 @@ enum Stage<'a> {
 /// What a physical surface has beside what registers hold.
 #[derive(Clone, Copy)]
 struct PhysicalStage<'a> {
-    from: Option<DVec3>,
+    from: usize,
     surface: &'a Physical,
     parts: physical::Parts,
     lights: Lights<'a>,
@@ -135,14 +147,14 @@ struct PhysicalStage<'a> {
 
 impl PhysicalStage<'_> {
     fn colour(&self, registers: &Registers, i: usize) -> Colour {
-        let attributes = &registers.attributes;
-        let (place, tangent) = (three(&attributes[self.world..], i), &attributes[self.tangent..]);
+        let place = registers.three(self.world, i);
+        let maps: [usize; Map::ALL.len()] = [0, 1, 2, 3];
         let point = Point {
-            base: registers.product(self.from, i),
-            normal: three(&attributes[self.normal..], i),
-            tangent: three(tangent, i).extend(tangent[3][i]),
+            base: registers.three(self.from, i),
+            normal: registers.three(self.normal, i),
+            tangent: registers.of::<4>(self.tangent, i).into(),
             to_eye: self.eye.truncate() - place * self.eye.w,
-            texels: [0, 1, 2, 3].map_array(|map: usize| three(&registers.maps[map], i)),
+            texels: maps.map_array(|map| registers.three(first::MAPS + 3 * map, i)),
             lit: f64::from(registers.lit[i]) / f64::from(TAPS),
             place,
         };
@@ -247,17 +259,21 @@ impl<'a> Builder<'a, '_> {
         if self.varies(bit) {
             return self.program.plan.interpolates.both(Attributes(bit - 1)).components();
         }
-        let first = match bit {
-            Attributes::NORMAL => PLACED,
-            Attributes::WORLD => PLACED + 3,
-            _ => PLACED + 6,
+        let at = match bit {
+            Attributes::NORMAL => first::NORMAL,
+            Attributes::WORLD => first::WORLD,
+            _ => first::TANGENT,
         };
         let PackedAttributes(numbers) = &self.piece.vertices[0].varying;
-        let numbers = &numbers[Attributes::range(bit)];
-        for (register, number) in self.registers.attributes[first..].iter_mut().zip(numbers) {
-            *register = [*number; RUN];
-        }
-        first
+        self.registers.set_all(at, &numbers[Attributes::range(bit)]);
+        at
+    }
+
+    /// Where a stage finds the product so far, which all fragments have in common or have not.
+    fn product(&mut self, common: Option<DVec3>) -> usize {
+        let Some(product) = common else { return first::PRODUCT };
+        self.registers.set_all(first::BASE, &product.to_array());
+        first::BASE
     }
 
     /// Whether it has an attribute, and all fragments the same.
@@ -295,8 +311,8 @@ impl<'a> Builder<'a, '_> {
         }
         let Some(texture) = self.item.texture else { return product };
         if self.varies(Attributes::UV) {
-            let uv = self.register(Attributes::UV);
-            self.push(Stage::Texture { from: product, texture, uv });
+            let (from, uv) = (self.product(product), self.register(Attributes::UV));
+            self.push(Stage::Texture { from, texture, uv });
             return None;
         }
         self.counters.texels += 1;
@@ -306,7 +322,7 @@ impl<'a> Builder<'a, '_> {
     /// Multiplies the product so far by what all fragments have.
     fn multiply(&mut self, product: Option<DVec3>, factor: DVec3) -> Option<DVec3> {
         if product.is_none() && factor != DVec3::ONE {
-            self.push(Stage::Factor { from: None, factor });
+            self.push(Stage::Factor { from: first::PRODUCT, factor });
         }
         product.map(|product| product * factor)
     }
@@ -329,25 +345,25 @@ impl<'a> Builder<'a, '_> {
     }
 
     /// The light of a surface that is not physical; its colour where all fragments have the same.
-    fn light(&mut self, from: Option<DVec3>, lit: Option<u32>) -> Option<Colour> {
+    fn light(&mut self, product: Option<DVec3>, lit: Option<u32>) -> Option<Colour> {
         let light = &self.item.light;
         let product = match (self.varies(Attributes::NORMAL), lit) {
             (true, Some(TAPS)) => {
-                let normal = self.register(Attributes::NORMAL);
+                let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
                 self.push(Stage::Light { from, light, normal });
                 return None;
             }
             (true, _) | (false, None) => {
-                let normal = self.register(Attributes::NORMAL);
+                let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
                 self.push(Stage::PartOfLight { from, light, normal });
                 return None;
             }
             (false, Some(lit)) if self.item.carries.has(Attributes::NORMAL) => {
                 self.counters.lights += 1;
                 let intensity = light.intensity_in(self.first.normal, lit);
-                self.multiply(from, DVec3::splat(intensity))
+                self.multiply(product, DVec3::splat(intensity))
             }
-            (false, Some(_)) => from,
+            (false, Some(_)) => product,
         };
         if product.is_none() {
             self.push(Stage::Round);
@@ -356,7 +372,7 @@ impl<'a> Builder<'a, '_> {
     }
 
     /// A physical surface in its light; its colour where all fragments have the same.
-    fn physical(&mut self, from: Option<DVec3>, surface: &'a Physical) -> Option<Colour> {
+    fn physical(&mut self, product: Option<DVec3>, surface: &'a Physical) -> Option<Colour> {
         let plan = self.program.plan;
         let PiecePlan { emission, reflection, occlusion, normal_maps: bumps, .. } = plan;
         let parts = physical::Parts { emission, reflection, occlusion, bumps };
@@ -365,6 +381,7 @@ impl<'a> Builder<'a, '_> {
         let attributes = [Attributes::NORMAL, Attributes::WORLD, Attributes::TANGENT];
         let [normal, world, tangent] = attributes.map(|bit| self.register(bit));
         let eye = &self.item.eye;
+        let from = self.product(product);
         let stage = PhysicalStage { from, surface, parts, lights, eye, normal, world, tangent };
         for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
             if is_read {
@@ -395,10 +412,7 @@ impl<'a> Builder<'a, '_> {
                 texel = texture.at(self.first.uv_of(is_second));
             }
         }
-        for (register, number) in self.registers.maps[map as usize].iter_mut().zip(texel.to_array())
-        {
-            *register = [number; RUN];
-        }
+        self.registers.set_all(first::MAPS + 3 * map as usize, &texel.to_array());
     }
 
     /// Highlight and fog, over one colour or over those of the fragments.
@@ -644,94 +658,96 @@ impl Shader<'_, '_> {
     #[inline(never)]
     fn run(&mut self, depths: &[f64], wanted: u32, colours: &mut [Colour]) {
         let Self { program, registers, taps } = self;
+        let count = depths.len().min(RUN);
+        let colours = &mut colours[..count];
         for stage in program.stages() {
             match *stage {
                 Stage::Colour { base } => {
-                    // Colours are the first of all attributes.
-                    for i in lanes(wanted) {
-                        let product = base * three(&registers.attributes, i);
-                        put(&mut registers.product, i, product);
+                    for i in lanes(wanted, count) {
+                        // Colours are the first of all attributes.
+                        let product = base * registers.three(0, i);
+                        registers.put(first::PRODUCT, i, product);
                     }
                 }
                 Stage::Texture { from, texture, uv } => match &program.readings[0] {
                     None => {
-                        for i in lanes(wanted) {
+                        for i in lanes(wanted, count) {
                             let texel = texture.at(registers.uv(uv, i));
-                            let product = registers.product(from, i) * texel;
-                            put(&mut registers.product, i, product);
+                            let product = registers.three(from, i) * texel;
+                            registers.put(first::PRODUCT, i, product);
                         }
                     }
                     Some(reading) => {
-                        for i in lanes(wanted) {
+                        for i in lanes(wanted, count) {
                             let uv = registers.uv(uv, i);
                             let (texel, read) = read_around(reading, texture, uv, depths[i]);
-                            let product = registers.product(from, i) * texel;
-                            put(&mut registers.product, i, product);
+                            let product = registers.three(from, i) * texel;
+                            registers.put(first::PRODUCT, i, product);
                             *taps += if program.plan.anisotropy { u64::from(read) } else { 0 };
                         }
                     }
                 },
                 Stage::Factor { from, factor } => {
-                    for i in lanes(wanted) {
-                        let product = registers.product(from, i) * factor;
-                        put(&mut registers.product, i, product);
+                    for i in lanes(wanted, count) {
+                        let product = registers.three(from, i) * factor;
+                        registers.put(first::PRODUCT, i, product);
                     }
                 }
                 Stage::Map { map, read: (texture, is_second), uv } => {
                     let reading = &program.readings[usize::from(is_second)];
-                    for i in lanes(wanted) {
+                    for i in lanes(wanted, count) {
                         let texel = read(reading.as_ref(), texture, registers.uv(uv, i), depths[i]);
-                        put(&mut registers.maps[map as usize], i, texel);
+                        registers.put(first::MAPS + 3 * map as usize, i, texel);
                     }
                 }
                 Stage::Shadow { receiver, place } => {
-                    for i in lanes(wanted) {
-                        registers.lit[i] = receiver.lit(three(&registers.attributes[place..], i));
+                    for i in lanes(wanted, count) {
+                        registers.lit[i] = receiver.lit(registers.three(place, i));
                     }
                 }
                 Stage::Light { from, light, normal } => {
-                    for i in lanes(wanted) {
-                        let intensity = light.intensity(three(&registers.attributes[normal..], i));
-                        colours[i] = to_colour(registers.product(from, i) * intensity);
+                    for i in lanes(wanted, count) {
+                        let intensity = light.intensity(registers.three(normal, i));
+                        colours[i] = to_colour(registers.three(from, i) * intensity);
                     }
                 }
                 Stage::PartOfLight { from, light, normal } => {
-                    for i in lanes(wanted) {
-                        let normal = three(&registers.attributes[normal..], i);
+                    for i in lanes(wanted, count) {
+                        let normal = registers.three(normal, i);
                         let intensity = light.intensity_in(normal, registers.lit[i]);
-                        colours[i] = to_colour(registers.product(from, i) * intensity);
+                        colours[i] = to_colour(registers.three(from, i) * intensity);
                     }
                 }
                 Stage::Physical(stage) => {
-                    for i in lanes(wanted) {
+                    for i in lanes(wanted, count) {
                         colours[i] = stage.colour(registers, i);
                     }
                 }
                 Stage::Round => {
-                    for i in lanes(wanted) {
-                        colours[i] = to_colour(registers.product(None, i));
+                    for i in lanes(wanted, count) {
+                        colours[i] = to_colour(registers.three(first::PRODUCT, i));
                     }
                 }
                 Stage::Fill(colour) => {
-                    for i in lanes(wanted) {
+                    for i in lanes(wanted, count) {
                         colours[i] = colour;
                     }
                 }
                 Stage::Highlight { highlight, normal } => {
-                    for i in lanes(wanted) {
-                        let shine = highlight.at(three(&registers.attributes[normal..], i));
+                    for i in lanes(wanted, count) {
+                        let shine = highlight.at(registers.three(normal, i));
                         if shine != [0; 3] {
                             colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
                         }
                     }
                 }
                 Stage::OneHighlight(shine) => {
-                    for i in lanes(wanted) {
+                    for i in lanes(wanted, count) {
                         colours[i] = brightened(colours[i], dimmed(shine, registers.lit[i]));
                     }
                 }
                 Stage::Fog(veil) => {
-                    for i in lanes(wanted) {
+                    for i in lanes(wanted, count) {
                         colours[i] = veil.before(colours[i], veil.distance(depths[i]));
                     }
                 }
@@ -740,13 +756,10 @@ impl Shader<'_, '_> {
     }
 }
 
-/// The numbers of the fragments whose bits are set.
-fn lanes(mut wanted: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let i = wanted.trailing_zeros() as usize;
-        wanted &= wanted.wrapping_sub(1);
-        (i < RUN).then_some(i)
-    })
+/// The numbers of the fragments whose bits are set, of so many.
+#[inline]
+fn lanes(wanted: u32, count: usize) -> impl Iterator<Item = usize> {
+    (0..count).filter(move |i| wanted >> i & 1 != 0)
 }
 
 impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
@@ -767,7 +780,7 @@ impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
         };
         self.registers.load(run.values);
         let uv = program.plan.interpolates.both(Attributes(Attributes::UV - 1)).components();
-        for i in lanes(run.wanted) {
+        for i in lanes(run.wanted, run.values.len()) {
             let uv = self.registers.uv(uv, i);
             opacities[i] = match (&program.readings[0], opacity.levels()) {
                 (Some(how), Some(texture)) => {
