@@ -219,38 +219,6 @@ fn a_plan_is_shown_in_80_columns_with_units() {
     folder.run(&words[..]).prints("Gouraud: the light is in the colours of the corners");
 }
 
-/// Effects, with the stage that only who pays for them has, and a scene that calls for it.
-const STAGES: [(Effect, &str, &str); 9] = [
-    (Effect::Depth, "depth test", "everything"),
-    (Effect::Texture, "x texture", "everything"),
-    (Effect::Light, "x light, rounded to 8 bits", "everything"),
-    (Effect::Specular, "+ highlight", "highlights"),
-    (Effect::Shadows, "shadow", "shadows"),
-    (Effect::Fog, "fog", "fog"),
-    (Effect::AlphaTest, "alpha test", "cut-outs"),
-    (Effect::Blending, "blend", "panes"),
-    (Effect::Layers, "keep as a layer", "layers"),
-];
-
-/// What a scene calls for is in the lists of its pieces, what is switched off is in none, and each piece has a list.
-#[test]
-fn what_is_not_called_for_is_in_no_list_of_stages() {
-    for (effect, stage, name) in STAGES {
-        let (scene, mut target) = (still(name), target_of(160, 120, Antialias::None));
-        let canvas = Canvas::of(&target);
-        let has_stage = |effects: &Effects| {
-            let staged = Drawer::Scanline.stages(&scene, effects, &canvas).unwrap();
-            let drawn = Drawer::Scanline.render(&scene, effects, &mut target).unwrap();
-            let pieces = staged.iter().map(|staged| staged.pieces).sum::<u64>();
-            assert_eq!(pieces, drawn.counters.pieces - drawn.counters.culled, "{name}");
-            staged.iter().any(|staged| staged.stages.iter().any(|own| own == stage))
-        };
-        let modes = [Mode::Planned, Mode::Never];
-        let found = modes.map(|mode| Effects::PLANNED.with(effect, mode)).each_ref().map(has_stage);
-        assert_eq!(found, [true, false], "{stage} in {name}");
-    }
-}
-
 /// A piece of one colour has one stage between cover and write.
 #[test]
 fn stages_are_shown_in_80_columns() {

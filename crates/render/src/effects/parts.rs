@@ -43,12 +43,6 @@ const LARGE_SIDE: u32 = 32;
 /// The absolute weights of a corner's attributes add up to at most this.
 const MOST_WEIGHT: f64 = 8.0;
 
-/// If nothing is left out of so many squares in turn, some rows of squares are drawn unchecked.
-const FIRST_SQUARES: u32 = 32;
-
-/// So many rows of squares at most are drawn unchecked before the next one is checked.
-const MOST_ROWS: u32 = 8;
-
 impl Parts {
     /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
     pub(super) fn of(rule: &Rule, item: &Item, antialias: Antialias) -> Option<Self> {
@@ -151,34 +145,6 @@ impl Square {
     }
 }
 
-/// Squares that were checked in vain: counted and not timed, so that the plan of a frame does not depend on the machine.
-#[derive(Default)]
-struct Patience {
-    /// Squares in turn in which nothing was left out.
-    vain: u32,
-    rows: u32,
-}
-
-impl Patience {
-    fn see(&mut self, has_gained: bool) {
-        if has_gained {
-            *self = Self::default();
-        } else {
-            self.vain += 1;
-        }
-    }
-
-    /// How many rows of squares are drawn as the whole piece is before the next one is checked: more and more.
-    fn rows_left_out(&mut self) -> u32 {
-        if self.vain < FIRST_SQUARES {
-            return 0;
-        }
-        self.rows = (2 * self.rows).clamp(1, MOST_ROWS);
-        self.vain = FIRST_SQUARES;
-        self.rows
-    }
-}
-
 /// A piece that is checked square by square.
 pub(super) struct Whole<'a> {
     rule: &'a Rule,
@@ -247,24 +213,11 @@ impl<'a> Whole<'a> {
             return;
         }
         let side = self.side;
-        let as_a_whole = |bounds| Part { bounds, plan: self.plan, constants: Constants::default() };
         let price = price(self.plan);
-        let mut patience = Patience::default();
         let (mut waiting, mut row): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
         let mut y0 = bounds.y0;
         while y0 < bounds.y1 {
-            let next = |y: i32| bounds.y1.min((y.div_euclid(side) + 1) * side);
-            let rows = patience.rows_left_out();
-            if rows > 0 {
-                waiting.drain(..).for_each(|part| draw(&part));
-                let y1 = (0..rows).fold(y0, |y, _| next(y));
-                draw(&as_a_whole(PixelRect { y0, y1, ..bounds }));
-                y0 = y1;
-                if y0 >= bounds.y1 {
-                    return;
-                }
-            }
-            let y1 = next(y0);
+            let y1 = bounds.y1.min((y0.div_euclid(side) + 1) * side);
             row.clear();
             let mut x0 = bounds.x0;
             while x0 < bounds.x1 {
@@ -275,7 +228,6 @@ impl<'a> Whole<'a> {
                 let own = self.square(shares).map(|square| self.plan(&square));
                 // What saves less than it takes to draw a square by itself is drawn as the piece is.
                 let own = own.filter(|(plan, _)| 4 * self::price(*plan) <= 3 * price);
-                patience.see(own.is_some());
                 let (plan, constants) = own.unwrap_or((self.plan, Constants::default()));
                 match row.last_mut() {
                     Some(last) if (last.plan, last.constants) == (plan, constants) => {

@@ -791,3 +791,48 @@ impl<const N: usize> FragmentStage<PackedAttributes<N>> for Shader<'_, '_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::effects::plan::Canvas;
+    use crate::effects::render::{render, stages};
+    use crate::effects::{Effect, Effects, Mode};
+    use crate::pipeline::depth::DepthFormat;
+    use crate::pipeline::target::{Antialias, Target};
+    use crate::scene::chapters::scene;
+    use rasterproof_core::arrays::MapArray as _;
+    use rasterproof_core::raster::scanline::Scanline;
+
+    /// Effects, with a stage that only who pays for them has, and a scene that calls for it.
+    const STAGES: [(Effect, &str, &str); 10] = [
+        (Effect::Depth, "depth test", "everything"),
+        (Effect::Colour, "colour of the corners", "frustum"),
+        (Effect::Texture, "x texture", "everything"),
+        (Effect::Light, "x light, rounded to 8 bits", "everything"),
+        (Effect::Specular, "+ highlight", "highlights"),
+        (Effect::Shadows, "shadow", "shadows"),
+        (Effect::Fog, "fog", "fog"),
+        (Effect::AlphaTest, "alpha test", "cut-outs"),
+        (Effect::Blending, "blend", "panes"),
+        (Effect::Layers, "keep as a layer", "layers"),
+    ];
+
+    /// What a scene calls for is in the lists of its pieces, what is switched off is in none, and each piece has a list.
+    #[test]
+    fn what_is_not_called_for_is_in_no_list() {
+        for (effect, stage, name) in STAGES {
+            let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+            let mut target = Target::new(160, 120, Antialias::None, DepthFormat::Unorm32).unwrap();
+            let mut has_stage = |mode: Mode| {
+                let effects = Effects::PLANNED.with(effect, mode);
+                let staged = stages(&scene, &Scanline, &effects, &Canvas::of(&target)).unwrap();
+                let drawn = render(&scene, &Scanline, &effects, &mut target).unwrap();
+                let pieces: u64 = staged.iter().map(|staged| staged.pieces).sum();
+                assert_eq!(pieces, drawn.counters.pieces - drawn.counters.culled, "{name}");
+                staged.iter().any(|staged| staged.stages.iter().any(|own| own == stage))
+            };
+            let found = [Mode::Planned, Mode::Never].map_array(&mut has_stage);
+            assert_eq!(found, [true, false], "{stage} in {name}");
+        }
+    }
+}

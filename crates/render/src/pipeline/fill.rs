@@ -52,19 +52,16 @@ pub trait FragmentStage<V> {
 }
 
 /// A stage of opaque fragments by themselves: their varyings and depths.
-pub struct Each<F>(F);
-
-/// See [`Each`].
-pub fn each<V, F: FnMut(&V, f64) -> Colour>(stage: F) -> Each<F> {
-    Each(stage)
+pub fn each<V, F: FnMut(&V, f64) -> Colour>(stage: F) -> F {
+    stage
 }
 
-impl<V, F: FnMut(&V, f64) -> Colour> FragmentStage<V> for Each<F> {
+impl<V, F: FnMut(&V, f64) -> Colour> FragmentStage<V> for F {
     fn colours(&mut self, run: Lanes<'_, V>, colours: &mut [Colour]) {
         let fragments = run.values.iter().zip(run.depths).zip(colours).enumerate();
         for (i, ((varying, depth), colour)) in fragments {
             if run.wanted >> i & 1 != 0 {
-                *colour = (self.0)(varying, *depth);
+                *colour = self(varying, *depth);
             }
         }
     }

@@ -166,10 +166,8 @@ mod tests {
         for (distance, expected) in
             [(1.0, 0), (2.0, 0), (4.0, 63), (6.0, 125), (10.0, 250), (15.0, 250)]
         {
-            let mut colours = [black];
-            linear.apply(&[depth(distance)], 1, &mut colours);
-            assert_eq!(colours[0][0], expected, "at {distance}");
-            assert_eq!(colours[0][2], 0);
+            let colour = linear.before(black, linear.distance(depth(distance)));
+            assert_eq!([colour[0], colour[2]], [expected, 0], "at {distance}");
         }
         let exponential = veil(Growth::Exponential { density: 0.25 });
         // Half is left where e^(-z/4) = 1/2.
@@ -205,9 +203,9 @@ mod tests {
                 for j in 0..=12 - i {
                     let (i, j) = (f64::from(i) / 12.0, f64::from(j) / 12.0);
                     let [a, b, c] = depths;
-                    let mut colours = [[0, 255, 77, 255], [255, 0, 255, 255]];
-                    let before = colours;
-                    veil.apply(&[a + (b - a) * i + (c - a) * j; 2], 3, &mut colours);
+                    let before = [[0, 255, 77, 255], [255, 0, 255, 255]];
+                    let distance = veil.distance(a + (b - a) * i + (c - a) * j);
+                    let colours = before.map_array(|colour| veil.before(colour, distance));
                     wrong |= match share {
                         Share::None => colours != before,
                         Share::Mixed => false,
