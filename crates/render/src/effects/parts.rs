@@ -213,7 +213,6 @@ impl<'a> Whole<'a> {
             return;
         }
         let side = self.side;
-        let price = price(self.plan);
         let (mut waiting, mut row): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
         let mut y0 = bounds.y0;
         while y0 < bounds.y1 {
@@ -226,8 +225,6 @@ impl<'a> Whole<'a> {
                 x0 = x1;
                 let Some(shares) = self.shares(rect) else { continue };
                 let own = self.square(shares).map(|square| self.plan(&square));
-                // What saves less than it takes to draw a square by itself is drawn as the piece is.
-                let own = own.filter(|(plan, _)| 4 * self::price(*plan) <= 3 * price);
                 let (plan, constants) = own.unwrap_or((self.plan, Constants::default()));
                 match row.last_mut() {
                     Some(last) if (last.plan, last.constants) == (plan, constants) => {
@@ -461,24 +458,6 @@ impl<'a> Whole<'a> {
             constants.opacity = opacity.map(|opacity| opacity.of(uv));
         }
     }
-}
-
-/// About what a fragment costs, in nanoseconds: a rough measure of which of two plans is cheaper, and by how much.
-fn price(plan: PiecePlan) -> u32 {
-    let has = |bit: u8| plan.interpolates.has(bit);
-    let if_paid = |is_paid: bool, price: u32| if is_paid { price } else { 0 };
-    if plan.is_nothing() {
-        return 0;
-    }
-    5 + plan.interpolates.components() as u32
-        + if_paid(has(Attributes::NORMAL), 6)
-        + if_paid(plan.specular && has(Attributes::NORMAL), 8)
-        + if_paid(plan.shadows, 16)
-        + if_paid(has(Attributes::UV), 12)
-        + if_paid(plan.mip_maps, 24)
-        + if_paid(plan.anisotropy, 24)
-        + if_paid(plan.fog == Share::Mixed, 12)
-        + if_paid(!plan.replaces_all(), 8)
 }
 
 /// Twice the signed area of the triangle between a point, in subpixels, and the edge that lies opposite to a corner.

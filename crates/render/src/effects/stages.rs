@@ -184,10 +184,10 @@ impl Stage<'_> {
             Self::Map { map: Map::Occlusion, .. } => "occlusion map",
             Self::Map { map: Map::Normal, .. } => "normal map",
             Self::Shadow { .. } => "shadow",
-            Self::Light { .. } => "x light, rounded to 8 bits",
-            Self::PartOfLight { .. } => "x light that arrives, rounded to 8 bits",
+            Self::Light { .. } => "x light to 8 bits",
+            Self::PartOfLight { .. } => "x light that arrives to 8 bits",
             Self::Physical(_) => "metal and roughness",
-            Self::Round => "rounded to 8 bits",
+            Self::Round => "to 8 bits",
             Self::Fill(_) => "one colour",
             Self::Highlight { .. } => "+ highlight",
             Self::OneHighlight(_) => "+ constant highlight",
@@ -522,8 +522,10 @@ impl<'a> Program<'a> {
             names.push("depth test".to_owned());
         }
         if !interpolates.is_empty() {
-            let how = if perspective { ", divided by 1/w" } else { "" };
-            names.push(format!("interpolate {interpolates}{how}"));
+            names.push(format!("interpolate {interpolates}"));
+        }
+        if perspective {
+            names.push("divide by 1/w".to_owned());
         }
         if self.opacity.is_some() {
             names.push("opacity".to_owned());
@@ -808,7 +810,7 @@ mod tests {
         (Effect::Depth, "depth test", "everything"),
         (Effect::Colour, "colour of the corners", "frustum"),
         (Effect::Texture, "x texture", "everything"),
-        (Effect::Light, "x light, rounded to 8 bits", "everything"),
+        (Effect::Light, "x light to 8 bits", "everything"),
         (Effect::Specular, "+ highlight", "highlights"),
         (Effect::Shadows, "shadow", "shadows"),
         (Effect::Fog, "fog", "fog"),

@@ -2,7 +2,7 @@
 //! is compared before and written afterwards.
 
 use super::depth::DepthFormat;
-use super::fill::{FragmentStage, Lanes, Over, Way, shade};
+use super::fragments::{FragmentStage, Lanes, Over, Way, shade};
 use super::layers::{Layer, Layers};
 use super::multisample::{SAMPLES, moved};
 use super::opacity::{OPAQUE, over};

@@ -101,10 +101,10 @@ pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
         Row::of(&[&staged.item, &thousands(staged.pieces), &staged.stages.join(", ")])
     };
     let notes = [
-        "what is not in a list costs its pieces nothing; + and x add to and multiply what stages before have made",
+        "what is not in a list costs its pieces nothing; x multiplies and + adds to what is there",
         "squares of large pieces may have shorter lists",
     ];
-    let columns = "item 5 | >pieces 9 | stages 64";
+    let columns = "item 5 | >pieces 9 | stages";
     let table =
         Table::new("Stages of each fragment, in order", columns, staged.iter().map(row).collect());
     Report {
