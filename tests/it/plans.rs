@@ -224,7 +224,8 @@ fn a_plan_is_shown_in_80_columns_with_units() {
 fn stages_are_shown_in_80_columns() {
     let folder = folder("stages");
     for scene in ["panels", "everything", "layers"] {
-        let out = folder.run(["plan", scene, "--show", "stages", "--size", "160x120"]).has(0).out;
+        let mut command = folder.command(["plan", scene, "--show", "stages", "--size", "160x120"]);
+        let out = Run::of(command.env("COLUMNS", "80")).has(0).out;
         assert!(out.contains("cover, "), "{out}");
         assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
     }

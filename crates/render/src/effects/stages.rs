@@ -64,8 +64,8 @@ impl Registers {
     #[inline]
     fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>]) {
         for (i, PackedAttributes(numbers)) in values.iter().take(RUN).enumerate() {
-            for number in 0..N.min(PLACED) {
-                self.numbers[number][i] = numbers[number];
+            for (register, number) in self.numbers.iter_mut().zip(numbers) {
+                register[i] = *number;
             }
         }
     }

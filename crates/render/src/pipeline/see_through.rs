@@ -24,6 +24,9 @@ fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 
     bits
 }
 
+/// What gives colours to fragments of a run, of which the first lies in a column.
+type Shade<'a, V> = dyn FnMut(&mut dyn FragmentStage<V>, Lanes<'_, V>, i32, &mut [Colour]) + 'a;
+
 /// One plane of samples, which has a number, with where layers wait.
 struct Plane<'a> {
     number: u8,
@@ -40,7 +43,7 @@ impl Plane<'_> {
         &mut self,
         run: Run<'_, V>,
         stage: &mut dyn FragmentStage<V>,
-        shade: &mut dyn FnMut(&mut dyn FragmentStage<V>, Lanes<'_, V>, i32, &mut [Colour]),
+        shade: &mut Shade<'_, V>,
     ) -> u64 {
         let Self { number, plane, layers, format, way } = self;
         let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
