@@ -346,8 +346,8 @@ impl Texture {
         a + (b - a) * right
     }
 
-    /// The colour at whole numbers of 1/256 texel from the top left corner.
-    #[inline]
+    /// The colour at whole numbers of 1/256 texel from the top left corner. Called in place, as [`Self::between_columns`].
+    #[inline(always)]
     fn at_subtexel(&self, x: i64, y: i64, filter: Filter) -> DVec3 {
         match filter {
             Filter::Nearest => {
