@@ -48,7 +48,7 @@ mod first {
     pub const END: usize = MAPS + 3 * Map::ALL.len();
 }
 
-/// What stages read and write.
+/// What the stages of a piece read and write, for the fragments of one run.
 pub(super) struct Registers {
     numbers: [Register; first::END],
     /// Of nine, the parts of the light that arrive.
@@ -60,7 +60,7 @@ impl Registers {
         Self { numbers: [[0.0; RUN]; first::END], lit: [TAPS; RUN] }
     }
 
-    /// Takes what was interpolated.
+    /// Writes the interpolated numbers of each fragment to the first registers.
     #[inline]
     fn load<const N: usize>(&mut self, values: &[PackedAttributes<N>]) {
         for (i, PackedAttributes(numbers)) in values.iter().take(RUN).enumerate() {
@@ -122,7 +122,7 @@ enum Stage<'a> {
     Physical(PhysicalStage<'a>),
     /// The product becomes a colour of 8 bits.
     Round,
-    /// All fragments have one colour.
+    /// All fragments get one colour, which was computed when the list was made.
     Fill(Colour),
     /// As much of the highlight is added as arrives of the light.
     Highlight { highlight: &'a Highlight, normal: usize },
@@ -173,7 +173,7 @@ impl PhysicalStage<'_> {
 }
 
 impl Stage<'_> {
-    /// What it does, to read.
+    /// What it does, as `plan --show stages` prints it.
     fn name(&self) -> &'static str {
         match self {
             Self::Colour { .. } => "colour of the corners",
@@ -542,7 +542,7 @@ impl<'a> Program<'a> {
         names
     }
 
-    /// The list at work, on these registers.
+    /// The list with the registers on which it works, in which [`Self::new`] has written what fragments have in common.
     pub fn on<'b>(&'b self, registers: &'b mut Registers) -> Shader<'a, 'b> {
         Shader { program: self, registers, taps: 0 }
     }
@@ -639,7 +639,7 @@ pub(super) struct To<'a> {
     pub counters: &'a mut Counters,
 }
 
-/// A list at work.
+/// A list of stages with the registers on which it works.
 pub(super) struct Shader<'a, 'b> {
     program: &'b Program<'a>,
     registers: &'b mut Registers,

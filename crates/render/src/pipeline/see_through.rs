@@ -37,8 +37,8 @@ struct Plane<'a> {
 }
 
 impl Plane<'_> {
-    /// Draws the fragments of a run in the colours that `shade` gives to those that are not left out; how many of them were nearer
-    /// than what was there.
+    /// Draws the fragments of a run in the colours that `shade` gives to those that are not left out. Returns how many of them were
+    /// nearer than what was there.
     fn draw<V: Varying>(
         &mut self,
         run: Run<'_, V>,
