@@ -5,15 +5,16 @@ use super::page::{PageArguments, Shown, as_file, print, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::SceneArguments;
-use super::{Status, Streams, exit};
+use super::{Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::plan::Canvas;
 use rasterproof_render::effects::{Effect, Effects};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::{frame_comparison, picture};
 use rasterproof_study::bounds::Purpose;
-use rasterproof_study::report::plan::{Measurement, reasons};
+use rasterproof_study::report::plan::{Measurement, reasons, stages};
 use rasterproof_study::savings;
 
 #[derive(clap::Args, Debug)]
@@ -33,6 +34,9 @@ pub struct PlanArguments {
     /// Draw the picture without this effect instead, and what differs, and count the pixels; nothing is measured
     #[arg(long, value_name = "EFFECT", value_parser = parse_effect, conflicts_with_all = ["report", "json", "whole"])]
     without: Option<Effect>,
+    /// Print what becomes of each fragment, a list of stages for each piece; nothing is drawn or measured
+    #[arg(long, value_name = "WHAT", value_parser = super::one_of([("stages", ())]), conflicts_with_all = ["report", "without", "whole"])]
+    show: Option<()>,
     #[command(flatten)]
     page: PageArguments,
     /// For machines
@@ -53,6 +57,9 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     files::check(as_file(&page))?;
     let scene = arguments.what.maker(typed, Purpose::Planned, streams)?.scene;
     files::check(as_file(&page))?;
+    if arguments.show.is_some() {
+        return show_stages(arguments, &scene, streams);
+    }
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }
@@ -74,6 +81,15 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     }
     let same = measurement.is_same();
     show(report, Shown::All.or_json(arguments.json), page, exit::of(same), streams)
+}
+
+/// Prints the stages of each piece.
+fn show_stages(arguments: &PlanArguments, scene: &Scene, streams: &mut Streams<'_>) -> Status {
+    let canvas = Canvas::of(&arguments.what.view.target()?);
+    let staged = arguments.engine.stages(scene, &Effects::PLANNED, &canvas);
+    let staged = staged.map_err(|error| usage(error.to_string()))?;
+    let shown = Shown::All.or_json(arguments.json);
+    show(stages(scene, &staged), shown, None, exit::AGREES, streams)
 }
 
 /// Draws a scene without an effect, and the pixels that this changes.

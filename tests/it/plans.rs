@@ -219,6 +219,19 @@ fn a_plan_is_shown_in_80_columns_with_units() {
     folder.run(&words[..]).prints("Gouraud: the light is in the colours of the corners");
 }
 
+/// A piece of one colour has one stage between cover and write.
+#[test]
+fn stages_are_shown_in_80_columns() {
+    let folder = folder("stages");
+    for scene in ["panels", "everything", "layers"] {
+        let mut command = folder.command(["plan", scene, "--show", "stages", "--size", "160x120"]);
+        let out = Run::of(command.env("COLUMNS", "80")).has(0).out;
+        assert!(out.contains("cover, "), "{out}");
+        assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
+    }
+    folder.run(["plan", "panels", "--show", "stages"]).prints("cover, one colour, write");
+}
+
 /// Pieces are listed where it may pay: where triangles are few, or where the first of some item are apart.
 #[test]
 fn what_overlaps_at_first_sight_is_not_listed() {

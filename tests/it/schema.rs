@@ -7,7 +7,7 @@ use crate::pages::read;
 use crate::program::{Folder, PROGRAM};
 
 /// Each JSON by its name in the schema, with the commands that print it.
-const PRINTED: [(&str, &[&str]); 14] = [
+const PRINTED: [(&str, &[&str]); 15] = [
     ("verify", &["--cases 8 --json", "--cases 20 --plant inclusive-edges --json"]),
     ("verify-model", &["verify m.obj --json", "verify m.obj --plant inclusive-edges --json"]),
     (
@@ -22,6 +22,7 @@ const PRINTED: [(&str, &[&str]); 14] = [
         "plan",
         &["plan m.obj --rounds 1 --size 64x48 --json", "plan fog --rounds 1 --size 64x48 --json"],
     ),
+    ("plan-stages", &["plan m.obj --show stages --json", "plan fog --show stages --json"]),
     ("render", &["render m.obj --json", "render cube --json --engine scanline --aa msaa4"]),
     ("study", &["study m.obj --once --size 64x48 --json"]),
     ("study-views", &["study m.obj --once --size 64x48 --views 2 --json"]),

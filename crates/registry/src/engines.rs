@@ -31,7 +31,9 @@ use rasterproof_faults::published::sysu_truncated::SysuTruncated;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{Published, PublishedLine};
 use rasterproof_render::effects::plan::{Canvas, Plan};
-use rasterproof_render::effects::render::{self, BadScene, PaidMap, PlanError, Rendered};
+use rasterproof_render::effects::render::{
+    self, BadScene, PaidMap, PlanError, Rendered, StagedPieces,
+};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::present::DoubleBuffer;
@@ -265,6 +267,16 @@ impl Drawer {
     /// As [`rasterproof_render::effects::render::plan`].
     pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
         render::plan(scene, &self.engine(effects.mode(Effect::WideWords)), effects, canvas)
+    }
+
+    /// As [`rasterproof_render::effects::render::stages`].
+    pub fn stages(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        canvas: &Canvas,
+    ) -> Result<Vec<StagedPieces>, PlanError> {
+        render::stages(scene, &self.engine(effects.mode(Effect::WideWords)), effects, canvas)
     }
 
     /// As [`rasterproof_render::effects::render::execute`].

@@ -6,12 +6,13 @@
 
 use super::assembled::Assembled;
 use super::conditions::{self, EVERY_FRAGMENT};
-use super::kernel::{Coat, Kernel};
+use super::parts::Constants;
 use super::plan::Canvas;
 use super::planner;
 use super::primitive::{BadScene, Piece, Prepared, bare, pack, surfaces, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
+use super::stages::{Program, Registers};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
@@ -188,11 +189,12 @@ impl<'a> TiedPieces<'a> {
         let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let counters = &mut Counters::default();
-        let coat = Coat::of(item, piece, plan, counters);
-        let kernel = Kernel::new(item, piece, plan, map, None, coat.as_ref(), counters);
+        let (registers, constants) = (&mut Registers::new(), &Constants::default());
+        let program = Program::new(item, piece, plan, map, constants, registers, counters);
         let packed = pack::<PLACED>(&moved, plan.interpolates);
+        let mut shader = program.on(registers);
         let emit = |f: Fragment<Attributes<PLACED>>| {
-            see(f.x_px, f.y_px, kernel.shade_all(&f.varying.0, f.depth));
+            see(f.x_px, f.y_px, shader.one(&f.varying, f.depth));
         };
         if perspective {
             engine.fragments(&packed, bounds, emit);
@@ -305,9 +307,9 @@ impl<'a> TiedPieces<'a> {
         }
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let counters = &mut Counters::default();
-        let coat = Coat::of(item, piece, plan, counters);
-        let kernel = Kernel::new(item, piece, plan, map, None, coat.as_ref(), counters);
-        let Some(texture) = kernel.varying_texture() else { return };
+        let (registers, constants) = (&mut Registers::new(), &Constants::default());
+        let program = Program::new(item, piece, plan, map, constants, registers, counters);
+        let Some(texture) = program.texture() else { return };
         let uv = surfaces(&moved).map_array(|of| of.uv);
         let bounds_of_uv =
             DVec2::new(bound(uv.map_array(|uv| uv.x)), bound(uv.map_array(|uv| uv.y)));
@@ -323,11 +325,12 @@ impl<'a> TiedPieces<'a> {
             }
             let (_, uv) = exact.at(f.x_px, f.y_px);
             let uv = DVec2::from(uv.map_array(|number| number.to_f64()));
-            let shade = |texel| kernel.shade_texel(&f.varying.0, f.depth, texel);
+            let mut shade =
+                |texel| program.with_texel(texel).on(registers).one(&f.varying, f.depth);
             let texels = texture
                 .within(uv, bounds_of_uv)
                 .unwrap_or_else(|| vec![*range.get_or_insert_with(|| texture.range())]);
-            let colours = texels.into_iter().map(|texels| texels.map_array(shade)).collect();
+            let colours = texels.into_iter().map(|texels| texels.map_array(&mut shade)).collect();
             see(f.x_px, f.y_px, Reachable(colours));
         };
         if perspective {

@@ -1,13 +1,11 @@
 //! A plan to a picture: does what the plan says, and decides nothing.
 
-use std::cell::RefCell;
 use std::fmt;
 use std::num::NonZeroU32;
 
 use super::Effect;
 use super::assembled::Assembled;
 use super::conditions::{self, Facts, shadows};
-use super::kernel::{Coat, Kernel};
 use super::parts::{Constants, Part, Whole};
 use super::plan::{
     Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples,
@@ -15,9 +13,9 @@ use super::plan::{
 };
 use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
+use super::stages::{Program, Registers, To};
 use crate::pipeline::Counters;
 use crate::pipeline::target::{Colour, Target};
-use crate::pipeline::texture::FourTexels;
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
@@ -211,7 +209,7 @@ pub(super) fn fit<'a>(
 }
 
 /// What a plan says of each piece, in the order of the items.
-fn plans(
+pub(super) fn plans(
     plan: &Plan,
     scene: &Scene,
     assembled: &Assembled<'_>,
@@ -266,7 +264,9 @@ pub(super) fn draw(
         target
     };
     let counters = assembled.counters;
-    let drawing = Drawing { plan, scene, engine, target, counters, on_demand: None, observer };
+    let registers = Box::new(Registers::new());
+    let on_demand = None;
+    let drawing = Drawing { plan, scene, engine, target, counters, on_demand, registers, observer };
     drawing.draw_all(&assembled)
 }
 
@@ -278,6 +278,7 @@ struct Drawing<'a, 'b, E> {
     target: &'a mut Target,
     counters: Counters,
     on_demand: Option<OnDemand>,
+    registers: Box<Registers>,
     observer: Observer<'b>,
 }
 
@@ -387,7 +388,7 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
         {
             return;
         }
-        let (engine, target, observer) = (self.engine, &mut *self.target, &mut self.observer);
+        let Self { engine, target, observer, registers, .. } = self;
         let mut draw = |part: &Part| {
             if part.plan.is_nothing() {
                 return;
@@ -401,15 +402,12 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
                     }
                 });
             }
-            let constants = parts.is_some().then_some(&part.constants);
             let map = map.filter(|_| part.plan.shadows);
-            let last = part.constants.shares_texels.then(|| RefCell::new(FourTexels::NONE));
-            let coat = Coat::of(item, piece, part.plan, counters);
-            let coat = coat.as_ref();
-            let mut kernel = Kernel::new(item, piece, part.plan, map, constants, coat, counters);
-            kernel.last = last.as_ref();
+            let Part { bounds, plan, constants } = part;
+            let program = Program::new(item, piece, *plan, map, constants, registers, counters);
             let samples = samples.as_deref_mut();
-            kernel.draw(engine, piece, part.bounds, target, samples, counters);
+            let to = To { target, bounds: *bounds, samples, registers, counters };
+            program.draw(engine, piece, to);
         };
         match checked {
             None => draw(&Part { bounds, plan, constants: Constants::default() }),

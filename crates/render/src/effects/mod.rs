@@ -3,7 +3,7 @@
 //!
 //! A scene becomes a picture in three steps. `survey` looks at its triangles and finds the facts of each piece, once.
 //! `planner` asks the conditions, which read only these facts, and makes a [`plan::Plan`], which is data. `execute` draws by
-//! it, with kernels without what is left out.
+//! it, by a list of stages for each piece (`stages`), in which what is left out is missing.
 //!
 //! For each [`Effect`] there is a condition that is sufficient to leave it out, known per frame, per
 //! item or per triangle (`conditions` has one file for each). A condition that is merely likely does not count:
@@ -19,7 +19,6 @@ pub mod depth_ties;
 mod execute;
 #[cfg(feature = "parallel")]
 pub mod geometry;
-mod kernel;
 pub mod parts;
 pub mod plan;
 mod planner;
@@ -27,6 +26,7 @@ pub mod primitive;
 pub mod render;
 mod samples;
 mod scene_digest;
+mod stages;
 mod survey;
 mod table;
 

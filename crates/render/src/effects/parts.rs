@@ -43,15 +43,6 @@ const LARGE_SIDE: u32 = 32;
 /// The absolute weights of a corner's attributes add up to at most this.
 const MOST_WEIGHT: f64 = 8.0;
 
-/// If nothing is left out of so many squares in turn, some rows of squares are drawn unchecked.
-const FIRST_SQUARES: u32 = 32;
-
-/// So many rows of squares at most are drawn unchecked before the next one is checked.
-const MOST_ROWS: u32 = 8;
-
-/// Up to so many texels from one fragment to the next, both mostly read the same ones.
-const MOST_SHARED: f64 = 0.5;
-
 impl Parts {
     /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
     pub(super) fn of(rule: &Rule, item: &Item, antialias: Antialias) -> Option<Self> {
@@ -106,8 +97,6 @@ pub(super) struct Constants {
     pub opacity: Option<u8>,
     /// Of nine, the parts of the light that arrive.
     pub lit: Option<u32>,
-    /// Whether adjacent fragments mostly read the same texels, so that it pays to keep those of the last one.
-    pub shares_texels: bool,
 }
 
 /// A rectangle of the window in which a piece pays for what this plan says.
@@ -156,34 +145,6 @@ impl Square {
     }
 }
 
-/// Squares that were checked in vain: counted and not timed, so that the plan of a frame does not depend on the machine.
-#[derive(Default)]
-struct Patience {
-    /// Squares in turn in which nothing was left out.
-    vain: u32,
-    rows: u32,
-}
-
-impl Patience {
-    fn see(&mut self, has_gained: bool) {
-        if has_gained {
-            *self = Self::default();
-        } else {
-            self.vain += 1;
-        }
-    }
-
-    /// How many rows of squares are drawn as the whole piece is before the next one is checked: more and more.
-    fn rows_left_out(&mut self) -> u32 {
-        if self.vain < FIRST_SQUARES {
-            return 0;
-        }
-        self.rows = (2 * self.rows).clamp(1, MOST_ROWS);
-        self.vain = FIRST_SQUARES;
-        self.rows
-    }
-}
-
 /// A piece that is checked square by square.
 pub(super) struct Whole<'a> {
     rule: &'a Rule,
@@ -199,8 +160,6 @@ pub(super) struct Whole<'a> {
     footprint: Option<Footprint>,
     /// Whether w is exact enough for conditions of levels and taps.
     is_exact: bool,
-    /// Whether adjacent fragments mostly read the same texels everywhere.
-    shares_texels: bool,
     shadow: Option<(LitPlane, &'a ShadowMap)>,
     /// The largest |u| and |v| at a corner.
     farthest: DVec2,
@@ -223,9 +182,6 @@ impl<'a> Whole<'a> {
             .texture
             .filter(|_| plan.interpolates.has(Attributes::UV))
             .map(|texture| footprint((texture, false), piece, plan.perspective));
-        let shares_texels = footprint.is_some_and(|(footprint, inv_w, uv)| {
-            !plan.reads_around() && footprint.longest(inv_w, uv) <= MOST_SHARED
-        });
         let shadow = item.light_view.as_ref().zip(map).and_then(|(view, map)| {
             Some((view.plane(surfaces.map_array(|surface| surface.place))?, map))
         });
@@ -242,7 +198,6 @@ impl<'a> Whole<'a> {
             inv_w,
             footprint: footprint.map(|(footprint, ..)| footprint),
             is_exact: is_near(item, piece) && !is_affine(piece, plan.perspective),
-            shares_texels,
             shadow,
             farthest: a.max(b).max(c),
             longest_normal: surfaces
@@ -258,25 +213,10 @@ impl<'a> Whole<'a> {
             return;
         }
         let side = self.side;
-        let of_whole = Constants { shares_texels: self.shares_texels, ..Constants::default() };
-        let as_a_whole = |bounds| Part { bounds, plan: self.plan, constants: of_whole };
-        let price = self.price(self.plan, of_whole);
-        let mut patience = Patience::default();
         let (mut waiting, mut row): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
         let mut y0 = bounds.y0;
         while y0 < bounds.y1 {
-            let next = |y: i32| bounds.y1.min((y.div_euclid(side) + 1) * side);
-            let rows = patience.rows_left_out();
-            if rows > 0 {
-                waiting.drain(..).for_each(|part| draw(&part));
-                let y1 = (0..rows).fold(y0, |y, _| next(y));
-                draw(&as_a_whole(PixelRect { y0, y1, ..bounds }));
-                y0 = y1;
-                if y0 >= bounds.y1 {
-                    return;
-                }
-            }
-            let y1 = next(y0);
+            let y1 = bounds.y1.min((y0.div_euclid(side) + 1) * side);
             row.clear();
             let mut x0 = bounds.x0;
             while x0 < bounds.x1 {
@@ -285,11 +225,7 @@ impl<'a> Whole<'a> {
                 x0 = x1;
                 let Some(shares) = self.shares(rect) else { continue };
                 let own = self.square(shares).map(|square| self.plan(&square));
-                // What saves less than it takes to draw a square by itself is drawn as the piece is.
-                let own =
-                    own.filter(|(plan, constants)| 4 * self.price(*plan, *constants) <= 3 * price);
-                patience.see(own.is_some());
-                let (plan, constants) = own.unwrap_or((self.plan, of_whole));
+                let (plan, constants) = own.unwrap_or((self.plan, Constants::default()));
                 match row.last_mut() {
                     Some(last) if (last.plan, last.constants) == (plan, constants) => {
                         last.bounds.x1 = x1;
@@ -316,24 +252,6 @@ impl<'a> Whole<'a> {
             y0 = y1;
         }
         waiting.iter().for_each(draw);
-    }
-
-    /// About what a fragment costs, in nanoseconds: a rough measure of which of two plans is cheaper, and by how much.
-    fn price(&self, plan: PiecePlan, constants: Constants) -> u32 {
-        let has = |bit: u8| plan.interpolates.has(bit);
-        let if_paid = |is_paid: bool, price: u32| if is_paid { price } else { 0 };
-        if plan.is_nothing() {
-            return 0;
-        }
-        5 + plan.interpolates.components() as u32
-            + if_paid(has(Attributes::NORMAL), 6)
-            + if_paid(plan.specular && has(Attributes::NORMAL), 8)
-            + if_paid(plan.shadows, 16)
-            + if_paid(has(Attributes::UV), if constants.shares_texels { 6 } else { 12 })
-            + if_paid(plan.mip_maps, 24)
-            + if_paid(plan.anisotropy, 24)
-            + if_paid(plan.fog == Share::Mixed, 12)
-            + if_paid(!plan.replaces_all(), 8)
     }
 
     /// The shares of the piece's corners at the corners of a rectangle; nothing where the piece covers none of it: all four lie
@@ -518,7 +436,6 @@ impl<'a> Whole<'a> {
                 plan.anisotropy = !footprint.is_round_between(square.inv_w, uv, self.farthest);
             }
         }
-        constants.shares_texels = !plan.reads_around() && longest <= MOST_SHARED;
         if is_mixed {
             let opacity = item.item.material.opacity.as_ref();
             if !opacity.is_some_and(|opacity| opacity.is_one_between(square.uv)) {
@@ -535,7 +452,6 @@ impl<'a> Whole<'a> {
         if texture.is_plain_between(square.uv, reach, level) {
             let [uv, ..] = square.uv;
             (plan.mip_maps, plan.anisotropy) = (false, false);
-            constants.shares_texels = false;
             plan.interpolates = plan.interpolates.without(Attributes(Attributes::UV));
             constants.texel = Some(texture.at(uv));
             let opacity = item.item.material.opacity.as_ref().filter(|_| is_mixed);

@@ -175,6 +175,11 @@ impl Attributes {
         if is_second { Self::SECOND_UV } else { Self::UV }
     }
 
+    /// Where an attribute stands among all numbers of a vertex.
+    pub(super) fn range(bit: u8) -> std::ops::Range<usize> {
+        Self::RANGES[bit.trailing_zeros() as usize].1.clone()
+    }
+
     /// Whether textures are read by any of these.
     pub(super) fn has_uv(self) -> bool {
         self.has(Self::UV) || self.has(Self::SECOND_UV)

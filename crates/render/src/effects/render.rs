@@ -6,10 +6,11 @@ use super::primitive::pack;
 
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
-use super::execute::{Observer, draw, fit};
-use super::kernel::{Coat, Kernel};
+use super::execute::{Observer, draw, fit, plans};
+use super::parts::Constants;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
+use super::stages::{Program, Registers};
 use crate::pipeline::Counters;
 use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::shade::PLACED;
@@ -125,6 +126,49 @@ fn plan_and_draw(
     Ok(draw(plan, assembled, scene, engine, target, observer))
 }
 
+/// How many pieces of an item have the same list of stages.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct StagedPieces {
+    pub item: usize,
+    pub pieces: u64,
+    /// What becomes of a fragment of these pieces, in order.
+    pub stages: Vec<String>,
+}
+
+/// The list of stages of each piece that the plan of a frame makes, in the order of the items.
+///
+/// # Errors
+/// [`PlanError::Scene`].
+pub fn stages(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    canvas: &Canvas,
+) -> Result<Vec<StagedPieces>, PlanError> {
+    let word_bits = |corners: &_| engine.word_bits(corners);
+    let (plan, mut assembled) = planner::plan(scene, canvas, effects, &word_bits)?;
+    if assembled.pieces.is_none() {
+        assembled.assemble(scene);
+        assembled.plans = plans(&plan, scene, &assembled)?;
+    }
+    let (registers, counters) = (&mut Registers::new(), &mut Counters::default());
+    let mut all: Vec<StagedPieces> = Vec::new();
+    for ((index, piece), plan) in assembled.pieces().iter().zip(&assembled.plans) {
+        let item = &assembled.items[*index];
+        let view = item.light_view.as_ref().filter(|_| plan.shadows);
+        let map = view.map(|view| view.map(scene, engine));
+        let constants = Constants::default();
+        let program = Program::new(item, piece, *plan, map, &constants, registers, counters);
+        let stages = program.names();
+        match all.iter_mut().find(|known| known.item == *index && known.stages == stages) {
+            Some(known) => known.pieces += 1,
+            None => all.push(StagedPieces { item: *index, pieces: 1, stages }),
+        }
+    }
+    all.sort_by_key(|known| known.item);
+    Ok(all)
+}
+
 /// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What
 /// any renderer does, and every depth is tested: lines have no inside to be planned for. They are opaque and in no shadow.
 ///
@@ -143,15 +187,17 @@ pub fn render_wireframe(
     target.clear_colour(scene.background, &mut counters);
     target.clear_depth(&mut counters);
     let (bounds, format) = (target.bounds(), target.format);
+    let registers = &mut Registers::new();
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
-            let coat = Coat::of(item, piece, plan, fills);
-            let kernel = Kernel::new(item, piece, plan, None, None, coat.as_ref(), fills);
+            let constants = Constants::default();
+            let program = Program::new(item, piece, plan, None, &constants, registers, fills);
+            let mut shader = program.on(registers);
             draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;
-                let colour = kernel.shade_all(&f.varying.0, f.depth);
+                let colour = shader.one(&f.varying, f.depth);
                 for plane in &mut target.planes {
                     plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
                 }

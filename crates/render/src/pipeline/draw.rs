@@ -101,10 +101,10 @@ impl<E: Interpolate> Renderer<E> {
         let (depth_test, bounds) = (*depth_test, target.bounds());
         let mut fills = Counters::default();
         let assembler = Assembler::new(bounds, self.cull);
-        let stage = each(|varying, _| fragment_stage(varying));
+        let mut stage = each(|varying, _| fragment_stage(varying));
         assemble_all(&assembler, vertices, triangles, vertex_stage, &mut self.counters, |piece| {
-            let way = Way { affine: false, depth_test };
-            fill(engine, piece, target, bounds, way, &stage, &mut fills);
+            let way = Way { depth_test, ..Way::default() };
+            fill(engine, piece, target, bounds, way, &mut stage, &mut fills);
         })?;
         self.counters += fills;
         Ok(())

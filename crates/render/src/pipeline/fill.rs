@@ -2,73 +2,42 @@
 
 use super::Counters;
 use super::depth::DepthFormat;
+pub use super::fragments::{FragmentStage, Lanes, Over, Way, each};
+pub(crate) use super::fragments::{all_of, shade};
 use super::multisample::{SAMPLES, moved};
+use super::see_through;
 use super::target::{Antialias, Colour, SamplePlane, Shading, Target};
-use rasterproof_core::contract::{Interpolate, RUN, Run, Varyings};
+use rasterproof_core::contract::{Interpolate, RUN, Run};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, Span, Varying};
 
-/// How the fragments of a triangle are made and kept: what the fragment stage does not see.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
-    /// Interpolate linearly in the window: right where the three w are equal.
-    pub affine: bool,
-    /// Compare with the depth buffer and write to it; else every fragment is drawn.
-    pub depth_test: bool,
-}
-
-/// A fragment stage of adjacent pixels, their varyings and depths: the colours of those whose bits are set, the
-/// lowest for the first, go to the places of their varyings.
-pub type FragmentStage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
-
-/// A fragment stage of one pixel, its varyings and its depth, for each of several.
-pub fn each<V>(stage: impl Fn(&V, f64) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
-    move |varyings, depths, wanted, colours| {
-        let fragments = varyings.iter().zip(depths).zip(colours).enumerate();
-        for (i, ((varying, depth), colour)) in fragments {
-            if wanted >> i & 1 != 0 {
-                *colour = stage(varying, *depth);
-            }
-        }
-    }
-}
-
 /// Draws one triangle, as far as it lies in `bounds`. The fragment stage is asked for the colour of
-/// what is visible.
+/// what is visible; how many fragments are.
 pub fn fill<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &FragmentStage<'_, V>,
+    stage: &mut dyn FragmentStage<V>,
     counters: &mut Counters,
-) {
-    if target.antialias() == Antialias::Multisample4 {
-        fill_multisampled(engine, piece, target, bounds, way, stage, counters);
-    } else {
-        fill_single(engine, piece, target, bounds, way, stage, counters);
-    }
-}
-
-/// The bits of the first `count` pixels, of which there is at least one.
-#[inline]
-pub(crate) fn all_of(count: usize) -> u32 {
-    u32::MAX >> (u32::BITS as usize - count)
-}
-
-/// Shades the pixels of a run whose bits are set; `depths` and `colours` are those of the whole run.
-#[inline]
-pub(crate) fn shade<V>(
-    (values, depths): (&mut dyn Varyings<V>, &[f64]),
-    wanted: u32,
-    stage: &FragmentStage<'_, V>,
-    colours: &mut [Colour],
-) {
-    let from = wanted.trailing_zeros() as usize;
-    let to = (u32::BITS - wanted.leading_zeros()) as usize;
-    stage(values.varyings(from, to), &depths[from..to], wanted >> from, &mut colours[from..to]);
+) -> u64 {
+    let [emitted, visible, shaded] = match (target.antialias(), way.over) {
+        (Antialias::Multisample4, Over::Replace) => {
+            fill_multisampled(engine, piece, target, bounds, way, stage)
+        }
+        (Antialias::Multisample4, _) => {
+            see_through::fill_multisampled(engine, piece, target, bounds, way, stage)
+        }
+        (_, Over::Replace) => fill_single(engine, piece, target, bounds, way, stage),
+        _ => see_through::fill_single(engine, piece, target, bounds, way, stage),
+    };
+    counters.fragments += emitted;
+    counters.depth_tests += if way.depth_test { emitted } else { 0 };
+    counters.depth_failed += emitted - visible;
+    counters.shaded += shaded;
+    visible
 }
 
 /// Runs of fewer pixels are mostly of small pieces.
@@ -85,16 +54,15 @@ fn test(format: DepthFormat, run: &Run<'_, impl Copy>, depth: &mut Frame<u64>) -
     format.test_and_write(run.depths, depth.span_mut(run.y_px, run.x0_px, run.x1_px()))
 }
 
-/// One sample a pixel: the nearer fragment wins, or the later one.
+/// One sample a pixel: the nearer fragment wins, or the later one. How many fragments there are, are visible, and are shaded.
 fn fill_single<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &FragmentStage<'_, V>,
-    counters: &mut Counters,
-) {
+    stage: &mut dyn FragmentStage<V>,
+) -> [u64; 3] {
     let format = target.format;
     let SamplePlane { colour, depth } = &mut target.planes[0];
     let (mut emitted, mut shaded) = (0, 0);
@@ -108,10 +76,7 @@ fn fill_single<V: Varying>(
             shade((run.values, run.depths), visible, stage, colour.span_mut(y_px, x0_px, x1_px));
         }
     });
-    counters.fragments += emitted;
-    counters.depth_tests += if way.depth_test { emitted } else { 0 };
-    counters.depth_failed += emitted - shaded;
-    counters.shaded += shaded;
+    [emitted, shaded, shaded]
 }
 
 /// One colour, the later triangle wins: coverage alone, a fill for each row.
@@ -143,9 +108,8 @@ fn fill_multisampled<V: Varying>(
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &FragmentStage<'_, V>,
-    counters: &mut Counters,
-) {
+    stage: &mut dyn FragmentStage<V>,
+) -> [u64; 3] {
     let format = target.format;
     let (planes, shading) = target.with_shading();
     engine.cover(piece.corners(), bounds, |Span { y_px, x0_px, x1_px }| {
@@ -173,7 +137,8 @@ fn fill_multisampled<V: Varying>(
                 } else {
                     shaded += 1;
                     let at = at as usize;
-                    stage(run.values.varyings(at, at + 1), &run.depths[at..=at], 1, drawn);
+                    let (values, depths) = (run.values.varyings(at, at + 1), &run.depths[at..=at]);
+                    stage.colours(Lanes { values, depths, wanted: 1 }, drawn);
                     shading.put(x_px, y_px, drawn[0]);
                 }
             }
@@ -181,10 +146,7 @@ fn fill_multisampled<V: Varying>(
     }
     shaded +=
         fill_waiting(engine, piece, (planes, shading), bounds, way.affine, stage, visible > 0);
-    counters.fragments += emitted;
-    counters.depth_tests += if way.depth_test { emitted } else { 0 };
-    counters.depth_failed += emitted - visible;
-    counters.shaded += shaded;
+    [emitted, visible, shaded]
 }
 
 /// Gives the samples that wait for it the colour at the centre, and forgets which those were; how
@@ -195,7 +157,7 @@ fn fill_waiting<V: Varying>(
     (planes, shading): (&mut [SamplePlane], &mut Shading),
     bounds: PixelRect,
     affine: bool,
-    stage: &FragmentStage<'_, V>,
+    stage: &mut dyn FragmentStage<V>,
     any: bool,
 ) -> u64 {
     if !any {
@@ -354,7 +316,8 @@ mod tests {
         for index in 0..60 {
             let mut rng = Rng::new("fills", 1, index);
             let piece = piece(&mut rng, [300, 20_000][index as usize % 2]);
-            let way = Way { affine: rng.chance(2), depth_test: !rng.chance(5) };
+            let (affine, depth_test) = (rng.chance(2), !rng.chance(5));
+            let way = Way { affine, depth_test, ..Way::default() };
             let bounds = fast.bounds();
             fill(
                 engine,
@@ -362,7 +325,7 @@ mod tests {
                 &mut fast,
                 bounds,
                 way,
-                &each(|varying, _| colour_of(varying)),
+                &mut each(|varying, _| colour_of(varying)),
                 &mut counters,
             );
             seen += fill_simply(engine, &piece, &mut simple, way);

@@ -7,9 +7,7 @@
 
 use glam::{DMat4, DVec3};
 
-use super::ends;
 use super::target::{Colour, to_colour};
-use rasterproof_core::arrays::MapArray as _;
 
 /// The share of fog as a function of the distance from the eye.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -103,43 +101,12 @@ impl Veil {
     /// A colour behind the fog up to a distance.
     #[must_use]
     pub fn before(&self, colour: Colour, distance: f64) -> Colour {
-        self.mixed(colour, self.share(distance))
-    }
-
-    fn mixed(&self, colour: Colour, share: f64) -> Colour {
+        let share = self.share(distance);
         let channel = |i: usize| {
             let (c, g) = (f64::from(colour[i]), f64::from(self.colour[i]));
             (c + (g - c) * share) / 255.0
         };
         to_colour(DVec3::new(channel(0), channel(1), channel(2)))
-    }
-
-    /// The same of adjacent pixels whose bits are set in `wanted`.
-    pub fn apply(&self, depths: &[f64], wanted: u32, colours: &mut [Colour]) {
-        for (i, (depth, colour)) in depths.iter().zip(colours).enumerate() {
-            if wanted >> i & 1 != 0 {
-                *colour = self.before(*colour, self.distance(*depth));
-            }
-        }
-    }
-
-    /// The colour that all fragments of one colour have in the fog that lie at these depths; nothing where it is not known that they
-    /// have one.
-    ///
-    /// The distance grows with the depth, or falls, and so does the share of fog; roundings keep the order of what is
-    /// only added, multiplied and divided by constants, and an exponential is off by less than 2^-50. So the share of each
-    /// fragment lies between those at the ends of the depths, moved by the margin, and so does each channel.
-    #[must_use]
-    pub fn one_before(&self, colour: Colour, depths: &[f64]) -> Option<Colour> {
-        // Neither of a perspective nor of a parallel projection: a sum and a quotient of depths.
-        if self.w[0] != 0.0 && self.w[1] != 0.0 {
-            return None;
-        }
-        let [one, other] = ends(depths).map_array(|depth| self.share(self.distance(depth)));
-        let margin = 0.5f64.powi(44);
-        let least = self.mixed(colour, (one.min(other) - margin).max(0.0));
-        let most = self.mixed(colour, (one.max(other) + margin).min(1.0));
-        (least == most).then_some(least)
     }
 
     /// How much fog there is between the depths of three corners.
@@ -174,6 +141,7 @@ impl Veil {
 mod tests {
     use super::*;
     use crate::pipeline::transform::frustum;
+    use rasterproof_core::arrays::MapArray as _;
     use rasterproof_core::random::Rng;
 
     fn veil(growth: Growth) -> Veil {
@@ -198,10 +166,8 @@ mod tests {
         for (distance, expected) in
             [(1.0, 0), (2.0, 0), (4.0, 63), (6.0, 125), (10.0, 250), (15.0, 250)]
         {
-            let mut colours = [black];
-            linear.apply(&[depth(distance)], 1, &mut colours);
-            assert_eq!(colours[0][0], expected, "at {distance}");
-            assert_eq!(colours[0][2], 0);
+            let colour = linear.before(black, linear.distance(depth(distance)));
+            assert_eq!([colour[0], colour[2]], [expected, 0], "at {distance}");
         }
         let exponential = veil(Growth::Exponential { density: 0.25 });
         // Half is left where e^(-z/4) = 1/2.
@@ -237,9 +203,9 @@ mod tests {
                 for j in 0..=12 - i {
                     let (i, j) = (f64::from(i) / 12.0, f64::from(j) / 12.0);
                     let [a, b, c] = depths;
-                    let mut colours = [[0, 255, 77, 255], [255, 0, 255, 255]];
-                    let before = colours;
-                    veil.apply(&[a + (b - a) * i + (c - a) * j; 2], 3, &mut colours);
+                    let before = [[0, 255, 77, 255], [255, 0, 255, 255]];
+                    let distance = veil.distance(a + (b - a) * i + (c - a) * j);
+                    let colours = before.map_array(|colour| veil.before(colour, distance));
                     wrong |= match share {
                         Share::None => colours != before,
                         Share::Mixed => false,
@@ -267,40 +233,6 @@ mod tests {
         };
         for (number, condition) in [mean, first, coarse].into_iter().enumerate() {
             assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
-        }
-    }
-
-    type OfRun = fn(&Veil, Colour, &[f64]) -> Option<Colour>;
-
-    /// How many runs of random depths have one colour by a condition, how many have, and how often it is wrong.
-    fn of_runs(condition: OfRun) -> [u32; 3] {
-        let mut rng = Rng::new("fog of runs", 1, 0);
-        let mut counts = [0; 3];
-        for index in 0..4000 {
-            let veil = random_veil(&mut rng, index);
-            let [from, spread] = [depth(1.0 + 18.0 * rng.unit()), 0.01 * rng.unit().powi(3)];
-            let depths: Vec<_> = (0..16).map(|_| from + spread * rng.signed()).collect();
-            let colour = [0, 255, (index % 256) as u8, 255];
-            let mut colours = vec![colour; 16];
-            veil.apply(&depths, u32::MAX, &mut colours);
-            let is_one = colours.iter().all(|own| *own == colours[0]);
-            let found = condition(&veil, colour, &depths);
-            counts[0] += u32::from(found.is_some());
-            counts[1] += u32::from(is_one);
-            counts[2] += u32::from(found.is_some_and(|own| !is_one || own != colours[0]));
-        }
-        counts
-    }
-
-    #[test]
-    fn a_run_has_one_colour_in_the_fog() {
-        let [known, all, wrong] = of_runs(Veil::one_before);
-        assert!(wrong == 0 && known > 1000 && known * 50 > all * 49, "{known}, {all}, {wrong}");
-        let first: OfRun =
-            |veil, colour, depths| Some(veil.before(colour, veil.distance(depths[0])));
-        let ends: OfRun = |veil, colour, depths| veil.one_before(colour, &[depths[0], depths[15]]);
-        for (number, condition) in [first, ends].into_iter().enumerate() {
-            assert!(of_runs(condition)[2] > 0, "wrong condition {number} survives");
         }
     }
 }

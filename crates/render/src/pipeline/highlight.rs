@@ -58,28 +58,6 @@ impl Highlight {
         Self { strength, shininess, halfway, least }
     }
 
-    /// What [`Self::at`] gives to all normals with cosines between two; nothing where it is not known to be one.
-    ///
-    /// A power grows with its base, and so does each channel. The margin is more than the error of a power, which is below 2^-50 of
-    /// it.
-    #[must_use]
-    pub fn one_between(&self, least: f64, most: f64) -> Option<[u8; 3]> {
-        let margin = 0.5f64.powi(40);
-        let shown = |cosine: f64, factor: f64| {
-            to_colour(self.strength * (libm::pow(cosine.max(0.0), self.shininess) * factor))
-        };
-        let [r, g, b, _] = shown(least, 1.0 - margin);
-        ([r, g, b, u8::MAX] == shown(most, 1.0 + margin)).then_some([r, g, b])
-    }
-
-    /// The cosine of the angle between a normal and the direction halfway between light and eye.
-    #[must_use]
-    #[inline]
-    pub fn cosine(&self, normal: DVec3) -> f64 {
-        let length = normal.length();
-        if length == 0.0 { 0.0 } else { normal.dot(self.halfway) / length }
-    }
-
     /// Whether it rounds to 0 in every channel, wherever a normal points.
     #[must_use]
     pub fn is_dark(&self) -> bool {
@@ -243,41 +221,6 @@ mod tests {
         let wrong = [corners, mean, shorter];
         for (number, condition) in wrong.into_iter().enumerate() {
             assert!(tried(condition)[2] > 0, "wrong condition {number} survives");
-        }
-    }
-
-    type OfRun = fn(&Highlight, f64, f64) -> Option<[u8; 3]>;
-
-    /// How many runs of random cosines have one highlight by a condition, how many have, and how often it is wrong.
-    fn of_runs(condition: OfRun) -> [u32; 3] {
-        let mut rng = Rng::new("highlights of runs", 1, 0);
-        let mut counts = [0; 3];
-        for _ in 0..4000 {
-            let highlight = highlight(rng.unit(), 1.0 + 60.0 * rng.unit());
-            let (from, spread) = (rng.signed(), 0.1 * rng.unit().powi(4));
-            let cosines: Vec<_> =
-                (0..16).map(|_| (from + spread * rng.signed()).clamp(-1.0, 1.0)).collect();
-            let shown: Vec<_> = cosines.iter().map(|cosine| highlight.of(*cosine)).collect();
-            let is_one = shown.iter().all(|own| *own == shown[0]);
-            let least = cosines.iter().copied().fold(f64::INFINITY, f64::min);
-            let most = cosines.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let found = condition(&highlight, least, most);
-            counts[0] += u32::from(found.is_some());
-            counts[1] += u32::from(is_one);
-            counts[2] += u32::from(found.is_some_and(|own| !is_one || own != shown[0]));
-        }
-        counts
-    }
-
-    #[test]
-    fn a_run_has_one_highlight() {
-        let [known, all, wrong] = of_runs(Highlight::one_between);
-        assert!(wrong == 0 && known > 1000 && known * 50 > all * 49, "{known}, {all}, {wrong}");
-        let least: OfRun = |highlight, least, _| Some(highlight.of(least));
-        let middle: OfRun =
-            |highlight, least, most| highlight.one_between((least + most) / 2.0, most);
-        for (number, condition) in [least, middle].into_iter().enumerate() {
-            assert!(of_runs(condition)[2] > 0, "wrong condition {number} survives");
         }
     }
 }

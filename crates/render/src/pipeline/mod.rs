@@ -15,6 +15,7 @@ pub mod draw;
 pub mod fill;
 pub mod fog;
 pub mod footprint;
+pub mod fragments;
 pub mod highlight;
 pub mod layers;
 pub mod linear;

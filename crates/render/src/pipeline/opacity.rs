@@ -18,7 +18,7 @@ use glam::DVec2;
 use super::depth::OFF_FRACTION;
 use super::plain::{BLOCK, Ends, MOST_BLOCKS};
 use super::sample::Colour;
-use super::texture::{Filter, FourTexels, Texture, Wrap};
+use super::texture::{Filter, Texture, Wrap};
 use super::wrap::within;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -73,12 +73,6 @@ impl Opacity {
     #[must_use]
     pub fn read(&self, uv: DVec2) -> u8 {
         step(self.factor * self.map.as_ref().map_or(1.0, |map| map.at(uv))) as u8
-    }
-
-    /// The same as [`Self::of`], with the four texels of the last read.
-    #[must_use]
-    pub fn of_again(&self, uv: DVec2, last: &mut FourTexels) -> u8 {
-        self.of_texel(self.map.as_ref().map_or(1.0, |map| map.texture.at_again(uv, last).x))
     }
 
     /// How opaque a fragment with these texture coordinates is.
@@ -447,11 +441,8 @@ mod tests {
             let (opacity, uv, around) = case(index, true);
             let around = if opacity.levels().is_some() { around } else { [0.0; 2] };
             if condition(&opacity, uv) {
-                let mut last = FourTexels::NONE;
-                let is_other = fragments(&opacity, uv, around, &mut |at, found| {
-                    assert_eq!(opacity.of_again(at, &mut last), opacity.of(at));
-                    found != opacity.of(uv[0])
-                });
+                let is_other =
+                    fragments(&opacity, uv, around, &mut |_, found| found != opacity.of(uv[0]));
                 counts[0] += 1;
                 counts[1] += u32::from(is_other);
             }

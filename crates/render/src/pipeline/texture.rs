@@ -87,29 +87,6 @@ enum Texels {
     Grey(Arc<[u8]>),
 }
 
-/// Four texels of one texture between which a filter has read.
-#[derive(Clone, Copy, Debug)]
-pub struct FourTexels {
-    /// Column and row of the upper left one.
-    place: [i64; 2],
-    /// Of both rows the left one, and what the right one differs by.
-    lines: [[DVec3; 2]; 2],
-}
-
-impl FourTexels {
-    /// Before the first read: no texel is in a column of this number.
-    pub const NONE: Self = Self { place: [i64::MIN; 2], lines: [[DVec3::ZERO; 2]; 2] };
-
-    /// The bilinear mean at a place between the centres of these texels, in subtexels.
-    #[inline]
-    fn between(&self, x: i64, y: i64) -> DVec3 {
-        let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
-        let (right, down) = (part(x), part(y));
-        let [a, b] = self.lines.map_array(|[from, difference]| from + difference * right);
-        a + (b - a) * down
-    }
-}
-
 /// Boxes of colours that are listed at most.
 pub const MOST_PLACES: usize = 1 << 8;
 
@@ -362,40 +339,15 @@ impl Texture {
         self.at_subtexel(x, y, filter)
     }
 
-    /// The same, with the four texels of the last read: where a texture is magnified, neighbours mostly read the same ones.
-    #[must_use]
-    #[inline]
-    pub fn at_again(&self, uv: DVec2, last: &mut FourTexels) -> DVec3 {
-        if self.filter == Filter::Nearest {
-            return self.at(uv);
-        }
-        let [x, y] = [subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y)]
-            .map_array(|sub| sub - SUBTEXELS / 2);
-        let place = [x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS];
-        if last.place != place {
-            *last = self.four(place);
-        }
-        last.between(x, y)
-    }
-
-    /// The four texels of which the upper left one is in this column and row.
-    #[inline]
-    fn four(&self, place: [i64; 2]) -> FourTexels {
-        let [column, row] = place;
-        let columns = [self.column(column), self.column(column + 1)];
-        let rows = [self.row_start(row), self.row_start(row + 1)];
-        FourTexels { place, lines: [self.line(rows[0], columns), self.line(rows[1], columns)] }
-    }
-
-    /// Of two texels of a row the left one, and what the right one differs by. Called in place: a call takes as long.
+    /// Between two texels of the row that begins at `start`. Called in place: a call takes as long.
     #[inline(always)]
-    fn line(&self, start: usize, columns: [usize; 2]) -> [DVec3; 2] {
+    fn between_columns(&self, start: usize, columns: [usize; 2], right: f64) -> DVec3 {
         let [a, b] = [self.texel(start + columns[0]), self.texel(start + columns[1])];
-        [a, b - a]
+        a + (b - a) * right
     }
 
-    /// The colour at whole numbers of 1/256 texel from the top left corner.
-    #[inline]
+    /// The colour at whole numbers of 1/256 texel from the top left corner. Called in place, as [`Self::between_columns`].
+    #[inline(always)]
     fn at_subtexel(&self, x: i64, y: i64, filter: Filter) -> DVec3 {
         match filter {
             Filter::Nearest => {
@@ -405,7 +357,13 @@ impl Texture {
             Filter::Bilinear => {
                 // Texel centres carry the values, so half a texel lies before the first.
                 let (x, y) = (x - SUBTEXELS / 2, y - SUBTEXELS / 2);
-                self.four([x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS]).between(x, y)
+                let (column, row) = (x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS);
+                let columns = [self.column(column), self.column(column + 1)];
+                let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
+                let (right, down) = (part(x), part(y));
+                let a = self.between_columns(self.row_start(row), columns, right);
+                let b = self.between_columns(self.row_start(row + 1), columns, right);
+                a + (b - a) * down
             }
         }
     }
@@ -612,30 +570,6 @@ fn floor(x: f64) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Reads close together and far apart, with both filters, beyond the borders too.
-    #[test]
-    fn texels_that_are_kept_give_the_same_bits() {
-        let bytes: Vec<_> = (0..9 * 6u8).map(|i| [i * 4, 255 - i, i.wrapping_mul(37)]).collect();
-        let texture = Texture::new(9, 6, &bytes).unwrap();
-        let mut kept = 0;
-        for filter in [Filter::Nearest, Filter::Bilinear] {
-            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
-                let texture = texture.clone().with(filter, wrap);
-                let mut last = FourTexels::NONE;
-                for i in 0..4000 {
-                    let (step, far) = (f64::from(i) * 0.0013, f64::from(i / 40) * 0.171);
-                    let uv = DVec2::new(step + far - 2.0, 1.7 - step * 0.7);
-                    let before = last.place;
-                    assert_eq!(texture.at_again(uv, &mut last), texture.at(uv));
-                    kept += u32::from(before == last.place);
-                }
-                let odd = DVec2::new(f64::NAN, f64::INFINITY);
-                assert_eq!(texture.at_again(odd, &mut last), texture.at(odd));
-            }
-        }
-        assert!(kept > 9000, "{kept}");
-    }
 
     fn two_by_two() -> Texture {
         let (r, g, b, w) = ([255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]);

@@ -3,7 +3,7 @@
 use rasterproof_precision::cost::{CELLS, Ratio};
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Plan, SceneDigest, Unit};
-use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::effects::render::{Rendered, StagedPieces};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, Statement};
@@ -93,6 +93,32 @@ pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
         items => format!("of item {items}: {}", line.reason),
     };
     lines.map(reason).collect()
+}
+
+/// What becomes of the fragments of each piece, in order: a row for each list of stages, and the same as data.
+pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
+    let row = |staged: &StagedPieces| {
+        Row::of(&[&staged.item, &thousands(staged.pieces), &staged.stages.join(", ")])
+    };
+    let notes = [
+        "what is not in a list costs its pieces nothing; x multiplies and + adds to what is there",
+        "squares of large pieces may have shorter lists",
+    ];
+    let columns = "item 5 | >pieces 9 | stages";
+    let table =
+        Table::new("Stages of each fragment, in order", columns, staged.iter().map(row).collect());
+    Report {
+        about: format!("{}: {}", scene.name, scene.about),
+        tables: vec![table.noted(notes.map(str::to_owned).to_vec())],
+        data: value(&Staged { scene: &scene.name, stages: staged }),
+        ..Report::default()
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Staged<'a> {
+    scene: &'a str,
+    stages: &'a [StagedPieces],
 }
 
 /// What planning the effects of a scene saves, with the frames that were drawn to find it.

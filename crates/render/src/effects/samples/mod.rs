@@ -106,9 +106,9 @@ impl OnDemand {
         let rect = touched(&piece.corners(), target.antialias());
         if self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, depth, target, counters) {
-                let (bounds, way) = (target.bounds(), Way { affine: true, depth_test: true });
-                let (piece, stage) = (bare(piece), each(|_, _| colour));
-                fill(engine, &piece, target, bounds, way, &stage, counters);
+                let way = Way { affine: true, depth_test: true, ..Way::default() };
+                let (bounds, stage) = (target.bounds(), &mut each(|_, _| colour));
+                fill(engine, &bare(piece), target, bounds, way, stage, counters);
             }
             return;
         }
@@ -129,37 +129,35 @@ impl OnDemand {
         self.runs = runs;
     }
 
-    /// Draws a piece whose attributes vary; `packed` is the same with those it reads.
-    #[expect(clippy::too_many_arguments, reason = "those of `fill`, and the piece")]
+    /// Draws a piece whose attributes vary, which is there with those it reads, too; how many fragments are visible.
     pub(super) fn draw_varying<V: Varying>(
         &mut self,
         engine: &impl Interpolate,
-        piece: &Piece,
-        packed: &ScreenTriangle<V>,
+        (piece, packed, plan): (&Piece, &ScreenTriangle<V>, PiecePlan),
         target: &mut Target,
-        plan: PiecePlan,
-        stage: &FragmentStage<'_, V>,
+        way: Way,
+        stage: &mut dyn FragmentStage<V>,
         counters: &mut Counters,
-    ) {
-        let way = Way { affine: !plan.perspective, depth_test: plan.depth };
+    ) -> u64 {
         let rect = touched(&piece.corners(), target.antialias());
         // Supersampled attributes that vary leave no pixel whole, whatever an edited plan says.
         if self.pattern.planes == 1 || self.policy.tells_apart(rect, plan, self.pattern.planes) {
-            if self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
-                fill(engine, packed, target, target.bounds(), way, stage, counters);
+            if !self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
+                return 0;
             }
-            return;
+            return fill(engine, packed, target, target.bounds(), way, stage, counters);
         }
         let plane = way.depth_test.then(|| DepthPlane::new(piece, self.pattern));
         let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
         self.gather(&runs);
+        let mut visible = 0;
         for block in self.drawn.rects() {
-            fill(engine, packed, target, block, way, stage, counters);
+            visible += fill(engine, packed, target, block, way, stage, counters);
         }
         self.runs = runs;
-        let Some(state) = met else { return };
+        let Some(state) = met else { return visible };
         let (Self { states, colours, .. }, mut shaded) = (self, 0);
         engine.runs(packed, target.bounds(), way.affine, &mut |run| {
             let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
@@ -179,6 +177,7 @@ impl OnDemand {
         });
         counters.fragments += shaded;
         counters.shaded += shaded;
+        visible + shaded
     }
 
     /// Decides what becomes of each pixel that the piece touches, drawn at the depths of a plane or
