@@ -273,7 +273,7 @@ impl<'a> Learner<'a> {
 }
 
 impl Learn for Learner<'_> {
-    type Found = Model;
+    type Hypothesis = Model;
 
     fn search(&mut self) -> Model {
         self.drawer.work().begin();

@@ -149,7 +149,7 @@ pub(super) struct Terms {
 
 /// A rule that was found.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
+pub(super) struct Rule {
     pub(super) facts: Conjunction,
     /// Rows of `yes` that it holds of.
     pub(super) rows: usize,
@@ -223,7 +223,7 @@ fn places(bits: &[u64]) -> impl Iterator<Item = usize> {
 }
 
 /// The best rules: each the best for the rows that those before do not hold of.
-pub(super) fn best(names: &[Name], table: &Table, terms: Terms, work: &Work) -> Vec<Found> {
+pub(super) fn best(names: &[Name], table: &Table, terms: Terms, work: &Work) -> Vec<Rule> {
     work.spend(names.len() * (table.yes.len() + table.no.len()) / VALUES_A_STEP);
     let [with, without] = [&table.yes, &table.no].map(|rows| Values::of(names.len(), rows));
     let mut all = Vec::new();
@@ -246,7 +246,7 @@ fn best_of(
     groups: &[usize],
     (terms, work): (Terms, &Work),
     left: &[usize],
-) -> Option<Found> {
+) -> Option<Rule> {
     let yes: Vec<usize> = spread(left.len(), MOST_YES).into_iter().map(|i| left[i]).collect();
     let mut no = spread(without.rows(), MOST_NO);
     let mut is_left = vec![0; left.len().max(with.rows()).div_ceil(64)];
@@ -401,7 +401,7 @@ impl Matrix {
     }
 
     /// The best conjunctions, one fact longer at each step.
-    fn search(&self, terms: Terms, work: &Work) -> Vec<Found> {
+    fn search(&self, terms: Terms, work: &Work) -> Vec<Rule> {
         let mut found = Vec::new();
         let (yes, no) = (ones(self.rows), ones(self.others));
         let counts = [self.rows, self.others];
@@ -424,13 +424,13 @@ impl Matrix {
             }
             // A longer rule cannot be worth more than all rows.
             let most = self.rows as f64 * LONGER.powi(length as i32 + 1);
-            if found.first().is_some_and(|best: &Found| best.value >= most) {
+            if found.first().is_some_and(|best: &Rule| best.value >= most) {
                 break;
             }
             grown.sort_unstable_by(Grown::before);
             beam = self.kept(&beam, &grown, most_kept);
         }
-        found.sort_by(|a: &Found, b: &Found| b.value.total_cmp(&a.value));
+        found.sort_by(|a: &Rule, b: &Rule| b.value.total_cmp(&a.value));
         found.truncate(MOST_FOUND);
         found
     }
@@ -443,7 +443,7 @@ impl Matrix {
         parent: usize,
         terms: Terms,
         least: f64,
-        found: &mut Vec<Found>,
+        found: &mut Vec<Rule>,
         grown: &mut Vec<Grown>,
     ) -> usize {
         let mut counted = 0;
@@ -486,7 +486,7 @@ impl Matrix {
             }
             let facts =
                 partial.facts.iter().chain([&fact]).map(|i| self.columns[*i].fact).collect();
-            found.push(Found { facts, rows: yes, value });
+            found.push(Rule { facts, rows: yes, value });
             let last = found.len() - 1;
             if value > found[0].value {
                 found.swap(0, last);
@@ -552,7 +552,7 @@ fn gain(yes: usize, no: usize, rows: usize, others: usize) -> f64 {
 
 /// A value with the row that has it.
 #[derive(Clone, Copy)]
-struct Placed {
+struct RowValue {
     value: i64,
     row: usize,
 }
@@ -562,7 +562,7 @@ struct Placed {
 struct Tested {
     values: Vec<i64>,
     /// In the order of values, without rows that have none.
-    in_order: Vec<Placed>,
+    in_order: Vec<RowValue>,
     known: Vec<u64>,
     /// The first so many of the order, as bits.
     first: (usize, Vec<u64>),
@@ -575,8 +575,8 @@ const DIVISOR: i64 = 16;
 
 impl Tested {
     fn new(values: Vec<i64>) -> Self {
-        let placed = values.iter().enumerate().map(|(row, &value)| Placed { value, row });
-        let mut in_order: Vec<Placed> = placed.filter(|placed| placed.value != NONE).collect();
+        let placed = values.iter().enumerate().map(|(row, &value)| RowValue { value, row });
+        let mut in_order: Vec<RowValue> = placed.filter(|placed| placed.value != NONE).collect();
         in_order.sort_unstable_by_key(|placed| placed.value);
         let mut known = none(values.len());
         in_order.iter().for_each(|placed| set(&mut known, placed.row));
@@ -685,7 +685,7 @@ fn sources(names: &[Name]) -> Vec<Of> {
 const MOST_VALUES: usize = 24;
 
 /// The tests of a quantity, with numbers read off its values.
-fn tests(names: &[Name], of: Of, with: &[Placed], without: &[Placed]) -> Vec<Test> {
+fn tests(names: &[Name], of: Of, with: &[RowValue], without: &[RowValue]) -> Vec<Test> {
     let unit = match of {
         Of::One(i) => names[i].unit,
         Of::Difference(..) => {

@@ -62,21 +62,21 @@ const MOST_ROUNDS: usize = 4;
 /// Somebody who searches for an explanation, and tries out on new questions what was found.
 pub trait Learn {
     /// An explanation.
-    type Found: Clone;
+    type Hypothesis: Clone;
 
     /// The best explanation of the answers so far.
-    fn search(&mut self) -> Self::Found;
+    fn search(&mut self) -> Self::Hypothesis;
 
     /// How an explanation does on new questions, whose answers the next search learns from; nothing where nobody waits for it.
-    fn try_out(&mut self, found: &Self::Found) -> Option<Trial>;
+    fn try_out(&mut self, found: &Self::Hypothesis) -> Option<Trial>;
 
     /// Whether nothing more may be asked.
     fn is_over(&self) -> bool;
 
     /// The best explanation with what its trial showed. What refutes one is learned from by the next search; what is not
     /// refuted is tried out until that was enough.
-    fn explained(&mut self) -> Option<(Trial, Self::Found)> {
-        let mut best: Option<(Trial, Self::Found)> = None;
+    fn explained(&mut self) -> Option<(Trial, Self::Hypothesis)> {
+        let mut best: Option<(Trial, Self::Hypothesis)> = None;
         let (mut searches, mut is_refuted) = (0, true);
         for _ in 0..MOST_ROUNDS {
             // What was not refuted before is asked for more.

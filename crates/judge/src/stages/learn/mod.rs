@@ -406,7 +406,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
 }
 
 impl<L: Learnable> Learn for Learner<'_, L> {
-    type Found = Chain<L>;
+    type Hypothesis = Chain<L>;
 
     fn search(&mut self) -> Chain<L> {
         self.work.begin();
