@@ -1,5 +1,8 @@
 //! Pixels that show one of several triangles, as a test of depth shows it.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use super::{Learnable, LearnedCase, spread};
 use crate::ask::Asked;
 use crate::declared::Declared;
@@ -23,6 +26,44 @@ pub struct PixelOfList<'a> {
     pile: Pile<'a>,
     /// How much farther than the nearest a triangle may be that is shown.
     allowance: f64,
+    tiles: Arc<Tiles>,
+}
+
+/// Sides of the tiles by which triangles may be sorted into bins, and their words.
+const TILES: [(i32, &str); 4] = [(4, "4 px"), (8, "8 px"), (16, "16 px"), (32, "32 px")];
+
+/// Which triangles of a list cover a pixel of each tile, as bits; a map for each of [`TILES`].
+struct Tiles([HashMap<[i32; 2], u64>; TILES.len()]);
+
+impl Tiles {
+    fn of(piles: &[Pile<'_>]) -> Self {
+        let mut tiles = TILES.map(|_| HashMap::new());
+        for pile in piles {
+            let covering = pile.layers.iter().fold(0, |bits, layer| bits | bit(layer.number));
+            for ((side, _), tiles) in TILES.into_iter().zip(&mut tiles) {
+                *tiles.entry(tile(pile.spot.at, side)).or_insert(0) |= covering;
+            }
+        }
+        Self(tiles)
+    }
+
+    /// The place of a triangle, from 1, among those that cover a pixel of the tile of a pixel, for each of [`TILES`].
+    fn places(&self, at: [i32; 2], number: usize) -> [i64; TILES.len()] {
+        let before = bit(number).wrapping_sub(1);
+        std::array::from_fn(|of| {
+            let covering = self.0[of].get(&tile(at, TILES[of].0)).copied().unwrap_or(0);
+            i64::from((covering & before).count_ones()) + 1
+        })
+    }
+}
+
+/// A list has at most 64 triangles.
+fn bit(number: usize) -> u64 {
+    1u64.checked_shl(number as u32).unwrap_or(0)
+}
+
+fn tile(at: [i32; 2], side: i32) -> [i32; 2] {
+    at.map(|at| at.div_euclid(side))
 }
 
 #[derive(Clone)]
@@ -134,6 +175,11 @@ impl PixelOfList<'_> {
             let beyond = number + 1 - self.list_length() / group * group;
             out.number(Unit::Count, beyond, &[whose, noun, word, of_whom]);
         }
+        // A bin of a tile may be full.
+        let noun = "place among the triangles that cover a pixel of its tile of ";
+        for ((_, side), place) in TILES.into_iter().zip(self.tiles.places([x, y], l.number)) {
+            out.number(Unit::Count, place, &[whose, noun, side, of_whom]);
+        }
         let area = twice_area(&l.triangle.corners());
         out.number(Unit::Subpixels, (most[0] - least[0]).into(), &[whose, "width", of_whom]);
         out.number(Unit::Subpixels, (most[1] - least[1]).into(), &[whose, "height", of_whom]);
@@ -183,7 +229,7 @@ const IT: Whose = ["its ", "it", ""];
 const NEAREST: Whose = ["the ", "the nearest triangle", " of the nearest triangle"];
 const SHOWN: Whose = ["the ", "the one shown instead", " of the one shown instead"];
 /// How many quantities `of_layer` gives of a triangle.
-const OF_LAYER: usize = 22;
+const OF_LAYER: usize = 26;
 
 impl Learnable for Depths {
     type Part<'a> = PixelOfList<'a>;
@@ -199,7 +245,9 @@ impl Learnable for Depths {
         let allowance = (2.0 * declared.tolerance + 16.0 * f64::EPSILON) * largest;
         let noise = declared.tolerance.clamp(DepthTest::NOISE[0], DepthTest::NOISE[1]);
         let piles = DepthTest::parts(&asked.question, &asked.answer, declared, noise);
-        piles.into_iter().map(|pile| PixelOfList { asked, pile, allowance }).collect()
+        let tiles = Arc::new(Tiles::of(&piles));
+        let part = |pile| PixelOfList { asked, pile, allowance, tiles: tiles.clone() };
+        piles.into_iter().map(part).collect()
     }
 
     fn is_right(part: &PixelOfList<'_>) -> bool {

@@ -1,6 +1,7 @@
 //! Wrong programs as altered answers of a right engine: what is learned of each.
 
 use glam::DVec2;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_registry::engines;
@@ -94,6 +95,64 @@ fn triangles_from_the_seventeenth_on_are_not_drawn() {
         Check::Depth,
         alter,
         "does not draw a triangle where its place in the list (from 1) is 17 or more",
+    );
+}
+
+#[test]
+fn bins_of_tiles_hold_five_triangles() {
+    const SIDE: i32 = 16;
+    const MOST: usize = 5;
+    let alter: Alter = |question, answer, engine| {
+        let Asked::Depth(list) = &question.of else { panic!("depth") };
+        let tile = |x: i32, y: i32| [x / SIDE, y / SIDE];
+        // Which triangles each tile has.
+        let mut bins = std::collections::BTreeMap::<[i32; 2], Vec<usize>>::new();
+        for (number, triangle) in list.iter().enumerate() {
+            let Answer::Seen(runs) = ask(engine, question, Asked::Depth(vec![*triangle])) else {
+                return;
+            };
+            for x_y in
+                runs.iter().flat_map(|(run, _)| (run.x0_px..run.x1_px).map(|x| (x, run.y_px)))
+            {
+                let bin = bins.entry(tile(x_y.0, x_y.1)).or_default();
+                if bin.len() < MOST && bin.last() != Some(&number) {
+                    bin.push(number);
+                }
+            }
+        }
+        // Each tile is drawn by its own triangles.
+        let mut seen = Vec::new();
+        for (at, bin) in &bins {
+            let Answer::Seen(runs) = without(question, engine, &|i, _| bin.contains(&i)) else {
+                return;
+            };
+            for (run, number) in runs {
+                let here = (run.x0_px..run.x1_px).filter(|x| tile(*x, run.y_px) == *at);
+                seen.extend(here.map(|x| (Span { x0_px: x, x1_px: x + 1, ..run }, number)));
+            }
+        }
+        seen.sort_by_key(|(run, _)| (run.y_px, run.x0_px));
+        *answer = Answer::Seen(seen);
+    };
+    explains(
+        Check::Depth,
+        alter,
+        "its place among the triangles that cover a pixel of its tile of 16 px is 6 or more",
+    );
+}
+
+#[test]
+fn twice_the_area_wraps_in_16_bits() {
+    let alter: Alter = |question, answer, _| {
+        let Asked::Values(triangle) = &question.of else { return };
+        let area = twice_area(&triangle.corners());
+        let growth = area as f64 / f64::from(area as i16);
+        each_value(answer, &|which, _, value| if which == 0 { value * growth } else { value });
+    };
+    explains(
+        Check::Values,
+        alter,
+        "twice the area was kept in a word of 16 bits that counts square subpixels",
     );
 }
 

@@ -3,13 +3,16 @@
 //! A change is a recipe of [`values`], or a *relation*: the value is a number times a term, which may be added to the right
 //! value. Terms are what a program has at hand in a pixel; the number is read off the answers.
 
+use std::fmt;
 use std::rc::Rc;
 
 use super::{Learnable, LearnedCase};
 use crate::ask::{Answer, Asked};
 use crate::declared::Declared;
 use crate::expected::value_bounds;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::facts::{self, Topic};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::learn::rows::{NONE, Quantities, TriangleInWindow, Unit, value};
@@ -63,6 +66,48 @@ pub enum Term {
     Squared,
     /// The place of the sample, in pixels.
     Place(usize),
+    /// The right value, whose weights were divided by twice the area in a word that is too short.
+    OverArea(AreaWord),
+}
+
+/// A word in which twice the area wraps around.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaWord {
+    bits: u32,
+    is_signed: bool,
+    /// Whether the fraction is cut first: square pixels instead of square subpixels.
+    is_whole: bool,
+}
+
+impl AreaWord {
+    const ALL: [Self; 8] = {
+        let mut all = [Self { bits: 16, is_signed: false, is_whole: false }; 8];
+        let mut i = 0;
+        while i < all.len() {
+            let bits = if i & 4 == 0 { 16 } else { 32 };
+            all[i] = Self { bits, is_signed: i & 1 == 0, is_whole: i & 2 == 0 };
+            i += 1;
+        }
+        all
+    };
+
+    /// By what the weights grow; nothing finite where the word is 0.
+    fn growth(self, corners: &Corners) -> f64 {
+        let fraction = if self.is_whole { 2 * SUBPIXELS.trailing_zeros() } else { 0 };
+        let area = twice_area(corners);
+        let wrapped = (area >> fraction).rem_euclid(1 << self.bits);
+        let is_negative = self.is_signed && wrapped >> (self.bits - 1) != 0;
+        let word = if is_negative { wrapped - (1 << self.bits) } else { wrapped };
+        area as f64 / (word << fraction) as f64
+    }
+}
+
+impl fmt::Display for AreaWord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.is_signed { "" } else { " without sign" };
+        let unit = if self.is_whole { "square pixels" } else { "square subpixels" };
+        write!(f, "a word of {} bits{sign} that counts {unit}", self.bits)
+    }
 }
 
 const TERMS: [Term; 22] = [
@@ -185,6 +230,7 @@ impl ValueOfPixel<'_> {
             Term::OverW => self.right() * self.of.inverse_w(at),
             Term::Squared => self.right() * self.right(),
             Term::Place(axis) => at[axis],
+            Term::OverArea(word) => self.right() * word.growth(&self.of.triangle.corners()),
         }
     }
 
@@ -316,8 +362,11 @@ impl Learnable for Values {
     fn explains(change: &Change, part: &ValueOfPixel<'_>) -> bool {
         match change {
             Change::Relation { base, by, term } => {
-                let size = part.largest() + by.abs() * part.size(*term);
-                part.is(part.base(*base) + by * part.term(*term), size)
+                let predicted = part.base(*base) + by * part.term(*term);
+                if !predicted.is_finite() {
+                    return !part.given.is_finite();
+                }
+                part.is(predicted, part.largest() + by.abs() * part.size(*term))
             }
             Change::NoNumber => !part.given.is_finite(),
             Change::Recipe(recipe) => {
@@ -380,6 +429,9 @@ impl Learnable for Values {
                 all.extend(related(base, term, wrong));
             }
         }
+        for word in AreaWord::ALL {
+            all.extend(related(Base::Nothing, Term::OverArea(word), wrong));
+        }
         let is_centred = wrong.first().is_some_and(|part| {
             part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
         });
@@ -420,6 +472,9 @@ impl Learnable for Values {
             Term::OverW => "the right value over w".to_owned(),
             Term::Squared => "the square of the right value".to_owned(),
             Term::Place(axis) => format!("the {} of the sample", ["x", "y"][axis]),
+            Term::OverArea(word) => {
+                format!("the right value as if twice the area was kept in {word}")
+            }
         };
         let size = by.abs();
         let product = match (word.is_empty(), size == 1.0) {
