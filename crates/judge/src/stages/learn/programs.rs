@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_registry::engines;
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::mistakes::values::{sum, weights};
 
 use super::{Learned, MOST_TO_LEARN, learn};
 use crate::ask::{Answer, Asked, Question, Subject};
@@ -154,6 +155,33 @@ fn twice_the_area_wraps_in_16_bits() {
         alter,
         "twice the area was kept in a word of 16 bits that counts square subpixels",
     );
+}
+
+#[test]
+fn values_are_those_of_blocks_in_high_triangles() {
+    let alter: Alter = |question, answer, _| {
+        let Asked::Values(triangle) = &question.of else { return };
+        let y = triangle.corners().map(|c| c.y);
+        let height = y.into_iter().max().unwrap_or(0) - y.into_iter().min().unwrap_or(0);
+        if height < 6 * SUBPIXELS {
+            return;
+        }
+        let Answer::Values(fragments) = answer else { return };
+        for f in fragments {
+            // The values of the pixel in the first of its 4 columns.
+            let back = f64::from(f.x_px % 4);
+            let at = [f64::from(f.x_px) + 0.5 - back, f64::from(f.y_px) + 0.5];
+            let linear = weights(&triangle.corners(), at);
+            let parts = [0, 1, 2].map(|i| linear[i] * triangle.vertices[i].inv_w);
+            let whole: f64 = parts.iter().sum();
+            let corrected = parts.map(|part| part / whole);
+            let v = &triangle.vertices;
+            f.depth = sum(linear, v.map(|v| v.depth));
+            f.varying.x = sum(corrected, v.map(|v| v.varying.x));
+            f.varying.y = sum(corrected, v.map(|v| v.varying.y));
+        }
+    };
+    explains(Check::Values, alter, "the right value of the first of its 4 columns");
 }
 
 #[test]

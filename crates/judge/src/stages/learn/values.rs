@@ -28,6 +28,8 @@ struct TriangleOfValues<'a> {
     corners: [[f64; 3]; 3],
     /// Where samples lie in their pixel, in pixels.
     sample: [f64; 2],
+    /// Columns and rows of the window.
+    window: [i32; 2],
     facts: TriangleInWindow,
 }
 
@@ -68,7 +70,75 @@ pub enum Term {
     Place(usize),
     /// The right value, whose weights were divided by twice the area in a word that is too short.
     OverArea(AreaWord),
+    /// The right value at another place.
+    At(Place),
+    /// Straight between the right values at both ends of a stretch.
+    Straight(Stretch),
 }
+
+/// Another place whose value a pixel may get.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// As far left of it, or above it, as its row or its column is cut at the window.
+    Uncut(usize),
+    /// The first or the last pixel of its row or column, in the window or not.
+    End(usize, bool),
+    /// The first pixel of its block, along x, y or both: so many pixels.
+    Block([bool; 2], i32),
+    /// Where steps from a corner lead that are counted otherwise: one of [`STEPS`].
+    FromCorner(usize, usize),
+}
+
+/// Other steps along x and y than those from a corner to the sample, by those, and what is then added up.
+const STEPS: [([[f64; 2]; 2], &str); 7] = [
+    ([[1.0, 1.0], [0.0, 0.0]], "with the change along x in the place of that along y"),
+    ([[0.0, 0.0], [1.0, 1.0]], "with the change along y in the place of that along x"),
+    ([[0.0, 1.0], [1.0, 0.0]], "with both changes exchanged"),
+    ([[1.0, 0.0], [0.0, -1.0]], "with the change along y reversed"),
+    ([[-1.0, 0.0], [0.0, 1.0]], "with the change along x reversed"),
+    ([[1.0, 0.0], [0.0, 0.0]], "without the change along y"),
+    ([[0.0, 0.0], [0.0, 1.0]], "without the change along x"),
+];
+
+/// Pixels of a row between two exact values, between which values are straight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    side: i32,
+    /// Whether it is counted from the first pixel in the window, else from that of the whole row.
+    is_in_window: bool,
+    /// Whether the last one ends at the last pixel of the row, else it is as long as the others.
+    is_cut: bool,
+}
+
+const STRETCHES: [Stretch; 16] = {
+    let mut all = [Stretch { side: 4, is_in_window: false, is_cut: false }; 16];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = Stretch { side: 4 << (i / 4), is_in_window: i & 1 == 0, is_cut: i & 2 == 0 };
+        i += 1;
+    }
+    all
+};
+
+const PLACES: [Place; 18 + 3 * STEPS.len()] = {
+    let mut all = [Place::Uncut(0); 18 + 3 * STEPS.len()];
+    let mut step = 0;
+    while step < 3 * STEPS.len() {
+        all[18 + step] = Place::FromCorner(step / STEPS.len(), step % STEPS.len());
+        step += 1;
+    }
+    all[1] = Place::Uncut(1);
+    let mut i = 0;
+    while i < 4 {
+        all[2 + i] = Place::End(i / 2, i % 2 == 1);
+        let side = 2 << i;
+        all[6 + i] = Place::Block([true, false], side);
+        all[10 + i] = Place::Block([false, true], side);
+        all[14 + i] = Place::Block([true, true], side);
+        i += 1;
+    }
+    all
+};
 
 /// A word in which twice the area wraps around.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,6 +241,35 @@ const IS: [[&str; 2]; 3] = [
 ];
 const NAMES: [&str; 3] = ["depth", "the first attribute", "the second attribute"];
 
+impl Place {
+    fn words(self) -> String {
+        let line = |axis: usize| ["row", "column"][axis];
+        let of = match self {
+            Self::Uncut(axis) => format!(
+                "the pixel as far {} it as its {} is cut at the window",
+                ["left of", "above"][axis],
+                line(axis)
+            ),
+            Self::End(axis, is_last) => {
+                let end = if is_last { "last" } else { "first" };
+                format!("the {end} pixel of its whole {} (also beyond the window)", line(axis))
+            }
+            Self::Block([true, false], side) => format!("the first of its {side} columns"),
+            Self::Block([false, true], side) => format!("the first of its {side} rows"),
+            Self::Block(_, side) => format!("the first pixel of its block of {side} x {side} px"),
+            Self::FromCorner(corner, steps) => {
+                let corner = ["first", "second", "third"][corner];
+                return format!("the value reached from the {corner} corner {}", STEPS[steps].1);
+            }
+        };
+        format!("the right value of {of}")
+    }
+}
+
+fn in_px(subpixels: i32) -> f64 {
+    f64::from(subpixels) / f64::from(SUBPIXELS)
+}
+
 impl TriangleOfValues<'_> {
     /// Values at a place, in pixels.
     fn values(&self, at: [f64; 2]) -> [f64; 3] {
@@ -231,7 +330,72 @@ impl ValueOfPixel<'_> {
             Term::Squared => self.right() * self.right(),
             Term::Place(axis) => at[axis],
             Term::OverArea(word) => self.right() * word.growth(&self.of.triangle.corners()),
+            Term::At(place) => self.of.values(self.other_place(place))[self.which],
+            Term::Straight(stretch) => self.straight(stretch),
         }
+    }
+
+    /// The sample of another pixel, in pixels.
+    fn other_place(&self, place: Place) -> [f64; 2] {
+        let mut at = self.at;
+        match place {
+            Place::Uncut(axis) => at[axis] += self.ends(axis)[0].min(0),
+            Place::End(axis, is_last) => at[axis] = self.ends(axis)[usize::from(is_last)],
+            Place::FromCorner(corner, steps) => {
+                let corner = self.of.triangle.corners()[corner];
+                let corner = [corner.x, corner.y].map(in_px);
+                let here = self.place();
+                let by = [here[0] - corner[0], here[1] - corner[1]];
+                let [x, y] = STEPS[steps].0;
+                return [
+                    corner[0] + x[0] * by[0] + x[1] * by[1],
+                    corner[1] + y[0] * by[0] + y[1] * by[1],
+                ];
+            }
+            Place::Block(axes, side) => {
+                for (at, _) in at.iter_mut().zip(axes).filter(|(_, is_along)| *is_along) {
+                    *at -= at.rem_euclid(side);
+                }
+            }
+        }
+        [0, 1].map(|axis| f64::from(at[axis]) + self.of.sample[axis])
+    }
+
+    fn straight(&self, Stretch { side, is_in_window, is_cut }: Stretch) -> f64 {
+        let [first, last] = self.ends(0);
+        let first = if is_in_window { first.max(0) } else { first };
+        let last = if is_in_window { last.min(self.of.window[0] - 1) } else { last };
+        let start = self.at[0] - (self.at[0] - first).rem_euclid(side);
+        let end = if is_cut { (start + side).min(last) } else { start + side };
+        if end <= start {
+            return self.right();
+        }
+        let value = |x: i32| {
+            let place = [f64::from(x) + self.of.sample[0], self.place()[1]];
+            self.of.values(place)[self.which]
+        };
+        let share = f64::from(self.at[0] - start) / f64::from(end - start);
+        value(start) * (1.0 - share) + value(end) * share
+    }
+
+    /// The first and the last pixel of the row (axis 0) or the column of the pixel whose samples lie in the triangle, in the window
+    /// or not, as far as doubles tell.
+    fn ends(&self, axis: usize) -> [i32; 2] {
+        let corners = self.of.triangle.corners().map(|c| [c.x, c.y].map(in_px));
+        let height = self.place()[1 - axis];
+        let (mut least, mut most) = (f64::MAX, f64::MIN);
+        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+            let (a, b) = (corners[a], corners[b]);
+            let [from, to] = [a, b].map(|corner| corner[1 - axis] - height);
+            // The edge crosses the line through the sample.
+            if from * to <= 0.0 && from != to {
+                let crossing = a[axis] + (b[axis] - a[axis]) * (from / (from - to));
+                (least, most) = (least.min(crossing), most.max(crossing));
+            }
+        }
+        let sample = self.of.sample[axis];
+        // What lies on the edge at the end belongs to the neighbour.
+        [(least - sample).ceil() as i32, (most - sample).ceil() as i32 - 1]
     }
 
     fn base(&self, base: Base) -> f64 {
@@ -269,6 +433,7 @@ impl ValueOfPixel<'_> {
         match term {
             Term::Slope(axis) => next(axis),
             Term::SlopeFromSide(axis) => next(axis) * f64::from(self.at[axis]),
+            Term::At(place) => self.size_at(self.other_place(place)),
             // Within the triangle no weight is below 0, so that it is no more than the largest corner.
             _ => self.term(term).abs().max(self.largest()),
         }
@@ -336,7 +501,13 @@ impl Learnable for Values {
         let corners = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
         let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
         let bounds = value_bounds(triangle, declared.tolerance.max(ROUNDING));
-        let of = Rc::new(TriangleOfValues { triangle, corners, sample, facts });
+        let of = Rc::new(TriangleOfValues {
+            triangle,
+            corners,
+            sample,
+            window: [window.x1, window.y1],
+            facts,
+        });
         let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
         let mut parts = Vec::new();
         for f in fragments.iter().step_by(step).filter(|f| is_in(f.x_px, f.y_px)) {
@@ -429,9 +600,9 @@ impl Learnable for Values {
                 all.extend(related(base, term, wrong));
             }
         }
-        for word in AreaWord::ALL {
-            all.extend(related(Base::Nothing, Term::OverArea(word), wrong));
-        }
+        let words = AreaWord::ALL.map(Term::OverArea).into_iter();
+        let terms = words.chain(PLACES.map(Term::At)).chain(STRETCHES.map(Term::Straight));
+        all.extend(terms.flat_map(|term| related(Base::Nothing, term, wrong)));
         let is_centred = wrong.first().is_some_and(|part| {
             part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
         });
@@ -472,6 +643,12 @@ impl Learnable for Values {
             Term::OverW => "the right value over w".to_owned(),
             Term::Squared => "the square of the right value".to_owned(),
             Term::Place(axis) => format!("the {} of the sample", ["x", "y"][axis]),
+            Term::At(place) => place.words(),
+            Term::Straight(Stretch { side, is_in_window, is_cut }) => format!(
+                "what lies straight between the right values at every {side}th pixel of its row, counted from the first one{}{}",
+                if is_in_window { " in the window" } else { ", in the window or not" },
+                if is_cut { ", and at its last pixel" } else { "" }
+            ),
             Term::OverArea(word) => {
                 format!("the right value as if twice the area was kept in {word}")
             }
