@@ -171,9 +171,23 @@ pub enum Gate {
     Not(If),
 }
 
+/// Points of a pixel in 1/16 px that may be tested in place of its samples.
+pub(super) const POINTS: [((i32, i32), &str); 8] = [
+    ((0, 0), "the upper left corner"),
+    ((16, 0), "the upper right corner"),
+    ((0, 16), "the lower left corner"),
+    ((16, 16), "the lower right corner"),
+    ((0, 8), "the middle of the left side"),
+    ((16, 8), "the middle of the right side"),
+    ((8, 0), "the middle of the upper side"),
+    ((8, 16), "the middle of the lower side"),
+];
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum If {
     Centre,
+    /// One of [`POINTS`] is covered.
+    Point(usize),
     /// So many samples at least are covered.
     Covered(u32),
     /// The centre lies within these sides of the box around the corners, or also on them.
@@ -187,6 +201,7 @@ impl If {
     fn holds(self, mask: u8, pixel: &Masked<'_>) -> bool {
         match self {
             Self::Centre => pixel.is_centre_covered,
+            Self::Point(point) => pixel.has_point(POINTS[point].0),
             Self::Covered(least) => mask.count_ones() >= least,
             Self::Box { sides, is_open } => {
                 (0..4).filter(|side| sides >> side & 1 == 1).all(|side| {
@@ -203,6 +218,7 @@ impl If {
     fn words(self) -> String {
         match self {
             Self::Centre => "whose centre is covered".to_owned(),
+            Self::Point(point) => format!("of which {} is covered", POINTS[point].1),
             Self::Covered(0) => "of any kind".to_owned(),
             Self::Covered(least) => {
                 let least = ["any is", "two are", "three are", "all four are"][least as usize - 1];
@@ -227,6 +243,7 @@ impl Field for Gate {
 
     fn options() -> Vec<Self> {
         let mut tests = vec![If::Centre];
+        tests.extend((0..POINTS.len()).map(If::Point));
         tests.extend((0..=4).map(If::Covered));
         for is_open in [false, true] {
             tests.extend((1..16).map(|sides| If::Box { sides, is_open }));
@@ -550,7 +567,7 @@ impl Stage for SampleMask {
             (p.right ^ p.drawn)
                 .checked_ilog2()
                 .filter(|_| (p.right ^ p.drawn).is_power_of_two())
-                .map_or(-1.0, f64::from)
+                .map_or(f64::NAN, f64::from)
         };
         all.push(Quantity { of, says: Says::Number("the number of the wrong sample") });
         all

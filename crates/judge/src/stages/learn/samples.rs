@@ -5,10 +5,11 @@ use std::rc::Rc;
 use super::{Learnable, LearnedCase};
 use crate::ask::Asked;
 use crate::declared::Declared;
-use crate::stages::samples::{Masked, SampleMask};
+use crate::stages::samples::{Masked, POINTS, SampleMask};
 use crate::stages::search::{Composed as _, Stage as _, singles};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
+use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, triangles};
 use rasterproof_verify::learn::rows::{Quantities, TriangleInWindow, Unit};
@@ -22,18 +23,6 @@ pub struct Sample<'a> {
     bit: u8,
     triangle: Rc<TriangleInWindow>,
 }
-
-/// Points of a pixel in 1/16 px that may be tested in place of its samples.
-const POINTS: [((i32, i32), &str); 8] = [
-    ((0, 0), "the upper left corner"),
-    ((16, 0), "the upper right corner"),
-    ((0, 16), "the lower left corner"),
-    ((16, 16), "the lower right corner"),
-    ((0, 8), "the middle of the left side"),
-    ((16, 8), "the middle of the right side"),
-    ((8, 0), "the middle of the upper side"),
-    ((8, 16), "the middle of the lower side"),
-];
 
 impl Learnable for Samples {
     type Part<'a> = Sample<'a>;
@@ -94,6 +83,18 @@ impl Learnable for Samples {
         for (at, name) in POINTS {
             let no = " of the pixel is not covered";
             out.holds(part.pixel.has_point(at), name, [" of the pixel is covered", no]);
+        }
+        // The same points beside the sample, in its own column or row.
+        let (x, y) = SAMPLES[usize::from(part.bit)];
+        for (at, name) in [
+            ((x, 8), "the point above or below the sample at half the height of the pixel"),
+            ((x, 0), "the point above the sample on the upper side of the pixel"),
+            ((x, 16), "the point below the sample on the lower side of the pixel"),
+            ((8, y), "the point left or right of the sample at half the width of the pixel"),
+            ((0, y), "the point left of the sample on the left side of the pixel"),
+            ((16, y), "the point right of the sample on the right side of the pixel"),
+        ] {
+            out.holds(part.pixel.has_point(at), name, [" is covered", " is not covered"]);
         }
         let (inside, is_on) = part.pixel.inside(part.bit);
         out.flag(
