@@ -133,7 +133,7 @@ impl PolygonFacts {
         let largest = points.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         let mut heights: Vec<f64> = points.iter().map(|p| p[1]).collect();
         heights.sort_unstable_by(f64::total_cmp);
-        let at_one_height = heights.chunk_by(|a, b| a == b);
+        let at_one_height = || heights.chunk_by(|a, b| a == b);
         let places = points.chunk_by(|a, b| a == b).filter(|same| same.len() > 1);
         let logarithm = |v: f64| i64::from(exponent(v));
         let mut measured = Self {
@@ -148,8 +148,8 @@ impl PolygonFacts {
             reflex: 0,
             level: 0,
             upright: 0,
-            lowest: at_one_height.clone().next().map_or(0, <[f64]>::len) as i64,
-            at_one_height: at_one_height.map(<[f64]>::len).max()? as i64,
+            lowest: at_one_height().next().map_or(0, <[f64]>::len) as i64,
+            at_one_height: at_one_height().map(<[f64]>::len).max()? as i64,
             size: logarithm(size),
             ratio: logarithm(sides[0] / sides[1]),
             away: logarithm(largest / size),

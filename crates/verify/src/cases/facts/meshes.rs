@@ -110,7 +110,7 @@ impl MeshFacts {
             }
         }
         points.sort_unstable();
-        let at_one_place = points.chunk_by(|a, b| a == b);
+        let at_one_place = || points.chunk_by(|a, b| a == b);
         let meets = |same: &&[Point]| same.len() > 1 && is_sample(same[0], window);
         let is_cut = |corners: &&Corners| {
             corners
@@ -127,12 +127,12 @@ impl MeshFacts {
         let mut measured = Self {
             count: list.len() as i64,
             overlaps: i64::from(!is_disjoint(&list)),
-            around: at_one_place.clone().map(<[Point]>::len).max().unwrap_or(0) as i64,
+            around: at_one_place().map(<[Point]>::len).max().unwrap_or(0) as i64,
             shared: 0,
             level: 0,
             upright: 0,
             ties: 0,
-            met: at_one_place.filter(meets).count() as i64,
+            met: at_one_place().filter(meets).count() as i64,
             clockwise: share(list.iter().filter(|corners| twice_area(corners) > 0).count()),
             cut: share(list.iter().filter(is_cut).count()),
             size: [0, 1].map(|axis| high[axis] - low[axis]),
