@@ -25,7 +25,7 @@ pub fn words_of(command: &str) -> Vec<String> {
 }
 
 /// Options that are refused together with `--report`, and the one for help.
-const WITHOUT_PAGE: [&str; 5] = ["--help", "--map", "--spin", "--views", "--without"];
+const WITHOUT_PAGE: [&str; 6] = ["--help", "--map", "--show", "--spin", "--views", "--without"];
 
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]

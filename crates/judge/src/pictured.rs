@@ -47,14 +47,17 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
         None => picture(check, case, (&questions, answers), truth)?,
     };
     let beside = picture.other.as_ref().unwrap_or(&picture.expected);
-    if picture.drawn == *beside && answers.len() == questions.len() {
-        let judged = check.judge(case, answers, truth);
-        if judged.is_wrong() {
+    if picture.drawn == *beside {
+        let what = if answers.len() < questions.len() {
+            // The program ended at one of them.
+            Some("a request that is not answered".to_owned())
+        } else {
+            let judged = check.judge(case, answers, truth);
+            judged.is_wrong().then(|| unseen(check, case, answers, &judged))
+        };
+        if let Some(what) = what {
             let space = if picture.of.is_empty() { "" } else { "; " };
-            picture.of += &format!(
-                "{space}both pictures are the same; what differs is {}",
-                unseen(check, case, answers, &judged)
-            );
+            picture.of += &format!("{space}both pictures are the same; what differs is {what}");
         }
     }
     Some(picture)
