@@ -432,6 +432,8 @@ fn table(table: &Table, is_folded: bool) -> String {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(note));
     }
     match is_folded {
+        // Notes that stand for themselves.
+        _ if table.caption.is_empty() => out,
         true => folded(&table.caption, &out),
         false => format!("<h3 class=\"caption\">{}</h3>{out}", escape(&table.caption)),
     }
