@@ -143,6 +143,15 @@ fn bins_of_tiles_hold_five_triangles() {
 }
 
 #[test]
+fn values_below_the_triangle_are_looked_at() {
+    let alter: Alter = |_, answer, _| {
+        let Answer::Values(fragments) = answer else { return };
+        fragments.iter_mut().for_each(|f| f.y_px += 5);
+    };
+    assert!(!learned(Check::Values, alter).sentences().is_empty());
+}
+
+#[test]
 fn twice_the_area_wraps_in_16_bits() {
     let alter: Alter = |question, answer, _| {
         let Asked::Values(triangle) = &question.of else { return };

@@ -393,6 +393,10 @@ impl ValueOfPixel<'_> {
                 (least, most) = (least.min(crossing), most.max(crossing));
             }
         }
+        if least > most {
+            // The pixel lies in no row of the triangle.
+            return [self.at[axis]; 2];
+        }
         let sample = self.of.sample[axis];
         // What lies on the edge at the end belongs to the neighbour.
         [(least - sample).ceil() as i32, (most - sample).ceil() as i32 - 1]
