@@ -419,11 +419,11 @@ pub struct Entry {
     pub exact_engine: Option<ExactEngine>,
     /// The published algorithm of this name.
     pub specimen: Option<Specimen>,
-    /// The engine of another rule.
+    /// The engine of a rule that a program may declare instead of the book's.
     pub variant: Option<Variant>,
 }
 
-/// An engine of a rule that a program may declare instead of the book's.
+/// Engines of other rules, by what they draw.
 #[derive(Clone, Copy, Debug)]
 pub enum Variant {
     /// Every pixel that a triangle touches.

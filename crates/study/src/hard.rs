@@ -597,12 +597,9 @@ impl Search<'_> {
         let mut noted = Noted::new(Kind::Turned);
         let mut flat = 0;
         let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
-        for piece in pieces.iter().chain(lost) {
-            let change = piece.change(self.sampled.grid);
-            if change != Change::None {
-                flat += u64::from(change == Change::Flat);
-                noted.add(&mut self.marks, &[piece.face], self.is_seen[piece.face as usize]);
-            }
+        for (piece, change) in snapping::turned(pieces, lost, self.sampled.grid) {
+            flat += u64::from(change == Change::Flat);
+            noted.add(&mut self.marks, &[piece.face], self.is_seen[piece.face as usize]);
         }
         let note = format!("{} turned over, {flat} flattened", noted.count - flat);
         self.note(noted, note);

@@ -97,7 +97,7 @@ struct Welded {
     triangles: Vec<Triangle>,
     /// For each triangle of the scene whether it has an area.
     is_solid: Vec<bool>,
-    /// What is open once corners that nearly meet are merged.
+    /// The edges of one face.
     border: Vec<Border>,
     /// How far apart two points may be that count as one.
     grain: f64,
@@ -106,7 +106,14 @@ struct Welded {
 impl Shape {
     pub fn of(scene: &Scene, origins: &[Origin]) -> Self {
         let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
-        let Welded { points, mut triangles, is_solid, border, grain } = shape.weld(scene);
+        let Welded { points, mut triangles, is_solid, mut border, grain } = shape.weld(scene);
+        if let Some(met) = shape.find_near(&points, (&triangles, &border), grain) {
+            // With these corners merged, borders are those that are open still.
+            for triangle in &mut triangles {
+                triangle.vertices = triangle.vertices.map_array(|v| met[v as usize]);
+            }
+            border = shape.edges(&points, &triangles);
+        }
         shape.find_t_junctions(&points, &border, grain);
         let in_gaps = shape.find_gaps(&points, (&triangles, &border), grain);
         let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
@@ -123,11 +130,12 @@ impl Shape {
     /// The places where corners nearly meet, and nothing that is looked for after them.
     pub fn nearly_meeting(scene: &Scene, origins: &[Origin]) -> Vec<Edge> {
         let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
-        shape.weld(scene);
+        let Welded { points, triangles, border, grain, .. } = shape.weld(scene);
+        shape.find_near(&points, (&triangles, &border), grain);
         shape.near
     }
 
-    /// Welds the mesh, and finds triangles without area, slivers, duplicates, crowded edges and corners that nearly meet.
+    /// Welds the mesh, and finds triangles without area, slivers, duplicates and crowded edges.
     fn weld(&mut self, scene: &Scene) -> Welded {
         let (points, mut triangles) = weld(scene, &self.face_of);
         let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
@@ -155,14 +163,7 @@ impl Shape {
         };
         triangles.retain(|triangle| !is_later(triangle));
         let grain = GRAIN * size(&points);
-        let mut border = self.edges(&points, &triangles);
-        if let Some(met) = self.find_near(&points, (&triangles, &border), grain) {
-            // With these corners merged, borders are those that are open still.
-            for triangle in &mut triangles {
-                triangle.vertices = triangle.vertices.map_array(|v| met[v as usize]);
-            }
-            border = self.edges(&points, &triangles);
-        }
+        let border = self.edges(&points, &triangles);
         Welded { points, triangles, is_solid, border, grain }
     }
 

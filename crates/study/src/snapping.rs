@@ -156,15 +156,23 @@ pub struct BySnapping {
     pub first_nearly_meeting: Option<u32>,
 }
 
+/// The pieces that snapping turns over or flattens.
+pub(crate) fn turned<'a>(
+    pieces: &'a [Piece],
+    lost: &'a [Piece],
+    grid: CornerGrid,
+) -> impl Iterator<Item = (&'a Piece, Change)> {
+    let changed = move |piece: &'a Piece| (piece, piece.change(grid));
+    pieces.iter().chain(lost).map(changed).filter(|(_, change)| *change != Change::None)
+}
+
 impl BySnapping {
-    /// Counts the pieces that snapping turns over or flattens.
+    /// Adds those of some pieces that snapping turns over or flattens.
     fn count_turned(&mut self, pieces: &[Piece], lost: &[Piece], grid: CornerGrid) {
-        for piece in pieces.iter().chain(lost) {
-            match piece.change(grid) {
-                Change::None => continue,
-                Change::Flat => self.flattened += 1,
-                Change::Over => self.turned_over += 1,
-            }
+        for (piece, change) in turned(pieces, lost, grid) {
+            let count =
+                if change == Change::Flat { &mut self.flattened } else { &mut self.turned_over };
+            *count += 1;
             let first = self.first_turned.map_or(piece.face, |first| first.min(piece.face));
             self.first_turned = Some(first);
         }

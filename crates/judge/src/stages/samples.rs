@@ -186,7 +186,7 @@ pub(super) const POINTS: [((i32, i32), &str); 8] = [
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum If {
     Centre,
-    /// One of [`POINTS`] is covered.
+    /// The point of this number in [`POINTS`] is covered, wherever the samples lie.
     Point(usize),
     /// So many samples at least are covered.
     Covered(u32),

@@ -74,13 +74,13 @@ pub struct Input {
 }
 
 impl Input {
-    /// Triangles that are judged.
+    /// The triangles of a scene with the pixels that are right for them, which judging needs.
     #[must_use]
     pub fn judged(scene: Scene) -> Self {
         Self { truth: Truth::of(&scene), ..Self::timed(scene) }
     }
 
-    /// Triangles that are timed alone.
+    /// The triangles of a scene without these pixels, which take long, for those who only time.
     #[must_use]
     pub fn timed(scene: Scene) -> Self {
         let (triangles, canvas) =

@@ -24,7 +24,7 @@ impl<'e, I> Entry<'e, I> {
         Self { choice, judge: Box::new(judge), pass: Box::new(pass) }
     }
 
-    /// What it gets wrong.
+    /// What the choice gets wrong of an input, against the oracle.
     ///
     /// # Errors
     /// The reason why the choice takes no such input.
@@ -35,7 +35,7 @@ impl<'e, I> Entry<'e, I> {
     /// All of the work once: what is timed.
     ///
     /// # Errors
-    /// As [`Entry::judge`].
+    /// The reason why the choice takes no such input, as [`Entry::judge`] has it.
     pub fn pass<'a>(&self, input: &'a I) -> Result<Pass<'a>, String> {
         (self.pass)(input)
     }

@@ -15,7 +15,7 @@ use rasterproof_verify::oracle::Oracle;
 
 type Ends = [PixelPoint; 2];
 
-/// Lines that choices are given.
+/// The lines of a column, the pixels that are right for each, and where choices draw them.
 pub(super) struct Input {
     lines: Vec<Ends>,
     truth: Vec<Vec<PixelPoint>>,

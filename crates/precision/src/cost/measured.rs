@@ -16,7 +16,7 @@ struct PlacedPass<'a> {
     pass: Pass<'a>,
 }
 
-/// A board before it is timed.
+/// A board whose errors are known, with the passes that are still to be timed.
 pub struct Draft<'a> {
     board: Board,
     passes: Vec<PlacedPass<'a>>,

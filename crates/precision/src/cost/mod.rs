@@ -52,7 +52,7 @@ rasterproof_core::named! {
         Levels = "levels",
         Antialiasing = "antialiasing",
         Lines = "lines",
-        /// Whole frames, of a model alone.
+        /// Whole frames with all stages, on the board of a model; classes of scenes have none.
         Frames = "frames",
     }
 }
@@ -223,9 +223,9 @@ impl Part {
 /// Of how much of a model a column is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Triangles that are timed.
+    /// How many of its triangles are timed.
     pub items: Part,
-    /// Pixels that these cover.
+    /// How many pixels these triangles cover, of those that all of them cover.
     pub pixels: Part,
     /// Pixels in which it was looked for errors.
     pub judged: Part,
@@ -328,7 +328,7 @@ pub struct Details {
     pub wrong: Vec<([u32; 2], u64)>,
     /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
     pub margin: Option<f64>,
-    /// Memory at the peak.
+    /// The most memory that was in use at once; nothing where it was not measured.
     pub bytes: Option<u64>,
 }
 

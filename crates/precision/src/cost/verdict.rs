@@ -55,7 +55,7 @@ pub struct Cheapest {
     pub rounds: usize,
 }
 
-/// A choice that ran on a column.
+/// A choice with its board and a column on which it was run.
 #[derive(Clone, Copy)]
 pub struct JudgedChoice<'a> {
     pub board: &'a Board,
@@ -85,7 +85,7 @@ impl<'a> JudgedChoice<'a> {
         self.board.meets(self.number, self.column, measure) == Some(true)
     }
 
-    /// Its times, round by round.
+    /// The times of all rounds; nothing where it was not timed.
     #[must_use]
     pub fn times(&self) -> Option<&'a Times> {
         self.run.time.as_ref()?.rounds.as_ref()
@@ -104,7 +104,7 @@ impl<'a> JudgedChoice<'a> {
     }
 }
 
-/// The fastest of some choices.
+/// The choice with the least median time; nothing where none was timed.
 #[must_use]
 pub fn fastest<'a>(choices: impl Iterator<Item = JudgedChoice<'a>>) -> Option<JudgedChoice<'a>> {
     let timed = choices.filter_map(|choice| Some((choice.pixel_ns()?, choice)));

@@ -128,7 +128,7 @@ enum Stage<'a> {
     Highlight { highlight: &'a Highlight, normal: usize },
     /// The same of a highlight that does not vary.
     OneHighlight([u8; 3]),
-    /// The colour is mixed with fog.
+    /// The colour is mixed with that of the fog, the more the farther the fragment is.
     Fog(&'a Veil),
 }
 
@@ -630,7 +630,7 @@ fn read(how: Option<&HowRead<'_>>, texture: &Texture, uv: DVec2, depth: f64) -> 
     how.map_or_else(|| texture.at(uv), |how| read_around(how, texture, uv, depth).0)
 }
 
-/// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
+/// Where a piece is drawn and how far, with the pixels whose samples are drawn one by one on demand, and what is counted.
 pub(super) struct To<'a> {
     pub target: &'a mut Target,
     pub bounds: PixelRect,

@@ -13,7 +13,7 @@ use rasterproof_judge::stages::Answered;
 use rasterproof_judge::timed::Timed;
 use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::mistakes::{Explanation, Mistakes};
+use rasterproof_verify::mistakes::{Explanation, Mistakes, NOTHING};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
@@ -91,10 +91,10 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
     }
     program.end_at(None);
     // A function that sets no pixel in this step may do so in others, which tell why.
-    let is_named = outcome.misconception.is_some_and(|is| is.name != misconceptions::NOTHING);
+    let is_named = outcome.misconception.is_some_and(|is| is.name != NOTHING);
     let unexplained = failing.as_ref().filter(|_| !is_named);
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
-    let is_nothing = |cause: &Explanation| cause.name == misconceptions::NOTHING;
+    let is_nothing = |cause: &Explanation| cause.name == NOTHING;
     match &outcome.cause {
         Some(cause) if cause.causes.iter().any(is_nothing) => outcome.cause = None,
         Some(cause) if cause.is_known() => outcome.misconception = None,
@@ -199,7 +199,7 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     let checks = [failing.exercise.check.of_its_cause()];
     let mut asked = Timed::new(program, None).within(Some(patience));
     let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None);
-    found.into_iter().map(|found| found.why).next()
+    Some(found.into_iter().next()?.why)
 }
 
 /// A note of the last line of a program's standard error, if it wrote any.

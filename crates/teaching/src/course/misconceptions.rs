@@ -18,9 +18,6 @@ use rasterproof_verify::convention::{
 };
 use rasterproof_verify::mistakes::MistakeId;
 
-/// The name of what is no belief: a function sets no pixel.
-pub const NOTHING: &str = "nothing";
-
 /// What a program was found to believe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Misconception {

@@ -503,6 +503,9 @@ fn explain(
     conclude(hypotheses, &is_wrong, &near, &alone, &seen)
 }
 
+/// The name of the cause where no answer has a pixel.
+pub const NOTHING: &str = "nothing";
+
 /// What is said where no answer has a pixel: every mistake that draws nothing would explain it. Nothing where no answer was given.
 fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mistakes> {
     let wrong = answered.iter().filter(|answer| answer.is_wrong()).count() as u64;
@@ -511,7 +514,7 @@ fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mist
     }
     let of = answered.len() as u64;
     let said = Explanation::new(
-        "nothing",
+        NOTHING,
         "draws nothing".to_owned(),
         "set the pixels whose samples are inside",
         "judge",

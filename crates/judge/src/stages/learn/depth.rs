@@ -57,7 +57,7 @@ impl Tiles {
     }
 }
 
-/// A list has at most 64 triangles.
+/// The bit of a triangle by its number in the list; the protocol has at most 64 in a list.
 fn bit(number: usize) -> u64 {
     1u64.checked_shl(number as u32).unwrap_or(0)
 }

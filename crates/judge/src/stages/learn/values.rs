@@ -28,7 +28,7 @@ struct TriangleOfValues<'a> {
     corners: [[f64; 3]; 3],
     /// Where samples lie in their pixel, in pixels.
     sample: [f64; 2],
-    /// Columns and rows of the window.
+    /// How many columns and rows the window has, at which rows of pixels are cut.
     window: [i32; 2],
     facts: TriangleInWindow,
 }
@@ -110,36 +110,6 @@ pub struct Stretch {
     is_cut: bool,
 }
 
-const STRETCHES: [Stretch; 16] = {
-    let mut all = [Stretch { side: 4, is_in_window: false, is_cut: false }; 16];
-    let mut i = 0;
-    while i < all.len() {
-        all[i] = Stretch { side: 4 << (i / 4), is_in_window: i & 1 == 0, is_cut: i & 2 == 0 };
-        i += 1;
-    }
-    all
-};
-
-const PLACES: [Place; 18 + 3 * STEPS.len()] = {
-    let mut all = [Place::Uncut(0); 18 + 3 * STEPS.len()];
-    let mut step = 0;
-    while step < 3 * STEPS.len() {
-        all[18 + step] = Place::FromCorner(step / STEPS.len(), step % STEPS.len());
-        step += 1;
-    }
-    all[1] = Place::Uncut(1);
-    let mut i = 0;
-    while i < 4 {
-        all[2 + i] = Place::End(i / 2, i % 2 == 1);
-        let side = 2 << i;
-        all[6 + i] = Place::Block([true, false], side);
-        all[10 + i] = Place::Block([false, true], side);
-        all[14 + i] = Place::Block([true, true], side);
-        i += 1;
-    }
-    all
-};
-
 /// A word in which twice the area wraps around.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaWord {
@@ -150,17 +120,6 @@ pub struct AreaWord {
 }
 
 impl AreaWord {
-    const ALL: [Self; 8] = {
-        let mut all = [Self { bits: 16, is_signed: false, is_whole: false }; 8];
-        let mut i = 0;
-        while i < all.len() {
-            let bits = if i & 4 == 0 { 16 } else { 32 };
-            all[i] = Self { bits, is_signed: i & 1 == 0, is_whole: i & 2 == 0 };
-            i += 1;
-        }
-        all
-    };
-
     /// By what the weights grow; nothing finite where the word is 0.
     fn growth(self, corners: &Corners) -> f64 {
         let fraction = if self.is_whole { 2 * SUBPIXELS.trailing_zeros() } else { 0 };
@@ -204,6 +163,36 @@ const TERMS: [Term; 22] = [
     Term::Squared,
     Term::Place(0),
 ];
+
+/// Terms that take the place of the right value and are added to nothing: other formats, other places and straight stretches.
+fn replacements() -> Vec<Term> {
+    let mut terms = Vec::new();
+    for bits in [16, 32] {
+        for is_whole in [true, false] {
+            for is_signed in [true, false] {
+                terms.push(Term::OverArea(AreaWord { bits, is_signed, is_whole }));
+            }
+        }
+    }
+    terms.extend([0, 1].map(|axis| Term::At(Place::Uncut(axis))));
+    for axis in [0, 1] {
+        terms.extend([false, true].map(|is_last| Term::At(Place::End(axis, is_last))));
+    }
+    for axes in [[true, false], [false, true], [true, true]] {
+        terms.extend([2, 4, 8, 16].map(|side| Term::At(Place::Block(axes, side))));
+    }
+    for corner in [0, 1, 2] {
+        terms.extend((0..STEPS.len()).map(|steps| Term::At(Place::FromCorner(corner, steps))));
+    }
+    for side in [4, 8, 16, 32] {
+        for is_cut in [true, false] {
+            for is_in_window in [true, false] {
+                terms.push(Term::Straight(Stretch { side, is_in_window, is_cut }));
+            }
+        }
+    }
+    terms
+}
 
 /// Predictions are computed in doubles, each operation rounded by at most 2^-53 of what goes into it. Differences of corners are
 /// exact within 2^16 px of each other, and so are their products. The longest way from there has 12 roundings: an edge function
@@ -604,9 +593,9 @@ impl Learnable for Values {
                 all.extend(related(base, term, wrong));
             }
         }
-        let words = AreaWord::ALL.map(Term::OverArea).into_iter();
-        let terms = words.chain(PLACES.map(Term::At)).chain(STRETCHES.map(Term::Straight));
-        all.extend(terms.flat_map(|term| related(Base::Nothing, term, wrong)));
+        for term in replacements() {
+            all.extend(related(Base::Nothing, term, wrong));
+        }
         let is_centred = wrong.first().is_some_and(|part| {
             part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
         });
