@@ -134,27 +134,33 @@ impl Steps {
     }
 }
 
-/// Lines of more steps are not expected: their steps are walked one by one.
+/// Lines of more steps are not expected of conventions that walk them one by one.
 const MOST_STEPS: i64 = 1 << 16;
 
 impl LineConvention {
     /// The pixels of a line in the window, from the first end on. None where the convention says
-    /// nothing: of a line between a pixel and itself, unless both ends are drawn, and of a line of
-    /// more than 65,536 steps.
+    /// nothing: of a line between a pixel and itself, unless both ends are drawn, and, where it adds up a slope step by
+    /// step, of a line of more than 65,536 steps.
     #[must_use]
     pub fn pixels(&self, question: &LineQuestion) -> Option<Vec<[i32; 2]>> {
         let [from, to] = question.ends.map_array(|end| end.map_array(i64::from));
         let line = Line::new(from, to);
-        if line.steps() > MOST_STEPS || (line.steps() == 0 && self.ends != Ends::Both) {
+        if line.steps() == 0 && self.ends != Ends::Both {
             return None;
         }
         if matches!(self.rounding, LineRounding::Behind | LineRounding::Ahead) {
+            if line.steps() > MOST_STEPS {
+                return None;
+            }
             let all = stepped(from, to, self.rounding == LineRounding::Behind);
             return Some(inside(&all, question.window));
         }
+        // However long the line is, only steps in the window are looked at.
+        let Some(steps) = line.steps_in(question.window) else { return Some(Vec::new()) };
+        let has_end = [*steps.start() == 0, *steps.end() == line.steps()];
         let mut pixels = Vec::new();
         let mut last = None;
-        for step in 0..=line.steps() {
+        for step in steps {
             let minor = self.rounding.minor(&line, step);
             match (last, self.steps.major_first(&line)) {
                 (Some(last), Some(major)) if last != minor => {
@@ -167,14 +173,15 @@ impl LineConvention {
             last = Some(minor);
         }
         let right_is_last = (to[0], to[1]) > (from[0], from[1]);
-        let (first, last) = match self.ends {
-            Ends::Both => (true, true),
-            Ends::WithoutLast => (true, false),
-            Ends::WithoutFirst => (false, true),
-            Ends::WithoutRight => (right_is_last, !right_is_last),
-            Ends::Neither => (false, false),
+        let draws_end = match self.ends {
+            Ends::Both => [true, true],
+            Ends::WithoutLast => [true, false],
+            Ends::WithoutFirst => [false, true],
+            Ends::WithoutRight => [right_is_last, !right_is_last],
+            Ends::Neither => [false, false],
         };
-        let kept = usize::from(!first)..pixels.len() - usize::from(!last);
+        let [first, last] = [0, 1].map(|end| usize::from(has_end[end] && !draws_end[end]));
+        let kept = first..pixels.len() - last;
         Some(inside(pixels.get(kept)?, question.window))
     }
 

@@ -4,6 +4,7 @@ use super::half_planes;
 use super::place::{Emit, Place, Points, edges};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
+use std::ops::RangeInclusive;
 
 rasterproof_core::named! {
     /// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
@@ -107,6 +108,18 @@ impl Line {
         self.du.abs()
     }
 
+    /// The steps whose major coordinate lies in a window, and one before these; nothing where there is none.
+    pub(super) fn steps_in(&self, window: PixelRect) -> Option<RangeInclusive<i64>> {
+        let sides = if self.steep { [window.y0, window.y1] } else { [window.x0, window.x1] };
+        // From the first end on, in the direction of the line.
+        let [first, last] = match self.du < 0 {
+            false => [i64::from(sides[0]) - self.start[0], i64::from(sides[1]) - 1 - self.start[0]],
+            true => [self.start[0] - i64::from(sides[1]) + 1, self.start[0] - i64::from(sides[0])],
+        };
+        let steps = (first - 1).max(0)..=last.min(self.steps());
+        (!steps.is_empty()).then_some(steps)
+    }
+
     /// [x, y] of major and minor coordinates, as steps and pixels from the first end.
     pub(super) fn pixel(&self, step: i64, minor: i64) -> [i64; 2] {
         let (u, v) = (self.start[0] + step * self.du.signum(), self.start[1] + minor);
@@ -117,7 +130,12 @@ impl Line {
     /// what remains, as a share of [`Line::steps`].
     pub(super) fn below(&self, step: i64) -> (i64, i64) {
         let length = self.steps().max(1);
-        ((step * self.dv).div_euclid(length), (step * self.dv).rem_euclid(length))
+        if let Some(along) = step.checked_mul(self.dv) {
+            return (along.div_euclid(length), along.rem_euclid(length));
+        }
+        let (along, length) = (i128::from(step) * i128::from(self.dv), i128::from(length));
+        // No more than the sides of the line.
+        (along.div_euclid(length) as i64, along.rem_euclid(length) as i64)
     }
 
     /// As [`Line::below`], rounded to the nearest pixel.

@@ -17,6 +17,14 @@ pub(super) enum Toward {
     NearestDown,
     Up,
     Zero,
+    /// To the nearest, and a half away from 0, as the function `round` of many languages.
+    HalfAway,
+}
+
+impl Toward {
+    /// Those that programs use.
+    pub(super) const ALL: [Self; 5] =
+        [Self::Down, Self::Nearest, Self::Up, Self::Zero, Self::HalfAway];
 }
 
 /// Which of two pixels of a line is taken that are as near: of a row, whether a sample exactly on its border lies in it.
@@ -62,6 +70,10 @@ pub(super) enum Slope {
         bits: u32,
         is_signed: bool,
     },
+    /// A float of so many bits, in which slope times distance and the sum are computed, too.
+    Float {
+        bits: u32,
+    },
     /// It is as if the edge went straight.
     None,
     /// The other way.
@@ -95,6 +107,8 @@ pub(super) struct Crossing {
     pub(super) from: From,
     /// The coordinates of the start along the border's axis and across it, rounded to whole pixels.
     pub(super) start: [Option<Toward>; 2],
+    /// Whether the run of the edge, and its rise, are measured between coordinates that are rounded to whole pixels.
+    pub(super) sides: [Option<Toward>; 2],
     /// Pixels that the length of the edge is too long by.
     pub(super) rise: i64,
     pub(super) slope: Slope,
@@ -107,13 +121,17 @@ pub(super) struct Crossing {
     /// What is added to the distance and to the result.
     pub(super) later: i64,
     pub(super) shift: i64,
-    pub(super) tie: Tie,
+    /// The multiple of so many 1/256 px that the result is rounded to.
+    pub(super) sum: Option<(i64, Toward)>,
+    /// Of the first and of the last end of a row; a line has the first alone.
+    pub(super) ties: [Tie; 2],
 }
 
 impl Crossing {
     pub(super) const RIGHT: Self = Self {
         from: From::Before,
         start: [None; 2],
+        sides: [None; 2],
         rise: 0,
         slope: Slope::Exact,
         distance: Distance::Exact,
@@ -122,7 +140,8 @@ impl Crossing {
         exchanged: false,
         later: 0,
         shift: 0,
-        tie: Tie::Down,
+        sum: None,
+        ties: [Tie::Down; 2],
     };
 
     /// Fields that are not as in the right formula, apart from its ties.
@@ -132,6 +151,8 @@ impl Crossing {
             self.from != right.from,
             self.start[0].is_some(),
             self.start[1].is_some(),
+            self.sides[0].is_some(),
+            self.sides[1].is_some(),
             self.rise != 0,
             self.slope != right.slope,
             self.distance != right.distance,
@@ -140,38 +161,65 @@ impl Crossing {
             self.exchanged,
             self.later != 0,
             self.shift != 0,
+            self.sum.is_some(),
         ]
         .into_iter()
         .filter(|is_changed| *is_changed)
         .count()
     }
 
-    /// All formulas with one more field changed.
+    /// All formulas with one more field changed, or with another tie.
     pub(super) fn neighbours(&self) -> Vec<Self> {
-        const TOWARD: [Toward; 4] = [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero];
+        let mut all = self.variants();
+        let more = self.changes() + 1;
+        all.retain(|other| other.changes() == more || Self { ties: self.ties, ..*other } == *self);
+        all
+    }
+
+    /// All formulas with one other field.
+    pub(super) fn variants(&self) -> Vec<Self> {
+        let right = Self::RIGHT;
         let mut all = Vec::new();
         let mut with = |change: &dyn Fn(&mut Self)| {
             let mut other = *self;
             change(&mut other);
-            if other.changes() == self.changes() + 1 {
+            if other != *self {
                 all.push(other);
             }
         };
+        // Each field as in the right formula.
+        with(&|c| c.from = right.from);
+        for way in [0, 1] {
+            with(&|c| c.start[way] = None);
+            with(&|c| c.sides[way] = None);
+        }
+        with(&|c| c.rise = right.rise);
+        with(&|c| c.slope = right.slope);
+        with(&|c| c.distance = right.distance);
+        with(&|c| c.product = right.product);
+        with(&|c| c.from_window = right.from_window);
+        with(&|c| c.exchanged = right.exchanged);
+        with(&|c| c.later = right.later);
+        with(&|c| c.shift = right.shift);
+        with(&|c| c.sum = right.sum);
         for from in [From::After, From::First, From::Second] {
             with(&|c| c.from = from);
         }
-        for toward in TOWARD {
-            with(&|c| c.start[0] = Some(toward));
-            with(&|c| c.start[1] = Some(toward));
+        for toward in Toward::ALL {
+            for way in [0, 1] {
+                with(&|c| c.start[way] = Some(toward));
+                with(&|c| c.sides[way] = Some(toward));
+            }
         }
         for rise in [-2, -1, 1, 2] {
             with(&|c| c.rise = rise);
         }
-        for slope in [Slope::None, Slope::Reversed, Slope::Twice] {
+        let floats = [24, 53].map(|bits| Slope::Float { bits });
+        for slope in [Slope::None, Slope::Reversed, Slope::Twice].into_iter().chain(floats) {
             with(&|c| c.slope = slope);
         }
         for fraction in [0, 1, 2, 4, 6, 8, 10, 12, 14, 16] {
-            for toward in TOWARD {
+            for toward in Toward::ALL {
                 with(&|c| c.slope = Slope::Fixed { fraction, toward, word: None });
                 for word in [fraction + 8, 16, 32] {
                     let word = Some(word);
@@ -191,9 +239,10 @@ impl Crossing {
         for bits in [16, 20, 24, 28, 31, 32] {
             with(&|c| c.product = Product::Word(bits));
         }
-        for step in [1, 16, 256] {
-            for toward in TOWARD {
+        for step in [1, 4, 16, 64, 256] {
+            for toward in Toward::ALL {
                 with(&|c| c.product = Product::Rounded(step, toward));
+                with(&|c| c.sum = Some((step, toward)));
             }
         }
         for by in [128, 256, 512, 1024, 2048].into_iter().flat_map(|by| [by, -by]) {
@@ -201,8 +250,13 @@ impl Crossing {
             with(&|c| c.shift = by);
         }
         // Ties are no change, but which they are may change with the rest.
-        let ties = Tie::ALL.into_iter().filter(|tie| *tie != self.tie);
-        all.extend(ties.map(|tie| Self { tie, ..*self }));
+        for end in [0, 1] {
+            for tie in Tie::ALL.into_iter().filter(|tie| *tie != self.ties[end]) {
+                let mut other = *self;
+                other.ties[end] = tie;
+                all.push(other);
+            }
+        }
         all
     }
 }
@@ -216,7 +270,20 @@ pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
         Toward::Nearest => (2 * num + den).div_euclid(2 * den),
         Toward::NearestDown => -(den - 2 * num).div_euclid(2 * den),
         Toward::Zero => num / den,
+        Toward::HalfAway => num.signum() * (2 * num.abs() + den).div_euclid(2 * den),
     }
+}
+
+/// A number as a float of 24 or 53 bits.
+fn float(v: f64, bits: u32) -> f64 {
+    if bits == 24 { f64::from(v as f32) } else { v }
+}
+
+/// Bits of fraction that a float's value is taken with: all that a number of at least 1/256 px has.
+const FRACTION: u32 = 60;
+
+fn fraction_of(v: f64) -> i128 {
+    (v * (1_u64 << FRACTION) as f64) as i128
 }
 
 fn wrap(v: i128, bits: u32) -> i128 {
@@ -261,14 +328,14 @@ impl Site {
         if formula.exchanged {
             (a[along], b[along]) = (b[along], a[along]);
         }
-        let mut rise = b[axis] - a[axis];
+        let snapped =
+            |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
+        let side = |way: usize, toward| snapped(b[way], toward) - snapped(a[way], toward);
+        let [run, mut rise] = [side(along, formula.sides[0]), side(axis, formula.sides[1])];
         rise += rise.signum() * 256 * i128::from(formula.rise);
-        let run = b[along] - a[along];
         if rise == 0 {
             return None;
         }
-        let snapped =
-            |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
         let start = [snapped(a[along], formula.start[0]), snapped(a[axis], formula.start[1])];
         let at = i128::from(self.place * 256 + sample[axis]);
         // The place of the start: the first sample that is not before it.
@@ -287,6 +354,14 @@ impl Site {
             Slope::None => (0, 1),
             Slope::Reversed => (-run * distance, rise),
             Slope::Twice => (2 * run * distance, rise),
+            Slope::Float { bits } => {
+                // In px, as a program computes it; the start is taken off again, since it is added below.
+                let px = |v: i128| v as f64 / 256.0;
+                let slope = float(px(run) / px(rise), bits);
+                let way = float(slope * px(distance), bits);
+                let sum = float(float(px(start[0]), bits) + way, bits);
+                (fraction_of(sum) - (start[0] << (FRACTION - 8)), 1 << (FRACTION - 8))
+            }
             Slope::Word { bits, is_signed } => {
                 // Lines count whole pixels.
                 let unit = i128::from(one);
@@ -301,7 +376,11 @@ impl Site {
         };
         let (num, den) = match formula.product {
             Product::Exact => (num, den),
-            Product::Word(bits) => (wrap(num, bits), den),
+            Product::Word(bits) => {
+                // Lines count whole pixels.
+                let unit = i128::from(one * one);
+                (wrap(num.div_euclid(unit), bits) * unit, den)
+            }
             Product::Rounded(step, toward) => {
                 let step = i128::from(step);
                 (round(num, den * step, toward) * step, 1)
@@ -309,6 +388,13 @@ impl Site {
         };
         let value = start[0] * den + num + i128::from(formula.shift) * den;
         let (value, den) = if den < 0 { (-value, -den) } else { (value, den) };
+        let (value, den) = match formula.sum {
+            Some((step, toward)) => {
+                let step = i128::from(step);
+                (round(value, den * step, toward) * step, 1)
+            }
+            None => (value, den),
+        };
         // A row begins at the first sample that is not before the crossing; a line has the pixel that is nearest.
         let sample = i128::from(if q.is_line() { 128 } else { sample[along] });
         // Whether the line goes up in its shorter direction, seen from its left or upper end.
@@ -317,7 +403,7 @@ impl Site {
             let [first, second] = self.points.map(point);
             first[axis] < second[axis]
         };
-        let is_up = match formula.tie {
+        let is_up = match formula.ties[self.end] {
             Tie::Down => false,
             Tie::Up => true,
             Tie::On => climbs,
@@ -365,8 +451,14 @@ fn span(picture: &Picture, axis: usize, place: i32) -> Option<[i32; 2]> {
     (after - first == count).then_some([first, after])
 }
 
-/// All borders of a question in its window and its margin.
-pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2]) -> Vec<Site> {
+/// All borders of a question in its window and its margin, where the heights of the corners are rounded to whole pixels or not.
+pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2], heights: Option<Toward>) -> Vec<Site> {
+    let mut q = q.clone();
+    if let Some(toward) = heights {
+        for point in &mut q.points {
+            point[1] = round(point[1].into(), 256, toward) as i64 * 256;
+        }
+    }
     let mut all = Vec::new();
     if q.is_line() {
         let [dx, dy] = q.side_of(0, 1).map(i64::abs);
@@ -390,7 +482,7 @@ pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2]) -> Vec<Site> {
             .map(|points| Site { axis: 1, place, end: 0, points: *points })
             .collect();
         let [mut a, mut b] = crossed[..] else { continue };
-        if left_of(&b, &a, q, at) {
+        if left_of(&b, &a, &q, at) {
             std::mem::swap(&mut a, &mut b);
         }
         all.extend([a, Site { end: 1, ..b }]);
@@ -410,17 +502,25 @@ fn left_of(a: &Site, b: &Site, q: &AnyQuestion, at: i64) -> bool {
     x * other_by < other * by
 }
 
-/// A picture whose borders are moved: `moved` gives the new place of a border, if it has one. A row whose ends come in the
-/// wrong order is empty, unless they are exchanged.
+/// How rows are drawn between two borders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct RowRule {
+    /// Whether a row whose ends come in the wrong order is drawn between them; otherwise it is empty.
+    pub(super) exchanges_ends: bool,
+    /// Whether edges have their rows by heights that are rounded to whole pixels; all other rows are empty.
+    pub(super) heights: Option<Toward>,
+}
+
+/// A picture whose borders are moved: `moved` gives the new place of a border, if it has one.
 pub(super) fn redrawn(
     q: &AnyQuestion,
     before: &Picture,
     sample: [i64; 2],
-    exchanges_ends: bool,
+    rows: RowRule,
     moved: &dyn Fn(&Site, i64) -> Option<i64>,
 ) -> Picture {
-    let all = sites(q, sample);
-    let mut after = before.clone();
+    let all = sites(q, sample, rows.heights);
+    let mut after = if rows.heights.is_some() { Picture::new(q.side) } else { before.clone() };
     let right = |site: &Site| site.evaluate(&Crossing::RIGHT, q, sample);
     let is_line = q.is_line();
     for row in all.chunks(if is_line { 1 } else { 2 }) {
@@ -434,13 +534,13 @@ pub(super) fn redrawn(
             continue;
         }
         let new: Vec<Option<i64>> = row.iter().zip(&borders).map(|(s, b)| moved(s, *b)).collect();
-        if new.iter().all(Option::is_none) {
+        if new.iter().all(Option::is_none) && rows.heights.is_none() {
             continue;
         }
         let ends: Vec<i64> =
             new.iter().zip(&borders).map(|(new, old)| new.unwrap_or(*old)).collect();
         let (first, end) = match ends[..] {
-            [first, end] if end < first && exchanges_ends => (end, first),
+            [first, end] if end < first && rows.exchanges_ends => (end, first),
             [first, end] => (first, end),
             _ => (ends[0], ends[0] + 1),
         };

@@ -84,11 +84,7 @@ const FAR_AWAY: i64 = 1 << 20;
 impl How {
     fn apply(self, v: i64, side: i64, one: i64, first: i64) -> i64 {
         match self {
-            Self::Snap(step, Toward::Down) => v.div_euclid(step) * step,
-            Self::Snap(step, Toward::Up) => -(-v).div_euclid(step) * step,
-            Self::Snap(step, Toward::Nearest) => (2 * v + step).div_euclid(2 * step) * step,
-            Self::Snap(step, Toward::NearestDown) => -(step - 2 * v).div_euclid(2 * step) * step,
-            Self::Snap(step, Toward::Zero) => v / step * step,
+            Self::Snap(step, toward) => border::round(v.into(), step.into(), toward) as i64 * step,
             Self::Add(by) => v + by,
             Self::AtLeast(least) => v.max(least),
             Self::AtMostSide(less) => v.min(side * one - less),
@@ -232,8 +228,7 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
     }
     let steps = if is_line { 1..=3 } else { 1..=9 };
     for step in steps.map(|bits| 1 << bits) {
-        let all = [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero];
-        hows.extend(all.map(|toward| How::Snap(step, toward)));
+        hows.extend(Toward::ALL.map(|toward| How::Snap(step, toward)));
     }
     hows.extend([-1, 1].map(|by| How::Add(by * one)));
     let mut points = vec![Points::All];

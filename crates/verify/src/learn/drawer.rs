@@ -79,6 +79,11 @@ fn window_of(question: &AnyQuestion) -> PixelRect {
     PixelRect::window(question.side[0] as u32, question.side[1] as u32)
 }
 
+/// What is said of a convention, after 'it draws'.
+fn by_convention(words: &str) -> String {
+    format!("by another convention (it {words})")
+}
+
 /// A rasterizer of triangles.
 pub(super) struct Triangles<'a> {
     ask: &'a mut dyn Ask,
@@ -88,16 +93,18 @@ pub(super) struct Triangles<'a> {
     sample: [i64; 2],
     /// Whether a pixel drawn twice cannot be seen.
     is_mask: bool,
-    work: Work,
+    work: &'a Work,
 }
 
 impl<'a> Triangles<'a> {
-    /// Nothing where pictures are turned over.
+    /// Answers are wrong where they are not as the first convention says; the other one is tried, too. Nothing where pictures
+    /// are turned over.
     pub(super) fn new(
         ask: &'a mut dyn Ask,
         known: &Declarations,
-        expected: &TriangleConvention,
+        [expected, other]: [&TriangleConvention; 2],
         seed: u64,
+        work: &'a Work,
     ) -> Option<Self> {
         let grid = known.grid.clamp(1, SUBPIXELS);
         let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
@@ -110,8 +117,14 @@ impl<'a> Triangles<'a> {
             most: i64::from(known.range_px.clamp(1, 1 << 20)) * 256,
         };
         let sample = match expected.shape {
-            Shape::Point { x, y } => [x, y].map(i64::from),
-            _ => [128; 2],
+            Shape::Point { x, y }
+            | Shape::Stepped { x, y }
+            | Shape::Reach { x, y, .. }
+            | Shape::Share { x, y, .. }
+            | Shape::Samples { x, y, .. } => [x, y].map(i64::from),
+            // Between the places that the two crossings of a row are compared at.
+            Shape::Rows { left, right, y } => [(left + right) / 2, y].map(i64::from),
+            Shape::Outline(_) | Shape::Scan(_) => [128; 2],
         };
         let mut conventions = vec![*expected];
         let mut rules = vec![String::new()];
@@ -123,8 +136,12 @@ impl<'a> Triangles<'a> {
                 rules.push(format!("by the {rule} rule"));
             }
         }
+        if other.mirror == Mirror::None && !conventions.contains(other) {
+            conventions.push(*other);
+            rules.push(by_convention(&other.words()));
+        }
         let is_plain = expected.mirror == Mirror::None;
-        let (is_mask, work) = (known.mask, Work::default());
+        let is_mask = known.mask;
         is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask, work })
     }
 }
@@ -190,7 +207,7 @@ impl Drawer for Triangles<'_> {
     }
 
     fn work(&self) -> &Work {
-        &self.work
+        self.work
     }
 }
 
@@ -200,15 +217,16 @@ pub(super) struct Lines<'a> {
     conventions: Vec<LineConvention>,
     rules: Vec<String>,
     room: Room,
-    work: Work,
+    work: &'a Work,
 }
 
 impl<'a> Lines<'a> {
     pub(super) fn new(
         ask: &'a mut dyn AskLine,
         known: &Declarations,
-        expected: &LineConvention,
+        [expected, other]: [&LineConvention; 2],
         seed: u64,
+        work: &'a Work,
     ) -> Self {
         let (width, height) = known.window_px;
         let room = Room {
@@ -227,7 +245,11 @@ impl<'a> Lines<'a> {
                 rules.push(format!("as if its rule for ties were '{}'", tie.name()));
             }
         }
-        Self { ask, conventions, rules, room, work: Work::default() }
+        if !conventions.contains(other) {
+            conventions.push(*other);
+            rules.push(by_convention(&other.words()));
+        }
+        Self { ask, conventions, rules, room, work }
     }
 }
 
@@ -290,6 +312,6 @@ impl Drawer for Lines<'_> {
     }
 
     fn work(&self) -> &Work {
-        &self.work
+        self.work
     }
 }

@@ -29,12 +29,15 @@ pub mod trial;
 use std::cell::OnceCell;
 
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
+use change::Base;
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
 use model::{Model, Vocabulary, facts_of};
 use question::AnyQuestion;
 use search::Search;
-use trial::{AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, nearest};
+use trial::{
+    AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work, nearest,
+};
 
 /// What was learned of a wrong program.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,6 +55,9 @@ pub struct Learned {
     /// What is predicted of an answer, in the singular; a pixel where it is empty.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub part: &'static str,
+    /// Whether it is counted against another convention what is wrong and right: the first sentence says which.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub is_beyond: bool,
     /// What is known where not every answer was predicted: when it is wrong, where, and what comes out right beside it.
     pub known: Vec<String>,
 }
@@ -67,6 +73,24 @@ impl Learned {
         Some(said)
     }
 
+    /// Says that all this comes on top of a convention.
+    fn beyond(&mut self, convention: &str) {
+        if self.does.is_empty() {
+            return;
+        }
+        self.is_beyond = true;
+        for said in &mut self.does {
+            *said = said.replacen("It ", "Beyond that, it ", 1);
+        }
+        self.does.insert(0, format!("It draws by another convention (it {convention})."));
+    }
+
+    /// What makes one explanation better than another: that it is certain, that it says something, and how much it predicts.
+    fn value(&self) -> (bool, bool, u64) {
+        let predicted = 1000 * self.wrong.drawn / self.wrong.of.max(1);
+        (self.is_certain, !self.does.is_empty(), predicted)
+    }
+
     /// Whether nine tenths of the new answers were predicted, of wrong and of right ones.
     pub(crate) fn predicts_most(&self) -> bool {
         let is_most = |count: Count| count.of > 0 && 10 * count.drawn >= 9 * count.of;
@@ -77,8 +101,12 @@ impl Learned {
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let mut said = self.does.clone();
+        let [wrong, right] = match self.is_beyond {
+            true => ["that are not as this convention says", "that are"],
+            false => ["wrong ones", "right ones"],
+        };
         let counts = format!(
-            "{} of {} wrong ones and {} of {} right ones",
+            "{} of {} {wrong} and {} of {} {right}",
             self.wrong.drawn, self.wrong.of, self.right.drawn, self.right.of
         );
         if self.is_certain {
@@ -104,25 +132,73 @@ const FRESH: [usize; 2] = [200, 150];
 /// How often the first are asked, as long as too few of them are wrong.
 const MOST_FRESH: usize = 4;
 
-/// Learns from a rasterizer of triangles, as [`of_triangles`] does.
-pub type LearnTriangles = fn(&mut dyn Ask, &Declarations, &TriangleConvention) -> Option<Learned>;
+/// A convention that a program is compared with.
+#[derive(Debug)]
+pub struct Start<'a, C> {
+    pub convention: &'a C,
+    /// Whether it is what is right, and not what comes nearest to the program.
+    pub is_right: bool,
+}
 
-/// Learns from a rasterizer of triangles; `expected` is what is right.
+/// What is right, and then what comes nearest to the program, if that is known and another one.
+pub(crate) fn starts<'a, C: PartialEq>(right: &'a C, nearest: Option<&'a C>) -> Vec<Start<'a, C>> {
+    let mut all = vec![Start { convention: right, is_right: true }];
+    let other = nearest.filter(|nearest| *nearest != right);
+    all.extend(other.map(|convention| Start { convention, is_right: false }));
+    all
+}
+
+/// The first certain explanation of a program compared with one convention after another, or the one that predicts most.
+fn learned_from<C>(
+    starts: &[Start<'_, C>],
+    mut learn: impl FnMut([&C; 2], &Work) -> Option<Learned>,
+    words: impl Fn(&C) -> String,
+) -> Option<Learned> {
+    let mut best: Option<Learned> = None;
+    for (number, start) in starts.iter().enumerate() {
+        let other = &starts[starts.len() - 1 - number];
+        let work = Work::part_of(starts.len());
+        let both = [start.convention, other.convention];
+        let Some(mut learned) = learn(both, &work) else { continue };
+        if !start.is_right {
+            learned.beyond(&words(start.convention));
+        }
+        if best.as_ref().is_none_or(|best| learned.value() > best.value()) {
+            best = Some(learned);
+        }
+        if best.as_ref().is_some_and(|best| best.is_certain) {
+            break;
+        }
+    }
+    best
+}
+
+/// Learns from a rasterizer of triangles, as [`of_triangles`] does.
+pub type LearnTriangles =
+    fn(&mut dyn Ask, &Declarations, &[Start<'_, TriangleConvention>]) -> Option<Learned>;
+
+/// Learns from a rasterizer of triangles, compared with one convention after another.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
-    expected: &TriangleConvention,
+    starts: &[Start<'_, TriangleConvention>],
 ) -> Option<Learned> {
-    Learner::new(&mut Triangles::new(ask, known, expected, SEED)?).learn()
+    let learn = |both: [&TriangleConvention; 2], work: &Work| {
+        Learner::new(&mut Triangles::new(ask, known, both, SEED, work)?).learn()
+    };
+    learned_from(starts, learn, TriangleConvention::words)
 }
 
-/// Learns from a line drawer.
+/// Learns from a line drawer, likewise.
 pub(crate) fn of_lines(
     ask: &mut dyn AskLine,
     known: &Declarations,
-    expected: &LineConvention,
+    starts: &[Start<'_, LineConvention>],
 ) -> Option<Learned> {
-    Learner::new(&mut Lines::new(ask, known, expected, SEED)).learn()
+    let learn = |both: [&LineConvention; 2], work: &Work| {
+        Learner::new(&mut Lines::new(ask, known, both, SEED, work)).learn()
+    };
+    learned_from(starts, learn, LineConvention::words)
 }
 
 /// The questions are the same in every run.
@@ -134,13 +210,24 @@ struct Learner<'a> {
     left: usize,
     vocabulary: Vocabulary,
     answered: Vec<LearnedAnswer>,
+    /// What the last search found, and the changed questions that came nearest in the first one.
+    last: Option<Model>,
+    nearest: OnceCell<Vec<Base>>,
 }
 
 impl<'a> Learner<'a> {
     fn new(drawer: &'a mut dyn Drawer) -> Self {
         let sample = drawer.room().question();
         let left = drawer.most_to_learn();
-        Self { drawer, left, vocabulary: Vocabulary::of(&sample), answered: Vec::new() }
+        let vocabulary = Vocabulary::of(&sample);
+        Self {
+            drawer,
+            left,
+            vocabulary,
+            answered: Vec::new(),
+            last: None,
+            nearest: OnceCell::new(),
+        }
     }
 
     fn learn(mut self) -> Option<Learned> {
@@ -180,6 +267,7 @@ impl<'a> Learner<'a> {
             vocabulary: &self.vocabulary,
             answered: &self.answered,
             first: OnceCell::new(),
+            nearest: &self.nearest,
         }
     }
 
@@ -268,7 +356,7 @@ impl<'a> Learner<'a> {
             false => Vec::new(),
         };
         let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
-        Learned { is_certain, does, wrong, right, part: "", known }
+        Learned { is_certain, does, wrong, right, part: "", is_beyond: false, known }
     }
 }
 
@@ -277,7 +365,12 @@ impl Learn for Learner<'_> {
 
     fn search(&mut self) -> Model {
         self.drawer.work().begin();
-        Self::search(self).explain()
+        let search = Self::search(self);
+        // What was nearly right is mended first.
+        let mended = self.last.as_ref().and_then(|last| search.mended(last));
+        let found = mended.unwrap_or_else(|| search.explain());
+        self.last = Some(found.clone());
+        found
     }
 
     /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
@@ -313,7 +406,7 @@ impl Learn for Learner<'_> {
     }
 
     fn is_over(&self) -> bool {
-        self.left == 0
+        self.left == 0 || self.drawer.work().is_spent()
     }
 }
 

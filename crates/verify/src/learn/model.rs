@@ -1,6 +1,6 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
-use super::border::{self, Crossing};
+use super::border::{self, Crossing, RowRule};
 use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
@@ -132,12 +132,12 @@ pub(super) struct GuardedStep {
     pub(super) base: Base,
 }
 
-/// A formula of the borders at one end of a row, and where it holds, by the facts of the pixel at the border.
+/// A formula of the borders at one end of rows or at both, and where it holds, by the facts of the pixel at the border.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GuardedBorder {
     pub(super) when: Option<Vec<Conjunction>>,
-    /// 0 for the first pixel, 1 for the last one.
-    pub(super) end: usize,
+    /// Whether it is that of the first pixels, and that of the last ones.
+    pub(super) ends: [bool; 2],
     pub(super) crossing: Crossing,
 }
 
@@ -147,8 +147,8 @@ pub(super) struct Model {
     pub(super) chain: Vec<GuardedStep>,
     /// Of those of an end of a row, the first whose guard holds is taken.
     pub(super) borders: Vec<GuardedBorder>,
-    /// Whether a row whose ends come in the wrong order is drawn between them; otherwise it is empty.
-    pub(super) exchanges_ends: bool,
+    /// How rows are drawn between these.
+    pub(super) rows: RowRule,
     pub(super) steps: Vec<Step>,
 }
 
@@ -189,7 +189,7 @@ impl Model {
         let all: Vec<Fact> = guards.flatten().flatten().copied().collect();
         let left_out = vocabulary.left_out(&all);
         let scene = Scene::new(&a.question, before, sample);
-        border::redrawn(&a.question, before, sample, self.exchanges_ends, &|site, right| {
+        border::redrawn(&a.question, before, sample, self.rows, &|site, right| {
             let row = match all.is_empty() {
                 true => Vec::new(),
                 false => {
@@ -199,7 +199,7 @@ impl Model {
                     row.values
                 }
             };
-            let is_one = |border: &&GuardedBorder| border.end == site.end && border.holds(&row);
+            let is_one = |border: &&GuardedBorder| border.ends[site.end] && border.holds(&row);
             let guarded = self.borders.iter().find(is_one)?;
             site.evaluate(&guarded.crossing, &a.question, sample)
         })

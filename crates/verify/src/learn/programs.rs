@@ -4,7 +4,8 @@ use super::drawer::{Drawer, Lines, Triangles};
 use super::known::one_changes;
 use super::picture::{Picture, Runs};
 use super::question::AnyQuestion;
-use super::{Learned, Learner, SEED};
+use super::trial::Work;
+use super::{Learned, SEED, Start, of_lines, of_triangles};
 use crate::convention::{
     AskLine, Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
 };
@@ -44,7 +45,8 @@ pub(super) fn learn_triangles(
 ) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), TriangleConvention::default());
     let mut nobody = |_: &[TriangleQuestion]| Vec::new();
-    let oracle = Triangles::new(&mut nobody, &known, &expected, SEED).unwrap();
+    let work = Work::default();
+    let oracle = Triangles::new(&mut nobody, &known, [&expected; 2], SEED, &work).unwrap();
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
         let answer = |asked: &TriangleQuestion| {
@@ -59,15 +61,15 @@ pub(super) fn learn_triangles(
         };
         questions.iter().map(answer).collect()
     };
-    let mut triangles = Triangles::new(&mut ask, &known, &expected, SEED).unwrap();
-    Learner::new(&mut triangles).learn()
+    of_triangles(&mut ask, &known, &[Start { convention: &expected, is_right: true }])
 }
 
 /// What is learned of a line drawer that draws so.
 pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), LineConvention::default());
     let mut nobody = |_: &[LineQuestion]| Vec::new();
-    let oracle = Lines::new(&mut nobody, &known, &expected, SEED);
+    let work = Work::default();
+    let oracle = Lines::new(&mut nobody, &known, [&expected; 2], SEED, &work);
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
         let answer = |asked: &LineQuestion| {
@@ -79,7 +81,7 @@ pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> 
         questions.iter().map(answer).collect()
     };
     let ask: &mut dyn AskLine = &mut ask;
-    Learner::new(&mut Lines::new(ask, &known, &expected, SEED)).learn()
+    of_lines(ask, &known, &[Start { convention: &expected, is_right: true }])
 }
 
 /// Programs after public bug reports, written before the quantities and the changes were.
@@ -196,7 +198,7 @@ const LINES: [(&str, Draw); 7] = [
 ];
 
 /// Two mistakes at once.
-const PAIRS: [(&str, Draw); 4] = [
+const PAIRS: [(&str, Draw); 5] = [
     ("the first row, then the last pixel of each row", |q, right| {
         keep(q, right, &|runs, [x, y]| {
             y != runs.of_rows.first && runs.row(y).is_some_and(|run| x != run.last)
@@ -214,6 +216,10 @@ const PAIRS: [(&str, Draw); 4] = [
         }
         keep(&inside, right, &|runs, [_, y]| y != runs.of_rows.last)
     }),
+    ("y is mirrored, and x rounded down to 1/2 px", |q, right| {
+        let height = i64::from(q.side[1]) * 256;
+        moved(q, right, &|axis, v| if axis == 1 { height - v } else { v.div_euclid(128) * 128 })
+    }),
     ("clockwise ones are moved, and column 0 is missing", |q, right| {
         let by = if q.twice_area() > 0 { 128 } else { 0 };
         let mut other = q.clone();
@@ -221,6 +227,78 @@ const PAIRS: [(&str, Draw); 4] = [
         keep(&other, right, &|_, [x, _]| x != 0)
     }),
 ];
+
+/// An edge of a fill row by row, in px: the rows from one number to another, where it is at the first of them, and its slope.
+struct Walked {
+    rows: [i64; 2],
+    start: f64,
+    slope: f64,
+}
+
+/// Fills between two edges, row by row: a row has the pixels from the one crossing to the other, each rounded.
+fn walk(q: &AnyQuestion, edge: &dyn Fn([f64; 2], [f64; 2]) -> Walked) -> Picture {
+    let corners: Vec<[f64; 2]> =
+        q.points.iter().map(|point| point.map(|v| v as f64 / 256.0)).collect();
+    let mut edges = Vec::new();
+    for [a, b] in [[0, 1], [1, 2], [2, 0]] {
+        let (a, b): ([f64; 2], [f64; 2]) = (corners[a], corners[b]);
+        edges.push(if a[1] > b[1] { edge(b, a) } else { edge(a, b) });
+    }
+    let mut picture = Picture::new(q.side);
+    for y in 0..i64::from(q.side[1]) {
+        let crossed = edges.iter().filter(|e| (e.rows[0]..e.rows[1]).contains(&y));
+        let mut ends: Vec<f64> =
+            crossed.map(|e| e.start + (y - e.rows[0]) as f64 * e.slope).collect();
+        ends.sort_by(f64::total_cmp);
+        let [first, end] = ends[..] else { continue };
+        let [first, end] = [first, end].map(|v| v.round().clamp(0.0, f64::from(q.side[0])) as i32);
+        (first..end).for_each(|x| picture.set([x, y as i32], 1));
+    }
+    picture
+}
+
+/// Fills row by row whose arithmetic is that of some library.
+const WALKS: [(&str, Draw); 4] = [
+    ("slopes of 8 bits of fraction, from the first row on", |q, _| {
+        walk(q, &|a, b| {
+            let rows = [a[1], b[1]].map(|y| (y - 0.5).ceil() as i64);
+            let slope = ((b[0] - a[0]) / (b[1] - a[1]) * 256.0).floor() / 256.0;
+            Walked { rows, start: a[0], slope }
+        })
+    }),
+    ("ends rounded to whole px, the slope as it was", |q, _| {
+        walk(q, &|a, b| Walked {
+            rows: [a[1], b[1]].map(|y| y.round() as i64),
+            start: a[0].round(),
+            slope: (b[0] - a[0]) / (b[1] - a[1]),
+        })
+    }),
+    ("heights rounded to whole px, x and the slope as they were", |q, _| {
+        walk(q, &|a, b| Walked {
+            rows: [a[1], b[1]].map(|y| y.round() as i64),
+            start: a[0],
+            slope: (b[0] - a[0]) / (b[1] - a[1]),
+        })
+    }),
+    ("heights rounded to whole px, and the slope between these", |q, _| {
+        walk(q, &|a, b| {
+            let rows = [a[1], b[1]].map(|y| y.round() as i64);
+            Walked { rows, start: a[0], slope: (b[0] - a[0]) / (rows[1] - rows[0]) as f64 }
+        })
+    }),
+];
+
+#[test]
+fn walks_are_explained() {
+    let learned = WALKS.map(|(name, draw)| (name, learn_triangles(&draw)));
+    let mut missed = Vec::new();
+    for (name, learned) in &learned {
+        if !learned.as_ref().is_some_and(|learned| learned.is_certain) {
+            missed.push((name, learned.as_ref().map(Learned::sentences)));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
 
 /// Not explained to the pixel.
 const NOT_YET: [&str; 2] =

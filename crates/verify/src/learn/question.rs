@@ -99,8 +99,8 @@ pub(super) struct Room {
 
 /// Most long lines reach less than this power of two.
 const MOST_LINES_REACH: u32 = 10;
-/// The longest line that is asked: some programs walk each of its pixels.
-const LONGEST_LINE_PX: i64 = 40_000;
+/// The longest line that is asked, so that products of its sides need more than 32 bits: some programs walk each of its pixels.
+const LONGEST_LINE_PX: i64 = 1 << 17;
 
 impl Room {
     fn one(&self) -> i64 {

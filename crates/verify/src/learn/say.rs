@@ -119,7 +119,11 @@ pub(super) fn sentences(
         out.push(base(guarded, number > 0, is_line, drawer, vocabulary));
     }
     out.extend(model.borders.iter().map(|guarded| border(guarded, is_line, vocabulary)));
-    if model.exchanges_ends {
+    if let Some(way) = model.rows.heights {
+        let corners = format!("their corners, rounded {} to whole px", toward(way));
+        out.push(format!("Edges have the rows from one to the other of {corners}."));
+    }
+    if model.rows.exchanges_ends {
         out.push("A row whose ends then come in the wrong order is drawn between them.".to_owned());
     }
     for step in &model.steps {
@@ -165,12 +169,13 @@ fn any(all: &[Conjunction], vocabulary: &Vocabulary) -> String {
 }
 
 fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> String {
-    let what = match (is_line, guarded.end) {
+    let what = match (is_line, guarded.ends) {
         (true, _) => "the side steps of its pixels",
-        (_, 0) => "the left ends of rows",
+        (_, [true, true]) => "the ends of rows",
+        (_, [true, false]) => "the left ends of rows",
         _ => "the right ends of rows",
     };
-    let how = formula(&guarded.crossing, is_line).join(" and ");
+    let how = formula(&guarded.crossing, guarded.ends, is_line).join(" and ");
     match &guarded.when {
         Some(when) => {
             format!("It computes {what} as if {how}, where {}.", any(when, vocabulary))
@@ -186,11 +191,12 @@ fn toward(toward: Toward) -> &'static str {
         Toward::NearestDown => "to the nearest (a half down)",
         Toward::Up => "up",
         Toward::Zero => "toward 0",
+        Toward::HalfAway => "to the nearest (a half away from 0)",
     }
 }
 
 /// What is not as it should be in a formula of a border.
-fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
+fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     let edge = if is_line { "the line" } else { "the edge" };
     let side = if is_line { "side" } else { "x" };
     let px = |v: i64| number(Unit::Subpixels, v);
@@ -210,6 +216,12 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
             }),
         );
     }
+    for (side, name) in crossing.sides.iter().zip([side, if is_line { "length" } else { "y" }]) {
+        said.extend(side.map(|t| {
+            let ends = format!("between ends whose {name} is rounded {} to whole px", toward(t));
+            format!("the slope of {edge} were that {ends}")
+        }));
+    }
     if crossing.rise != 0 {
         let length = if is_line { "its length" } else { "the height of the edge" };
         said.push(format!("the slope were divided by {length} plus {} px", crossing.rise));
@@ -219,6 +231,9 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
         Slope::None => said.push(format!("the slope of {edge} were 0")),
         Slope::Reversed => said.push(format!("the slope of {edge} had the other sign")),
         Slope::Twice => said.push(format!("the slope of {edge} were doubled")),
+        Slope::Float { bits } => {
+            said.push(format!("the slope of {edge} and its place were floats of {bits} bits"));
+        }
         Slope::Word { bits, is_signed } => {
             let kind = if is_signed { "a signed" } else { "an unsigned" };
             said.push(format!("the shorter side of {edge} were in {kind} word of {bits} bits"));
@@ -263,21 +278,37 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     if crossing.exchanged {
         said.push(format!("the ends of {edge} had exchanged their {side} coordinates"));
     }
-    match (crossing.tie, is_line) {
-        (Tie::Down, _) => {}
-        (Tie::Up, false) => said.push("a sample exactly on it lay on its other side".to_owned()),
-        (tie, _) => said.extend((crossing.changes() == 0 || !is_line).then(|| {
-            let to = match tie {
-                Tie::Up => "up",
-                Tie::Back => "back, seen from the left or upper end",
-                Tie::On => "on, seen from the left or upper end",
-                Tie::BackFromFirst => "back, seen from the first end",
-                _ => "on, seen from the first end",
-            };
-            format!("a tie went {to}")
-        })),
+    if let Some((step, way)) = crossing.sum {
+        let multiple = multiple(step, 256.0);
+        said.push(format!("the result were rounded {}, to multiples of {multiple}", toward(way)));
+    }
+    let has_formula = crossing.changes() > 0;
+    let both = if ends == [true, true] && crossing.ties[0] != crossing.ties[1] {
+        [" at the left end", " at the right end"]
+    } else {
+        ["", ""]
+    };
+    for end in (0..2).filter(|end| ends[*end]) {
+        let said_before = end == 1 && ends[0] && both[1].is_empty();
+        if !(said_before || is_line && has_formula) {
+            said.extend(tied(crossing.ties[end], is_line).map(|tie| tie + both[end]));
+        }
     }
     said
+}
+
+/// What becomes of a sample exactly on a border, where that is not usual.
+fn tied(tie: Tie, is_line: bool) -> Option<String> {
+    let to = match tie {
+        Tie::Down => return None,
+        Tie::Up if !is_line => return Some("a sample exactly on it lay on its other side".into()),
+        Tie::Up => "up",
+        Tie::Back => "back, seen from the left or upper end",
+        Tie::On => "on, seen from the left or upper end",
+        Tie::BackFromFirst => "back, seen from the first end",
+        Tie::OnFromFirst => "on, seen from the first end",
+    };
+    Some(format!("a tie went {to}"))
 }
 
 fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {

@@ -1,6 +1,6 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
-use super::border::{self, Crossing, Site, Tie};
+use super::border::{self, Crossing, RowRule, Site, Tie, Toward};
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
@@ -24,6 +24,13 @@ const MOST_OF_ONE: usize = 240;
 const MOST_STEPS: usize = 3;
 /// The share of answers from which a model is nearly whole.
 const NEARLY: f64 = 0.9;
+/// Steps of [`super::trial::Work`] for a border, and borders of which a formula gives at least one.
+const BORDER: usize = 2;
+const FEW_BORDERS: usize = 20;
+/// Changed questions that are changed again.
+const COMPOSED: usize = 3;
+/// The share of wrong answers from which a changed question is followed by pixel rules first of all.
+const MUCH: f64 = 0.4;
 /// Questions that a pixel rule must explain, and that a guard must.
 const NEED: usize = 4;
 
@@ -34,6 +41,8 @@ pub(super) struct Search<'a> {
     pub(super) answered: &'a [LearnedAnswer],
     /// The tables of the empty model, which are needed again and again.
     pub(super) first: OnceCell<Rc<[Table; 3]>>,
+    /// The changed questions that came nearest in the first search: later ones look at these alone.
+    pub(super) nearest: &'a OnceCell<Vec<Base>>,
 }
 
 /// A model with the share of wrong and of right answers that it predicts.
@@ -93,6 +102,12 @@ impl Search<'_> {
         }
         tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
         let may_go_on = |tried: &[Tried]| !best(tried).is_whole() && !self.drawer.work().is_done();
+        // Under a changed question there may be a pixel rule.
+        let is_much = |tried: &&Tried| !tried.model.chain.is_empty() && tried.wrong > MUCH;
+        let changed = tried.iter().filter(is_much).reduce(higher).map(|tried| tried.model.clone());
+        if let Some(model) = changed.filter(|_| may_go_on(&tried)) {
+            tried.push(self.tried(self.with_steps(&model, 2, 1)));
+        }
         // A long model may be a formula in other words.
         if may_go_on(&tried) || best(&tried).model.cost() > 5 {
             self.move_borders(&mut tried);
@@ -107,10 +122,17 @@ impl Search<'_> {
         // What is nearly whole is not begun anew: what refutes it goes into the next search.
         let is_near = |tried: &[Tried]| best(tried).wrong > NEARLY && best(tried).right > NEARLY;
         if !is_near(&tried) && may_go_on(&tried) {
+            let composed = self.composed(&ranked);
+            self.guard_bases(&composed, &mut tried);
+        }
+        if !is_near(&tried) && may_go_on(&tried) {
             self.under_a_rule(&mut tried);
         }
         if !is_near(&tried) {
-            for (_, base) in ranked.iter().take(2) {
+            // Under pixel rules, what comes nearest by pixels counts, and not what predicts a few answers whole.
+            let mut by_pixels = ranked.clone();
+            by_pixels.sort_by_key(|(near, _)| std::cmp::Reverse(near.pixels));
+            for (_, base) in ranked.iter().take(1).chain(by_pixels.iter().take(2)) {
                 if !may_go_on(&tried) {
                     break;
                 }
@@ -121,13 +143,49 @@ impl Search<'_> {
         self.pruned(best(&tried).model.clone())
     }
 
+    /// A model that was nearly right, with one other field of a formula, and again, as long as more answers are predicted: nothing
+    /// where that does not help, and where too much is not predicted.
+    pub(super) fn mended(&self, model: &Model) -> Option<Model> {
+        let count = |model: &Model, all: &[&LearnedAnswer]| {
+            all.iter().filter(|a| self.fits(model, a)).count()
+        };
+        let mut best: Option<Model> = None;
+        for _ in 0..MOST_MENDED {
+            let model = best.as_ref().unwrap_or(model);
+            let all: Vec<&LearnedAnswer> = self.answered.iter().take(MENDED_BY).collect();
+            let (fitting, missed): (Vec<_>, Vec<_>) = all.iter().partition(|a| self.fits(model, a));
+            if missed.is_empty() || MENDED_PART * missed.len() > all.len() {
+                return best.filter(|_| missed.is_empty());
+            }
+            // The answers that are not predicted tell most apart; of the others none may be lost for them.
+            let mut variants: Vec<(usize, Model)> = variants(model)
+                .into_iter()
+                .map(|other| (count(&other, &missed), other))
+                .filter(|(more, _)| *more > 0)
+                .collect();
+            variants.sort_by_key(|(more, _)| std::cmp::Reverse(*more));
+            variants.truncate(MENDED_KEPT);
+            let gain = |(more, other): &(usize, Model)| {
+                (more + count(other, &fitting)).saturating_sub(fitting.len())
+            };
+            let next = variants.into_iter().max_by_key(gain).filter(|next| gain(next) > 0);
+            best = Some(next?.1);
+        }
+        best
+    }
+
     /// Changed questions, the one that comes nearest to the wrong answers first; under the pixel rules of a model.
     fn ranked(&self, under: &Model) -> Vec<(Nearness, Base)> {
         let answers = self.some(true, RANKED_BY);
         let is_line = answers.first().is_some_and(|a| a.question.is_line());
-        let mut bases = change::all(is_line, self.drawer.rules().len());
+        let before = self.nearest.get().cloned();
+        let mut bases = before.unwrap_or_else(|| change::all(is_line, self.drawer.rules().len()));
         bases.extend(change::solved(is_line, &self.some(true, 120), self.drawer));
-        self.rank(bases, &answers, under)
+        let ranked = self.rank(bases, &answers, under);
+        self.nearest.get_or_init(|| {
+            ranked.iter().take(RANKED_UNDER).map(|(_, base)| base.clone()).collect()
+        });
+        ranked
     }
 
     fn rank(
@@ -163,6 +221,26 @@ impl Search<'_> {
         ranked
     }
 
+    /// Two changes one after another: each of the nearest, followed by every other one.
+    fn composed(&self, ranked: &[(Nearness, Base)]) -> Vec<(Nearness, Base)> {
+        let answers = self.some(true, RANKED_BY);
+        let Some(first) = answers.first() else { return Vec::new() };
+        let all = change::all(first.question.is_line(), self.drawer.rules().len());
+        let mut bases = Vec::new();
+        for (_, base) in ranked.iter().take(COMPOSED) {
+            for other in &all {
+                let changes = base.changes.iter().chain(&other.changes).copied().collect();
+                bases.push(Base { changes, rule: base.rule.max(other.rule) });
+            }
+        }
+        // Few answers tell which are worth a look at the others.
+        let few = &answers[..answers.len().min(FEW)];
+        let rough = |base: &Base| std::cmp::Reverse(change::nearness(base, few, self.drawer));
+        bases.sort_by_cached_key(rough);
+        bases.truncate(RANKED_UNDER);
+        self.rank(bases, &answers, &Model::default())
+    }
+
     fn guard_bases(&self, ranked: &[(Nearness, Base)], tried: &mut Vec<Tried>) {
         let least = RANKED_BY.min(self.some(true, RANKED_BY).len()).div_ceil(5);
         let fitting: Vec<bool> = self.answered.iter().map(|a| !a.is_wrong()).collect();
@@ -191,7 +269,7 @@ impl Search<'_> {
             {
                 return;
             }
-            let bases = change::all(left[0].question.is_line(), self.drawer.rules().len());
+            let bases = self.nearest.get().cloned().unwrap_or_default();
             let under = Model { chain: Vec::new(), ..model.clone() };
             let mut ranked = self.rank(bases, &left, &under);
             ranked.truncate(4);
@@ -212,11 +290,15 @@ impl Search<'_> {
         let mut model = Model::default();
         let mut score = self.tried(model.clone()).score();
         for _ in (0..MOST_BORDERS).take_while(|_| !self.drawer.work().is_done()) {
-            let candidates = self.bordered(&model).into_iter().flat_map(|model| {
-                let exchanged = Model { exchanges_ends: !model.exchanges_ends, ..model.clone() };
-                [model, exchanged].map(|model| self.tried(model))
-            });
-            let next = candidates.reduce(|a, b| if b.score() > a.score() { b } else { a });
+            let mut candidates = Vec::new();
+            for model in self.bordered(&model) {
+                let exchanges_ends = !model.rows.exchanges_ends;
+                let rows = RowRule { exchanges_ends, ..model.rows };
+                candidates.push(self.tried(Model { rows, ..model.clone() }));
+                candidates.push(self.tried(model));
+            }
+            let next =
+                candidates.into_iter().reduce(|a, b| if b.score() > a.score() { b } else { a });
             let Some(next) = next.filter(|next| next.score() > score) else { break };
             (model, score) = (next.model.clone(), next.score());
             let is_whole = next.is_whole();
@@ -230,61 +312,103 @@ impl Search<'_> {
         }
     }
 
-    /// A model with another formula of borders: for each end of a row those that explain most of what is wrong there.
+    /// A model with another formula of borders: for both ends of rows and for each those that explain most of what is wrong.
     fn bordered(&self, model: &Model) -> Vec<Model> {
         let mut all = Vec::new();
-        for end in [0, 1] {
-            let seen = self.borders_seen(model, end);
-            let (wrong, right): (Vec<&BorderSeen<'_>>, Vec<_>) =
-                seen.iter().partition(|seen| seen.drawn != seen.predicted);
-            if wrong.len() < 2 * NEED {
+        let is_line = self.answered.first().is_some_and(|a| a.question.is_line());
+        // With the first formula it is found out which rows an edge has.
+        let mut heights = vec![model.rows.heights];
+        if model.borders.is_empty() && !is_line {
+            heights.extend(Toward::ALL.map(Some));
+        }
+        let of_heights: Vec<_> =
+            heights.iter().map(|h| [0, 1].map(|end| self.borders_seen(model, end, *h))).collect();
+        for ends in [[true, true], [true, false], [false, true]] {
+            // A line has no second ends.
+            if is_line && ends != [true, false] {
                 continue;
             }
-            let some = |all: &[&BorderSeen<'_>], most: usize| -> Vec<usize> {
-                let step = all.len().div_ceil(most).max(1);
-                (0..all.len()).step_by(step).collect()
-            };
-            let (few_wrong, few_right) = (some(&wrong, 120), some(&right, 60));
-            let sample = self.drawer.sample();
-            let worth = |crossing: &Crossing| {
-                self.drawer.work().spend(few_wrong.len() + few_right.len());
-                let drawn = few_wrong.iter().filter(|&&i| wrong[i].is_drawn_by(crossing, sample));
-                let broken = few_right.iter().filter(|&&i| !right[i].is_drawn_by(crossing, sample));
-                let broken = 0.1 * broken.count() as f64;
-                drawn.count() as f64 - broken - 0.3 * crossing.changes() as f64
-            };
-            // The ties are those of the right answers.
-            let agrees = |tie: &Tie| {
-                let crossing = Crossing { tie: *tie, ..Crossing::RIGHT };
-                right.iter().filter(|seen| seen.is_drawn_by(&crossing, sample)).count()
-            };
-            let tie = Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down);
-            for crossing in climbed(Crossing { tie, ..Crossing::RIGHT }, &worth) {
-                let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(&crossing, sample);
-                let mut table = Table::default();
-                for seen in wrong.iter().filter(is_drawn) {
-                    table.yes.push(self.border_facts(seen));
-                    table.groups.push(seen.group);
-                }
-                for seen in right.iter().filter(|seen| !is_drawn(seen)) {
-                    table.no.push(self.border_facts(seen));
-                }
-                if table.yes.len() < 2 * NEED {
+            // With each rounding of heights the best formula of one change, and from the best of these on.
+            let mut first: Vec<(f64, Crossing, usize)> = Vec::new();
+            for (number, of_ends) in of_heights.iter().enumerate() {
+                let [wrong, right] = wrong_and_right(of_ends, ends);
+                if wrong.len() < 2 * NEED {
                     continue;
                 }
-                let when = match table.no.is_empty() {
-                    true => None,
-                    false => match self.guard(table, &self.vocabulary.unpaired()) {
-                        Some(guard) => Some(guard),
-                        None => continue,
-                    },
-                };
-                let mut more = model.clone();
-                more.borders.push(GuardedBorder { when, end, crossing });
-                all.push(more);
+                let ties = ties_of(&right, self.drawer.sample());
+                let start = Crossing { ties, start: [None, heights[number]], ..Crossing::RIGHT };
+                let worth = |crossing: &Crossing| self.worth(crossing, &wrong, &right);
+                let best = start.neighbours().iter().map(worth).fold(worth(&start), f64::max);
+                first.push((best, start, number));
+            }
+            first.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+            let mut best: Vec<(f64, Crossing, usize)> = Vec::new();
+            for (_, start, number) in first.into_iter().take(GUARDED_FORMULAS) {
+                let [wrong, right] = wrong_and_right(&of_heights[number], ends);
+                let climbed = climbed(start, &|crossing| self.worth(crossing, &wrong, &right));
+                best.extend(climbed.into_iter().map(|(worth, c)| (worth, c, number)));
+            }
+            best.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+            for (_, crossing, number) in best.into_iter().take(GUARDED_FORMULAS) {
+                let [wrong, right] = wrong_and_right(&of_heights[number], ends);
+                if let Some(border) = self.guarded_border(crossing, ends, &wrong, &right) {
+                    let mut more = model.clone();
+                    more.borders.push(border);
+                    more.rows.heights = heights[number];
+                    all.push(more);
+                }
             }
         }
         all
+    }
+
+    /// How many of some wrong borders a formula gives, as a part of them, less those of the right ones that it breaks.
+    fn worth(
+        &self,
+        crossing: &Crossing,
+        wrong: &[&BorderSeen<'_>],
+        right: &[&BorderSeen<'_>],
+    ) -> f64 {
+        let (wrong, right) = (spread(wrong, 120), spread(right, 60));
+        let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(crossing, self.drawer.sample());
+        // Most formulas give none of a few.
+        self.drawer.work().spend(BORDER * FEW_BORDERS);
+        if !wrong.iter().take(FEW_BORDERS).any(|seen| is_drawn(&seen)) {
+            return f64::MIN;
+        }
+        self.drawer.work().spend(BORDER * (wrong.len() + right.len()));
+        let drawn = wrong.iter().filter(is_drawn).count() as f64;
+        let broken = right.iter().filter(|seen| !is_drawn(seen)).count() as f64;
+        drawn - 0.1 * broken - 0.3 * crossing.changes() as f64
+    }
+
+    /// A formula with where it holds, by the facts of borders that were wrong and right before; nothing where that cannot be
+    /// said.
+    fn guarded_border(
+        &self,
+        crossing: Crossing,
+        ends: [bool; 2],
+        wrong: &[&BorderSeen<'_>],
+        right: &[&BorderSeen<'_>],
+    ) -> Option<GuardedBorder> {
+        let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(&crossing, self.drawer.sample());
+        let mut table = Table::default();
+        for seen in wrong.iter().filter(is_drawn) {
+            table.yes.push(self.border_facts(seen));
+            table.groups.push(seen.group);
+        }
+        for seen in right.iter().filter(|seen| !is_drawn(seen)) {
+            table.no.push(self.border_facts(seen));
+        }
+        if table.yes.len() < 2 * NEED {
+            return None;
+        }
+        // What breaks hardly any holds everywhere: where rows begin and end is found out afterwards.
+        let when = match FEW_BROKEN * table.no.len() <= table.yes.len() {
+            true => None,
+            false => Some(self.guard(table, &self.vocabulary.unpaired())?),
+        };
+        Some(GuardedBorder { when, ends, crossing })
     }
 
     fn border_facts(&self, seen: &BorderSeen<'_>) -> Vec<i64> {
@@ -296,7 +420,12 @@ impl Search<'_> {
     }
 
     /// The borders that can be read off some answers, with what a model predicts of them.
-    fn borders_seen(&self, model: &Model, end: usize) -> Vec<BorderSeen<'_>> {
+    fn borders_seen(
+        &self,
+        model: &Model,
+        end: usize,
+        heights: Option<Toward>,
+    ) -> Vec<BorderSeen<'_>> {
         let mut all = Vec::new();
         let sample = self.drawer.sample();
         let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
@@ -308,7 +437,7 @@ impl Search<'_> {
                 true => site.seen(&a.right, true),
                 false => site.evaluate(&Crossing::RIGHT, &a.question, sample),
             };
-            let sites = border::sites(&a.question, sample);
+            let sites = border::sites(&a.question, sample, heights);
             for row in sites.chunks(if is_line { 1 } else { 2 }) {
                 let Some(site) = row.iter().find(|site| site.end == end) else { continue };
                 let [drawn, predicted] =
@@ -585,29 +714,119 @@ fn row_is_empty(site: &Site, picture: &Picture) -> bool {
     !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
 }
 
-/// Formulas of the largest worth: the best of one change, and those of the best with another one.
-fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<Crossing> {
-    let mut best: Vec<(f64, Crossing)> = vec![(0.0, start)];
-    for wanted in [FIRST_FORMULAS, FORMULAS] {
-        let more: Vec<Crossing> = best.iter().flat_map(|(_, c)| c.neighbours()).collect();
+/// So many of some borders, evenly spread.
+fn spread<'a, 'b>(all: &[&'b BorderSeen<'a>], most: usize) -> Vec<&'b BorderSeen<'a>> {
+    all.iter().step_by(all.len().div_ceil(most).max(1)).copied().collect()
+}
+
+/// The ties of each end that most of some right borders have.
+fn ties_of(right: &[&BorderSeen<'_>], sample: [i64; 2]) -> [Tie; 2] {
+    [0, 1].map(|end| {
+        let agrees = |tie: &Tie| {
+            let crossing = Crossing { ties: [*tie; 2], ..Crossing::RIGHT };
+            let of_end = right.iter().filter(|seen| seen.site.end == end);
+            of_end.filter(|seen| seen.is_drawn_by(&crossing, sample)).count()
+        };
+        Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down)
+    })
+}
+
+/// The borders of some ends that a model predicts wrongly, and those that it predicts well.
+fn wrong_and_right<'a, 'b>(
+    of_ends: &'b [Vec<BorderSeen<'a>>; 2],
+    ends: [bool; 2],
+) -> [Vec<&'b BorderSeen<'a>>; 2] {
+    let mut all = [Vec::new(), Vec::new()];
+    for end in (0..2).filter(|end| ends[*end]) {
+        for seen in &of_ends[end] {
+            all[usize::from(seen.drawn == seen.predicted)].push(seen);
+        }
+    }
+    all
+}
+
+/// Formulas of the largest worth: the best of one change, those of the best with another one, and so on while they get better.
+fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<(f64, Crossing)> {
+    let mut best: Vec<(f64, Crossing)> = vec![(worth(&start), start)];
+    // Of these the neighbours were looked at.
+    let mut done: Vec<Crossing> = Vec::new();
+    for wanted in FORMULAS {
+        let mut more = Vec::new();
+        for (_, formula) in &best {
+            if !done.contains(formula) {
+                more.extend(formula.neighbours());
+                done.push(*formula);
+            }
+        }
+        let before = best[0].0;
         best.extend(more.into_iter().map(|c| (worth(&c), c)));
         best.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         best.dedup_by(|(_, a), (_, b)| a == b);
         best.truncate(wanted);
+        if best[0].0 <= before {
+            break;
+        }
     }
     best.retain(|(_, crossing)| *crossing != start);
-    best.into_iter().map(|(_, crossing)| crossing).collect()
+    best.truncate(GUARDED_FORMULAS);
+    best
 }
 
-/// Formulas that are changed in another field, and those whose guard is learned.
-const FIRST_FORMULAS: usize = 12;
-const FORMULAS: usize = 2;
+/// Formulas that are changed in another field, round by round, and those whose guard is learned.
+const FORMULAS: [usize; 6] = [12, 6, 4, 4, 4, 4];
+const GUARDED_FORMULAS: usize = 2;
+/// A formula that breaks at most this part of the borders that it explains needs no guard.
+const FEW_BROKEN: usize = 10;
 /// The most formulas of borders in a model.
 const MOST_BORDERS: usize = 4;
 
+/// Fields of formulas that are mended in a row, and the answers that show what that brings.
+const MOST_MENDED: usize = 4;
+const MENDED_BY: usize = 400;
+/// Only where at most this part of the answers is not predicted.
+const MENDED_PART: usize = 8;
+/// Variants that are tried on all these answers.
+const MENDED_KEPT: usize = 12;
+
+/// All models with another field in one formula of borders, or with another rule for rows.
+fn variants(model: &Model) -> Vec<Model> {
+    let mut all = Vec::new();
+    for (i, border) in model.borders.iter().enumerate() {
+        for crossing in border.crossing.variants() {
+            let mut other = model.clone();
+            other.borders[i].crossing = crossing;
+            all.push(other);
+        }
+    }
+    if !model.borders.is_empty() {
+        // A program has one way to round, and uses it everywhere.
+        all.extend(Toward::ALL.map(|toward| rounding(model, toward)));
+        let exchanges_ends = !model.rows.exchanges_ends;
+        all.push(Model { rows: RowRule { exchanges_ends, ..model.rows }, ..model.clone() });
+        for heights in Toward::ALL.map(Some).into_iter().chain([None]) {
+            all.push(Model { rows: RowRule { heights, ..model.rows }, ..model.clone() });
+        }
+    }
+    all
+}
+
+/// A model that rounds the other way wherever it rounds coordinates to whole pixels.
+fn rounding(model: &Model, toward: Toward) -> Model {
+    let mut other = model.clone();
+    for border in &mut other.borders {
+        let Crossing { start, sides, .. } = &mut border.crossing;
+        start.iter_mut().chain(sides).flatten().for_each(|way| *way = toward);
+    }
+    other.rows.heights.iter_mut().for_each(|way| *way = toward);
+    other
+}
+
 fn best(tried: &[Tried]) -> &Tried {
-    let better = |a, b: _| if Tried::score(b) > Tried::score(a) { b } else { a };
-    tried.iter().skip(1).fold(&tried[0], better)
+    tried.iter().skip(1).fold(&tried[0], higher)
+}
+
+fn higher<'a>(a: &'a Tried, b: &'a Tried) -> &'a Tried {
+    if b.score() > a.score() { b } else { a }
 }
 
 fn always(base: &Base) -> GuardedStep {
@@ -635,9 +854,10 @@ fn shorter(model: &Model) -> Vec<Model> {
             all.push(less);
         }
     }
-    if model.exchanges_ends {
-        all.push(Model { exchanges_ends: false, ..model.clone() });
-    }
+    let plain =
+        [RowRule { exchanges_ends: false, ..model.rows }, RowRule { heights: None, ..model.rows }];
+    let less = plain.into_iter().filter(|rows| *rows != model.rows);
+    all.extend(less.map(|rows| Model { rows, ..model.clone() }));
     for (i, step) in model.steps.iter().enumerate() {
         all.push(Model { steps: without(&model.steps, i), ..model.clone() });
         for k in (0..step.facts.len()).filter(|_| step.facts.len() > 1) {

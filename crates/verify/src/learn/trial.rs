@@ -29,19 +29,31 @@ pub struct Work {
 }
 
 /// Steps of all searches for one explanation. A step is some fifty instructions.
-const MOST_WORK: usize = 400_000_000;
+const MOST_WORK: usize = 500_000_000;
 
 impl Default for Work {
     fn default() -> Self {
-        Self { left: Cell::new(MOST_WORK), kept: Cell::new(0) }
+        Self::part_of(1)
     }
 }
 
 impl Work {
+    /// One of so many equal parts of it.
+    #[must_use]
+    pub fn part_of(parts: usize) -> Self {
+        Self { left: Cell::new(MOST_WORK / parts.max(1)), kept: Cell::new(0) }
+    }
+
     /// A search begins: it may use three fifths of what is left. What one search does not find is seldom found by the next, which
     /// is there for what was nearly right.
     pub fn begin(&self) {
         self.kept.set(self.left.get() * 2 / 5);
+    }
+
+    /// Whether no search may do anything any more.
+    #[must_use]
+    pub fn is_spent(&self) -> bool {
+        self.left.get() == 0
     }
 
     /// Counts some steps.

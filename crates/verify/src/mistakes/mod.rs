@@ -418,8 +418,9 @@ pub fn of_triangles(
             why = why.map(|why| Mistakes { causes, lead: None, common: Vec::new(), ..why });
         }
     }
-    let found = with_limits(why, answered.len(), limits)?;
-    Some(found.or_learned(|| learn?(ask, known, expected)))
+    let why = with_limits(why, answered.len(), limits)?;
+    let starts = learn::starts(expected, found);
+    Some(why.or_learned(|| learn?(ask, known, &starts)))
 }
 
 /// The mistake that explains answers about triangles.
@@ -627,10 +628,11 @@ pub fn of_lines(
     let is_near =
         |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
-    let found = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
+    let why = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
     let limits = thresholds::of_lines(ask, known, expected);
-    let found = with_limits(found, is_wrong.len(), limits)?;
-    Some(found.or_learned(|| learn::of_lines(ask, known, expected)))
+    let why = with_limits(why, is_wrong.len(), limits)?;
+    let starts = learn::starts(expected, found);
+    Some(why.or_learned(|| learn::of_lines(ask, known, &starts)))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
