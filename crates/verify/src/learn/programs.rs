@@ -258,7 +258,18 @@ fn walk(q: &AnyQuestion, edge: &dyn Fn([f64; 2], [f64; 2]) -> Walked) -> Picture
 }
 
 /// Fills row by row whose arithmetic is that of some library.
-const WALKS: [(&str, Draw); 4] = [
+const WALKS: [(&str, Draw); 5] = [
+    ("an edge that goes up begins at its lower end's x", |q, _| {
+        let corner = |i: usize| q.points[i].map(|v| v as f64 / 256.0);
+        let (third, first) = (corner(2), corner(0));
+        walk(q, &|a, b| {
+            let rows = [a[1], b[1]].map(|y| (y - 0.5).ceil() as i64);
+            let slope = (b[0] - a[0]) / (b[1] - a[1]);
+            let is_third = b == third && a == first && third[1] > first[1];
+            let start = if is_third { b[0] } else { a[0] };
+            Walked { rows, start: start + (rows[0] as f64 + 0.5 - a[1]) * slope, slope }
+        })
+    }),
     ("slopes of 8 bits of fraction, from the first row on", |q, _| {
         walk(q, &|a, b| {
             let rows = [a[1], b[1]].map(|y| (y - 0.5).ceil() as i64);
