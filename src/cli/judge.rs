@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rasterproof_host::output::Over;
-use rasterproof_host::text::printable_path;
+use rasterproof_host::text::{printable, printable_path};
 
 use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
@@ -22,6 +22,7 @@ use rasterproof_judge::{Options, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
+use rasterproof_report::written_test::{self, Language};
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -63,6 +64,9 @@ pub struct JudgeArguments {
     /// Write JUnit XML into this file, beside what is printed
     #[arg(long, value_name = "FILE", conflicts_with = "league")]
     junit: Option<PathBuf>,
+    /// Write the smallest case of each fault as a test that needs nothing else: .py, .rs, .c, .js or .mjs
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["league", "against"])]
+    write_test: Option<PathBuf>,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long)]
     table: bool,
@@ -142,6 +146,43 @@ fn save_junit(
     }
 }
 
+/// Writes the file of `--write-test`, if there is one, and says what is in it.
+fn save_test(
+    path: &Path,
+    verdict: &Verdict,
+    repeat: &dyn Fn(&str, u64) -> String,
+    streams: &mut Streams<'_>,
+) -> Result<(), InputError> {
+    let language = Language::of(path).map_err(usage)?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let written = written_test::write(verdict, language, &printable(&file), repeat);
+    let shown = printable_path(path);
+    let output = Output { path: path.to_owned(), over: Over::None };
+    let left_out = |streams: &mut Streams<'_>| {
+        let lines = written.left_out.iter();
+        lines.map(|why| writeln!(streams.errors, "  no test of {why}")).collect::<Result<(), _>>()
+    };
+    match &written.text {
+        Some(text) if streams.save(&output, text.as_bytes()) => {
+            let tests =
+                if written.count == 1 { "1 test" } else { &format!("{} tests", written.count) };
+            writeln!(streams.errors, "{tests} in {}: {shown}", language.name())?;
+            left_out(streams)?;
+        }
+        Some(_) => {}
+        None if verdict.failures.is_empty() => {
+            writeln!(streams.errors, "no test is written, since no case fails: {shown}")?;
+        }
+        None => {
+            streams.lose(&format!(
+                "{shown}: no test is written, since none can be made of these cases"
+            ));
+            left_out(streams)?;
+        }
+    }
+    Ok(())
+}
+
 /// Judges a program that declares `partition`: by its polygons alone.
 fn tessellator(
     arguments: &JudgeArguments,
@@ -157,7 +198,7 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["baseline", "against", "report"]) {
+    if let Some(option) = typed.given(&["baseline", "against", "report", "write-test"]) {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
@@ -190,7 +231,13 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
     let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit))?;
+    let test = arguments.write_test.as_deref();
+    if let Some(path) = test {
+        Language::of(path)
+            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
+    }
+    let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
+    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(test))?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
@@ -272,6 +319,9 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
                 write_page(&page, report, streams);
             }
         }
+    }
+    if let Some(path) = &arguments.write_test {
+        save_test(path, &verdict, &repeat_case, streams)?;
     }
     // It was read, and is written anew.
     let updated = |path: &Path| Output { path: path.to_owned(), over: Over::Updated };

@@ -84,4 +84,5 @@ mod tolerances;
 mod transcripts;
 mod workspace;
 mod writers;
+mod written_test;
 mod your_gpu;

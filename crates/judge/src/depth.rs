@@ -69,6 +69,22 @@ impl Pile {
         (all.into_iter().map(|(_, t)| t).collect(), !must.is_empty())
     }
 
+    /// The pixels at which a single triangle may be seen and has to be, with its number; and those at which several may, or none.
+    pub fn sure(&self) -> (Vec<([i32; 2], usize)>, Vec<[i32; 2]>) {
+        let (mut sure, mut open) = (Vec::new(), Vec::new());
+        for y_px in self.window.y0..self.window.y1 {
+            for x in 0..self.window.width() as usize {
+                let pixel = [self.window.x0 + x as i32, y_px];
+                match self.seen(x, y_px) {
+                    (seen, _) if seen.is_empty() => {}
+                    (seen, true) if seen.len() == 1 => sure.push((pixel, seen[0])),
+                    _ => open.push(pixel),
+                }
+            }
+        }
+        (sure, open)
+    }
+
     /// What is seen, as runs of pixels with the number of their triangle.
     pub fn runs(&self) -> Vec<(Span, u8)> {
         let mut runs: Vec<(Span, u8)> = Vec::new();

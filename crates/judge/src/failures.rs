@@ -69,6 +69,11 @@ pub struct Exchange {
     pub other: String,
     /// What was expected instead, or nothing.
     pub expected: String,
+    /// The request and the answer as values; a long answer is cut where it is a line.
+    #[serde(skip)]
+    pub question: Question,
+    #[serde(skip)]
+    pub heard: Answer,
 }
 
 impl Exchanged {
@@ -200,6 +205,8 @@ pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Fa
             answer: show(first, 1),
             other: show(again, 1),
             expected: expected(*check, question, truth),
+            question: question.clone(),
+            heard: first.clone(),
         });
         let evidence = Exchanged {
             property: failing.property,
@@ -347,6 +354,8 @@ impl Search<'_> {
                 _ => String::new(),
             },
             expected: expected(check, question, truth),
+            question: question.clone(),
+            heard: answer.clone(),
         });
         let evidence = Exchanged {
             property: failing.property,

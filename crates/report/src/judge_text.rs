@@ -442,7 +442,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let second = if changes { "again" } else { "other" };
     let mut exchanges = Vec::new();
     for exchange in failure.evidence.exchanges.iter().take(MOST_EXCHANGES) {
-        let Exchange { request, answer, other, expected } = exchange;
+        let Exchange { request, answer, other, expected, .. } = exchange;
         for (what, line) in
             [("request", request), ("answer", answer), (second, other), ("expected", expected)]
         {
