@@ -10,7 +10,7 @@ use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{InputError, Status, Streams, exit, league, usage};
+use super::{InputError, Status, Streams, exit, league, usage, watch};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
@@ -18,7 +18,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::{Scores as _, Verdict};
-use rasterproof_judge::{Options, family_names, polygons};
+use rasterproof_judge::{Options, Step, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
@@ -67,6 +67,9 @@ pub struct JudgeArguments {
     /// Write the smallest case of each fault as a test that needs nothing else: .py, .rs, .c, .js or .mjs
     #[arg(long, value_name = "FILE", conflicts_with_all = ["league", "against"])]
     write_test: Option<PathBuf>,
+    /// Judge again when the program's file changes, or a file among its arguments, and say what got better and what worse
+    #[arg(long, conflicts_with_all = ["league", "against", "baseline", "json", "format", "junit", "write_test", "table"])]
+    watch: bool,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long)]
     table: bool,
@@ -111,6 +114,21 @@ impl JudgeArguments {
         options
     }
 
+    fn limits(&self) -> Limits {
+        Limits { answer: self.timeout, start: self.start_timeout }
+    }
+
+    /// The same, every case remembered.
+    pub(super) fn remembering(&self) -> Options {
+        let mut options = self.options(None);
+        options.terms.remember = true;
+        options
+    }
+
+    pub(super) fn command(&self) -> &[String] {
+        &self.command
+    }
+
     fn format(&self) -> Format {
         if self.json { Format::Json } else { self.format }
     }
@@ -121,8 +139,11 @@ impl JudgeArguments {
 }
 
 /// The commands that judge everything, and one case, again.
-fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u64) -> String) {
-    let again = typed.clone().without_output().without(&["update-baseline"]);
+pub(super) fn again(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+) -> (String, impl Fn(&str, u64) -> String + use<>) {
+    let again = typed.clone().without_output().without(&["update-baseline", "watch"]);
     let again = again.set("seed", arguments.seed);
     let repeat_all = again.clone().first("cases", arguments.cases).line();
     let repeat_case = move |family: &str, index: u64| {
@@ -217,34 +238,17 @@ fn tessellator(
     Ok(status)
 }
 
-pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
-    if let Some(names) = &arguments.league {
-        let options = arguments.options(None);
-        return league::run(names, &options, limits, &arguments.page.place, streams);
-    }
-    arguments.page.refuse_idle_folder(typed)?;
-    for words in &arguments.declare {
-        let understood = Declared::default().declare(words);
-        understood.map_err(|why| usage(format!("--declare: {why}")))?;
-    }
-    let page = arguments.page.page("judge.html");
-    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    let test = arguments.write_test.as_deref();
-    if let Some(path) = test {
-        Language::of(path)
-            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
-    }
-    let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(test))?;
-    let baseline = match &arguments.baseline {
-        Some(path) => Some(Baseline::read(path, arguments.seed)?),
-        None => None,
-    };
-    group::end_all_on_ctrl_c();
+/// The copies of the program that were started, those of the program of `--against`, and what both declare.
+pub(super) struct Begun {
+    pub askers: Vec<Box<dyn Subject>>,
+    pub others: Vec<Box<dyn Subject>>,
+    pub declared: Declared,
+}
+
+/// Starts the programs of a command line.
+pub(super) fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
     let start = |who: &str, command: &[String]| {
-        let program = Program::start(command, &arguments.words(), limits);
+        let program = Program::start(command, &arguments.words(), arguments.limits());
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
         Ok::<_, InputError>(Box::new(program) as Box<dyn Subject>)
     };
@@ -276,17 +280,66 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             )));
         }
     }
+    Ok(Begun { askers, others, declared })
+}
+
+pub(super) fn progress_of(
+    options: &Options,
+    declared: &Declared,
+    streams: &Streams<'_>,
+) -> Progress {
+    Progress::new(streams.progress, "cases judged", Some(cases_of(options, declared)))
+}
+
+/// Judges a program by its copies.
+pub(super) fn judge_one(
+    askers: &mut [Box<dyn Subject>],
+    options: &Options,
+    step: &(dyn Fn(Step) + Sync),
+) -> Verdict {
+    let scope = Scope::of(options);
+    let recognise = |program: &mut dyn Subject| recognise(program, scope);
+    rasterproof_judge::judge(askers, options, &recognise, step)
+}
+
+pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    if let Some(names) = &arguments.league {
+        let options = arguments.options(None);
+        let limits = arguments.limits();
+        return league::run(names, &options, limits, &arguments.page.place, streams);
+    }
+    arguments.page.refuse_idle_folder(typed)?;
+    for words in &arguments.declare {
+        let understood = Declared::default().declare(words);
+        understood.map_err(|why| usage(format!("--declare: {why}")))?;
+    }
+    let page = arguments.page.page("judge.html");
+    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
+    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
+    let test = arguments.write_test.as_deref();
+    if let Some(path) = test {
+        Language::of(path)
+            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
+    }
+    let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
+    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(test))?;
+    let baseline = match &arguments.baseline {
+        Some(path) => Some(Baseline::read(path, arguments.seed)?),
+        None => None,
+    };
+    group::end_all_on_ctrl_c();
+    if arguments.watch {
+        return watch::run(arguments, typed, streams);
+    }
+    let Begun { mut askers, others, declared } = begin(arguments)?;
     let options = arguments.options(baseline.as_ref());
     if declared.partition {
         return tessellator(arguments, &mut *askers[0], &options, typed, streams);
     }
-    let total = cases_of(&options, &declared);
-    let progress = Progress::new(streams.progress, "cases judged", Some(total));
-    let scope = Scope::of(&options);
-    let recognise = |program: &mut dyn Subject| recognise(program, scope);
+    let progress = progress_of(&options, &declared, streams);
     let step = |step| progress.step(step);
     let mut verdict = if others.is_empty() {
-        rasterproof_judge::judge(&mut askers, &options, &recognise, &step)
+        judge_one(&mut askers, &options, &step)
     } else {
         let mut pairs: Vec<_> = askers.into_iter().zip(others).map(|(a, b)| [a, b]).collect();
         against::compare(&mut pairs, &options, &step)

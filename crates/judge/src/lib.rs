@@ -7,7 +7,7 @@
 //! wrong with a case ([`judged`]), [`checkable`] says it so that a test without this judge can, `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, `after` makes failing cases smaller and asks why they fail, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
-//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
+//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known, and [`changes`] what one judgement finds and another does not. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
 mod after;
@@ -15,6 +15,7 @@ pub mod against;
 pub mod ask;
 mod asked;
 pub mod baseline;
+pub mod changes;
 pub mod check;
 pub mod checkable;
 pub mod declared;

@@ -1,0 +1,227 @@
+//! `rasterproof judge --watch`: a program is judged again whenever its file changes, first by the cases that failed.
+
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+
+use rasterproof_host::text::printable_path;
+use rasterproof_host::{input, limits};
+use rasterproof_judge::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
+use rasterproof_judge::changes::Judged;
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::verdict::Scores as _;
+use rasterproof_report::judge_text;
+
+use super::judge::{self, Begun, JudgeArguments};
+use super::page::{Shown, show};
+use super::typed::Typed;
+use super::{InputError, Status, Streams, exit, usage};
+
+/// How often the files are looked at.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// When a file was written and how long it is; nothing where there is none.
+type State = Option<(SystemTime, u64)>;
+
+/// The files of a command, as they were when they were looked at.
+#[derive(Clone, PartialEq, Eq)]
+struct Files {
+    paths: Vec<PathBuf>,
+    states: Vec<State>,
+}
+
+impl Files {
+    /// The program, where it is named by a path, and every argument: those that name no file now may name one later.
+    fn of(command: &[String]) -> Self {
+        let is_path =
+            |(at, word): &(usize, &String)| *at > 0 || Path::new(word).components().count() > 1;
+        let paths =
+            command.iter().enumerate().filter(is_path).map(|(_, word)| word.into()).collect();
+        Self { paths, states: Vec::new() }.looked_at()
+    }
+
+    /// The same files as they are now.
+    fn looked_at(&self) -> Self {
+        let state = |path: &PathBuf| {
+            let data = path.metadata().ok().filter(|data| data.is_file())?;
+            Some((data.modified().ok()?, data.len()))
+        };
+        Self { paths: self.paths.clone(), states: self.paths.iter().map(state).collect() }
+    }
+
+    fn have_changed(&self) -> bool {
+        *self != self.looked_at()
+    }
+
+    /// What is in the files, as a number.
+    fn content(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        for (path, state) in self.paths.iter().zip(&self.states) {
+            // What cannot be read is known by its time and length.
+            match state.map(|_| input::read(path, limits::DOCUMENT_BYTES)) {
+                Some(Ok(bytes)) => bytes.hash(&mut hasher),
+                _ => state.hash(&mut hasher),
+            }
+        }
+        hasher.finish()
+    }
+
+    /// Waits until the content of a file has changed and nothing is written any more; the names of those that were written. A file
+    /// that is gone is waited for: whoever builds a program removes it first.
+    fn wait(&mut self, content: &mut u64, streams: &mut Streams<'_>) -> Result<String, InputError> {
+        let mut is_said = false;
+        loop {
+            std::thread::sleep(LOOK);
+            let now = self.looked_at();
+            if now == *self {
+                continue;
+            }
+            let gone = self.names(&now, |before, now| before.is_some() && now.is_none());
+            if !gone.is_empty() {
+                if !is_said {
+                    writeln!(streams.output, "\n{gone} is gone, and is waited for")?;
+                    streams.output.flush()?;
+                    is_said = true;
+                }
+                continue;
+            }
+            std::thread::sleep(LOOK);
+            if now.have_changed() {
+                continue;
+            }
+            let changed = self.names(&now, |before, now| before != now);
+            *self = now;
+            let is = self.content();
+            if is != *content {
+                *content = is;
+                return Ok(changed);
+            }
+        }
+    }
+
+    /// The files of which something is true before and now.
+    fn names(&self, now: &Self, holds: fn(State, State) -> bool) -> String {
+        let states = self.states.iter().zip(&now.states);
+        let all = self.paths.iter().zip(states).filter(|(_, (before, now))| holds(**before, **now));
+        let names: Vec<String> = all.map(|(path, _)| printable_path(path).to_string()).collect();
+        names.join(", ")
+    }
+
+    fn names_of_all(&self) -> String {
+        self.names(self, |state, _| state.is_some())
+    }
+}
+
+/// A program that is not asked any more once a file has changed.
+struct UntilChanged {
+    asked: Box<dyn Subject>,
+    files: Arc<Files>,
+}
+
+impl Subject for UntilChanged {
+    fn declared(&self) -> &Declared {
+        self.asked.declared()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        if self.files.have_changed() {
+            return Vec::new();
+        }
+        self.asked.ask(questions, most_deaths)
+    }
+
+    fn end_at(&mut self, end: Option<Instant>) {
+        self.asked.end_at(end);
+    }
+
+    fn cases_at_once(&self) -> u64 {
+        self.asked.cases_at_once()
+    }
+
+    fn strays(&mut self) -> Vec<Misbehaviour> {
+        self.asked.strays()
+    }
+
+    fn finish(&mut self) -> Vec<Misbehaviour> {
+        self.asked.finish()
+    }
+
+    fn complaints(&self) -> Complaints {
+        self.asked.complaints()
+    }
+}
+
+pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    let mut files = Files::of(arguments.command());
+    if files.names_of_all().is_empty() {
+        return Err(usage(
+            "--watch: no word of the command names a file that could change; name the program by its path, as ./mine",
+        ));
+    }
+    let mut content = files.content();
+    let mut before = None;
+    // Ctrl-C ends it, and so does a reader that has seen enough.
+    while streams.delivery.is_whole() {
+        match round(arguments, typed, before.as_ref(), &files, streams) {
+            Ok(Some(judged)) => before = Some(judged),
+            Ok(None) => {}
+            // It is mended by and by.
+            Err(why) => writeln!(streams.output, "It cannot be judged: {why}")?,
+        }
+        if !files.have_changed() {
+            writeln!(streams.output, "\nwatching {}; Ctrl-C ends this", files.names_of_all())?;
+        }
+        streams.output.flush()?;
+        let changed = files.wait(&mut content, streams)?;
+        writeln!(streams.output, "\n{changed} has changed")?;
+        streams.output.flush()?;
+    }
+    Ok(exit::AGREES)
+}
+
+/// Judges the program as it is now. Nothing comes of it where a file changes meanwhile.
+fn round(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+    before: Option<&Judged>,
+    files: &Files,
+    streams: &mut Streams<'_>,
+) -> Result<Option<Judged>, InputError> {
+    let Begun { askers, declared, .. } = judge::begin(arguments)?;
+    if declared.partition {
+        return Err(usage("--watch is not for tessellators; leave it out"));
+    }
+    let files = Arc::new(files.clone());
+    let until_changed =
+        |asked| Box::new(UntilChanged { asked, files: Arc::clone(&files) }) as Box<dyn Subject>;
+    let mut askers: Vec<_> = askers.into_iter().map(until_changed).collect();
+    let options = arguments.remembering();
+    if let Some(before) = before {
+        let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
+        if asked > 0 {
+            writeln!(
+                streams.output,
+                "of {asked} cases that failed, {right} are right now; all cases follow"
+            )?;
+            streams.output.flush()?;
+        }
+    }
+    let progress = judge::progress_of(&options, &declared, streams);
+    let verdict = judge::judge_one(&mut askers, &options, &|step| progress.step(step));
+    drop(progress);
+    let judged = Judged::of(&mut *askers[0], &verdict);
+    askers[0].finish();
+    if files.have_changed() {
+        return Ok(None);
+    }
+    if let Some(why) = verdict.judged_nothing() {
+        return Err(usage(why));
+    }
+    let changes = before.map(|before| judged.since(before));
+    let (repeat_all, repeat_case) = judge::again(arguments, typed);
+    let report =
+        judge_text::watched(&verdict, &judged.faults, changes.as_ref(), &repeat_all, &repeat_case);
+    show(report, Shown::Screen, None, exit::AGREES, streams)?;
+    Ok(Some(judged))
+}
