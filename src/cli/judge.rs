@@ -1,6 +1,7 @@
 //! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use rasterproof_host::output::Over;
@@ -10,10 +11,12 @@ use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
+use super::watch::Files;
 use super::{InputError, Status, Streams, exit, league, usage, watch};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
+use rasterproof_judge::changes::JudgementRecord;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
@@ -119,14 +122,10 @@ impl JudgeArguments {
     }
 
     /// The same, every case remembered.
-    pub(super) fn remembering(&self) -> Options {
+    fn remembering(&self) -> Options {
         let mut options = self.options(None);
         options.terms.remember = true;
         options
-    }
-
-    pub(super) fn command(&self) -> &[String] {
-        &self.command
     }
 
     fn format(&self) -> Format {
@@ -139,7 +138,7 @@ impl JudgeArguments {
 }
 
 /// The commands that judge everything, and one case, again.
-pub(super) fn again(
+fn again(
     arguments: &JudgeArguments,
     typed: &Typed,
 ) -> (String, impl Fn(&str, u64) -> String + use<>) {
@@ -180,8 +179,8 @@ fn save_test(
     let shown = printable_path(path);
     let output = Output { path: path.to_owned(), over: Over::None };
     let left_out = |streams: &mut Streams<'_>| {
-        let lines = written.left_out.iter();
-        lines.map(|why| writeln!(streams.errors, "  no test of {why}")).collect::<Result<(), _>>()
+        let mut all = written.left_out.iter();
+        all.try_for_each(|why| writeln!(streams.errors, "  no test of {why}"))
     };
     match &written.text {
         Some(text) if streams.save(&output, text.as_bytes()) => {
@@ -239,14 +238,14 @@ fn tessellator(
 }
 
 /// The copies of the program that were started, those of the program of `--against`, and what both declare.
-pub(super) struct Begun {
-    pub askers: Vec<Box<dyn Subject>>,
-    pub others: Vec<Box<dyn Subject>>,
-    pub declared: Declared,
+struct Begun {
+    askers: Vec<Box<dyn Subject>>,
+    others: Vec<Box<dyn Subject>>,
+    declared: Declared,
 }
 
 /// Starts the programs of a command line.
-pub(super) fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
+fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
     let start = |who: &str, command: &[String]| {
         let program = Program::start(command, &arguments.words(), arguments.limits());
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
@@ -283,16 +282,12 @@ pub(super) fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
     Ok(Begun { askers, others, declared })
 }
 
-pub(super) fn progress_of(
-    options: &Options,
-    declared: &Declared,
-    streams: &Streams<'_>,
-) -> Progress {
+fn progress_of(options: &Options, declared: &Declared, streams: &Streams<'_>) -> Progress {
     Progress::new(streams.progress, "cases judged", Some(cases_of(options, declared)))
 }
 
 /// Judges a program by its copies.
-pub(super) fn judge_one(
+fn judge_one(
     askers: &mut [Box<dyn Subject>],
     options: &Options,
     step: &(dyn Fn(Step) + Sync),
@@ -300,6 +295,51 @@ pub(super) fn judge_one(
     let scope = Scope::of(options);
     let recognise = |program: &mut dyn Subject| recognise(program, scope);
     rasterproof_judge::judge(askers, options, &recognise, step)
+}
+
+/// Judges the program as it is now, first by the cases that failed before, and shows what has changed. Nothing comes of it where a file
+/// changes meanwhile.
+fn watched(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+    before: Option<&JudgementRecord>,
+    files: &Arc<Files>,
+    streams: &mut Streams<'_>,
+) -> Result<Option<JudgementRecord>, InputError> {
+    let Begun { askers, declared, .. } = begin(arguments)?;
+    if declared.partition {
+        return Err(usage("--watch is not for tessellators; leave it out"));
+    }
+    let mut askers: Vec<_> =
+        askers.into_iter().map(|asked| watch::until_changed(asked, files)).collect();
+    let options = arguments.remembering();
+    if let Some(before) = before {
+        let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
+        if asked > 0 {
+            writeln!(
+                streams.output,
+                "of {asked} cases that failed, {right} are right now; all cases follow"
+            )?;
+            streams.output.flush()?;
+        }
+    }
+    let progress = progress_of(&options, &declared, streams);
+    let verdict = judge_one(&mut askers, &options, &|step| progress.step(step));
+    drop(progress);
+    let record = JudgementRecord::of(&mut *askers[0], &verdict);
+    askers[0].finish();
+    if files.have_changed() {
+        return Ok(None);
+    }
+    if let Some(why) = verdict.judged_nothing() {
+        return Err(usage(why));
+    }
+    let changes = before.map(|before| record.since(before));
+    let (repeat_all, repeat_case) = again(arguments, typed);
+    let report =
+        judge_text::watched(&verdict, &record.faults, changes.as_ref(), &repeat_all, &repeat_case);
+    show(report, Shown::Screen, None, exit::AGREES, streams)?;
+    Ok(Some(record))
 }
 
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -329,7 +369,11 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     };
     group::end_all_on_ctrl_c();
     if arguments.watch {
-        return watch::run(arguments, typed, streams);
+        let mut round =
+            |before: Option<&JudgementRecord>, files: &Arc<Files>, streams: &mut Streams<'_>| {
+                watched(arguments, typed, before, files, streams)
+            };
+        return watch::run(&arguments.command, &mut round, streams);
     }
     let Begun { mut askers, others, declared } = begin(arguments)?;
     let options = arguments.options(baseline.as_ref());

@@ -8,14 +8,9 @@ use std::time::{Duration, Instant, SystemTime};
 use rasterproof_host::text::printable_path;
 use rasterproof_host::{input, limits};
 use rasterproof_judge::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
-use rasterproof_judge::changes::Judged;
+use rasterproof_judge::changes::JudgementRecord;
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::verdict::Scores as _;
-use rasterproof_report::judge_text;
 
-use super::judge::{self, Begun, JudgeArguments};
-use super::page::{Shown, show};
-use super::typed::Typed;
 use super::{InputError, Status, Streams, exit, usage};
 
 /// How often the files are looked at.
@@ -26,7 +21,7 @@ type State = Option<(SystemTime, u64)>;
 
 /// The files of a command, as they were when they were looked at.
 #[derive(Clone, PartialEq, Eq)]
-struct Files {
+pub(super) struct Files {
     paths: Vec<PathBuf>,
     states: Vec<State>,
 }
@@ -50,7 +45,7 @@ impl Files {
         Self { paths: self.paths.clone(), states: self.paths.iter().map(state).collect() }
     }
 
-    fn have_changed(&self) -> bool {
+    pub fn have_changed(&self) -> bool {
         *self != self.looked_at()
     }
 
@@ -119,6 +114,11 @@ struct UntilChanged {
     files: Arc<Files>,
 }
 
+/// The same program, which is not asked any more once a file has changed.
+pub(super) fn until_changed(asked: Box<dyn Subject>, files: &Arc<Files>) -> Box<dyn Subject> {
+    Box::new(UntilChanged { asked, files: Arc::clone(files) })
+}
+
 impl Subject for UntilChanged {
     fn declared(&self) -> &Declared {
         self.asked.declared()
@@ -152,8 +152,17 @@ impl Subject for UntilChanged {
     }
 }
 
-pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let mut files = Files::of(arguments.command());
+/// Judges a program as it is now, after a judgement before; nothing comes of it where a file changes meanwhile.
+pub(super) type Round<'a> = dyn FnMut(
+        Option<&JudgementRecord>,
+        &Arc<Files>,
+        &mut Streams<'_>,
+    ) -> Result<Option<JudgementRecord>, InputError>
+    + 'a;
+
+/// Judges a command now, and again whenever one of its files has changed.
+pub(super) fn run(command: &[String], round: &mut Round<'_>, streams: &mut Streams<'_>) -> Status {
+    let mut files = Files::of(command);
     if files.names_of_all().is_empty() {
         return Err(usage(
             "--watch: no word of the command names a file that could change; name the program by its path, as ./mine",
@@ -163,8 +172,8 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let mut before = None;
     // Ctrl-C ends it, and so does a reader that has seen enough.
     while streams.delivery.is_whole() {
-        match round(arguments, typed, before.as_ref(), &files, streams) {
-            Ok(Some(judged)) => before = Some(judged),
+        match round(before.as_ref(), &Arc::new(files.clone()), streams) {
+            Ok(Some(record)) => before = Some(record),
             Ok(None) => {}
             // It is mended by and by.
             Err(why) => writeln!(streams.output, "It cannot be judged: {why}")?,
@@ -178,50 +187,4 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         streams.output.flush()?;
     }
     Ok(exit::AGREES)
-}
-
-/// Judges the program as it is now. Nothing comes of it where a file changes meanwhile.
-fn round(
-    arguments: &JudgeArguments,
-    typed: &Typed,
-    before: Option<&Judged>,
-    files: &Files,
-    streams: &mut Streams<'_>,
-) -> Result<Option<Judged>, InputError> {
-    let Begun { askers, declared, .. } = judge::begin(arguments)?;
-    if declared.partition {
-        return Err(usage("--watch is not for tessellators; leave it out"));
-    }
-    let files = Arc::new(files.clone());
-    let until_changed =
-        |asked| Box::new(UntilChanged { asked, files: Arc::clone(&files) }) as Box<dyn Subject>;
-    let mut askers: Vec<_> = askers.into_iter().map(until_changed).collect();
-    let options = arguments.remembering();
-    if let Some(before) = before {
-        let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
-        if asked > 0 {
-            writeln!(
-                streams.output,
-                "of {asked} cases that failed, {right} are right now; all cases follow"
-            )?;
-            streams.output.flush()?;
-        }
-    }
-    let progress = judge::progress_of(&options, &declared, streams);
-    let verdict = judge::judge_one(&mut askers, &options, &|step| progress.step(step));
-    drop(progress);
-    let judged = Judged::of(&mut *askers[0], &verdict);
-    askers[0].finish();
-    if files.have_changed() {
-        return Ok(None);
-    }
-    if let Some(why) = verdict.judged_nothing() {
-        return Err(usage(why));
-    }
-    let changes = before.map(|before| judged.since(before));
-    let (repeat_all, repeat_case) = judge::again(arguments, typed);
-    let report =
-        judge_text::watched(&verdict, &judged.faults, changes.as_ref(), &repeat_all, &repeat_case);
-    show(report, Shown::Screen, None, exit::AGREES, streams)?;
-    Ok(Some(judged))
 }

@@ -32,7 +32,7 @@ type CaseName = (&'static str, &'static str, u64);
 
 /// What a judgement leaves for the next one. The verdict has to remember all its cases.
 #[derive(Clone, Debug, Default)]
-pub struct Judged {
+pub struct JudgementRecord {
     /// What is wrong in a few words each, what is wrong most first.
     pub faults: Vec<String>,
     failing: Vec<Failing>,
@@ -52,7 +52,7 @@ pub struct Changes {
     pub wrong_now: u64,
 }
 
-impl Judged {
+impl JudgementRecord {
     /// What was found, in words for which the program is asked a few hundred cases again.
     pub fn of(program: &mut dyn Subject, verdict: &Verdict) -> Self {
         let found = &verdict.more.found;
@@ -237,8 +237,12 @@ struct LineSpot<'a> {
     is_in_order: bool,
 }
 
+/// The name of a place, and whether a pixel lies there.
+type TrianglePlace = (&'static str, fn(&Spot<'_>) -> bool);
+type LinePlace = (&'static str, fn(&LineSpot<'_>) -> bool);
+
 /// Places of pixels, those that say most first. A row or column of a shape is meant in either of two ways.
-const TRIANGLE_PLACES: [(&str, fn(&Spot<'_>) -> bool); 24] = [
+const TRIANGLE_PLACES: [TrianglePlace; 24] = [
     ("ties on left edges", |s| s.on_edge[0]),
     ("ties on right edges", |s| s.on_edge[1]),
     ("ties on top edges", |s| s.on_edge[2]),
@@ -265,7 +269,7 @@ const TRIANGLE_PLACES: [(&str, fn(&Spot<'_>) -> bool); 24] = [
     ("all pixels of triangles", |_| true),
 ];
 
-const LINE_PLACES: [(&str, fn(&LineSpot<'_>) -> bool); 18] = [
+const LINE_PLACES: [LinePlace; 18] = [
     ("the first pixel of lines", |s| s.pixel == [s.ends[0].x, s.ends[0].y]),
     ("the last pixel of lines", |s| s.pixel == [s.ends[1].x, s.ends[1].y]),
     ("ties of lines", |s| s.is_tie()),
@@ -519,7 +523,7 @@ mod tests {
     use crate::in_process::Inside;
     use rasterproof_registry::engines;
 
-    fn judged(engine: &str) -> Judged {
+    fn judged(engine: &str) -> JudgementRecord {
         let entry = engines::find(engine).copied().or_else(|| engines::find_planted(engine));
         let mut options = Options::default().cases(60);
         options.terms.remember = true;
@@ -528,7 +532,7 @@ mod tests {
         let asked = Box::new(Inside::new(&entry.unwrap())) as Box<dyn Subject>;
         let mut askers = [asked];
         let verdict = crate::judge(&mut askers, &options, &|_| None, &|_| ());
-        Judged::of(&mut *askers[0], &verdict)
+        JudgementRecord::of(&mut *askers[0], &verdict)
     }
 
     /// Each fault has the words that a person would use, and nothing else is said.
@@ -567,12 +571,12 @@ mod tests {
         let one =
             |case: u64| Failing { property: "fan", family: "fan", index: case, fingerprint: 0 };
         let all = (0..9).map(|case| ("fan", "fan", case)).collect::<HashSet<CaseName>>();
-        let judged = |faults: &[&str], cases: &[u64]| Judged {
+        let judged = |faults: &[&str], cases: &[u64]| JudgementRecord {
             faults: faults.iter().map(|fault| (*fault).to_owned()).collect(),
             failing: cases.iter().map(|case| one(*case)).collect(),
             judged: all.clone(),
         };
-        let said = |before: &Judged, now: &Judged| {
+        let said = |before: &JudgementRecord, now: &JudgementRecord| {
             let Changes { mended, still, new, .. } = now.since(before);
             [mended, still, new].map(|list| list.join(", "))
         };
@@ -584,7 +588,7 @@ mod tests {
         assert_eq!(said(&before, &judged(&["a", "b", "c"], &[0, 1, 2, 3])), ["", "a, b", "c"]);
         assert_eq!(said(&before, &judged(&[], &[])), ["a, b", "", ""]);
         // A case that was not judged before is not new.
-        let few = Judged { judged: HashSet::new(), ..judged(&["a"], &[0]) };
+        let few = JudgementRecord { judged: HashSet::new(), ..judged(&["a"], &[0]) };
         assert_eq!(said(&few, &judged(&["a", "c"], &[0, 3])), ["", "a, c", ""]);
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::ask::{Answer, Asked, Question};
 use super::check::Truth;
-use super::depth::Pile;
+use super::depth::{Pile, SurePixels};
 use super::expected::{exact_values, value_bounds};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
@@ -81,10 +81,10 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
         }
         Asked::Depth(list) => {
             let pile = Pile::new(list, window, &*truth.expect, declared)?;
-            let (sure, open) = pile.sure();
+            let SurePixels { seen, open } = pile.sure();
             out.either = open;
             let of = |([x, y], triangle): ([i32; 2], usize)| pixel(x, y, vec![triangle as f64]);
-            out.expected = sure.into_iter().map(of).collect();
+            out.expected = seen.into_iter().map(of).collect();
         }
         Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
     }

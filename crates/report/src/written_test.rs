@@ -229,11 +229,12 @@ fn main_of_c(tests: &str) -> String {
     format!("int main(void) {{\n{calls}    return failed > 0;\n}}\n")
 }
 
-/// The name of a test: the family, the number of its case, and which of its requests it is.
+/// The name of a test: the property where that is not the family, the family, the number of its case, and which of its requests it is.
 fn name(failure: &Failure, number: usize) -> String {
-    let family = failure.family.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    let (property, family) = (failure.evidence.property, failure.family);
+    let of = if property == family { family.to_owned() } else { format!("{property}_{family}") };
     let more = if number > 1 { format!("_{number}") } else { String::new() };
-    format!("{family}_{}{more}", failure.index)
+    format!("{}_{}{more}", of.replace(|c: char| !c.is_ascii_alphanumeric(), "_"), failure.index)
 }
 
 /// What is wrong, the picture of it, and the command that repeats the case.
@@ -246,6 +247,27 @@ fn about(failure: &Failure, repeat: &dyn Fn(&str, u64) -> String) -> String {
     out.join("\n")
 }
 
+/// Text as a comment above a test. Pictures and commands stay as they are.
+fn comment(language: Language, text: &str) -> String {
+    let indent = if language == Language::JavaScript { "  " } else { "" };
+    let mut out = String::new();
+    for line in text.lines() {
+        let stays = line.starts_with("  ") || line.contains("rasterproof");
+        let lines = if stays {
+            vec![line.to_owned()]
+        } else {
+            ascii::lines(line, COLUMNS - 8, ascii::columns)
+        };
+        for line in lines {
+            // In C a line that ends so goes on in the next one.
+            let line = line.trim_end_matches('\\');
+            out += format!("{indent}{} {line}", language.comment()).trim_end();
+            out.push('\n');
+        }
+    }
+    out
+}
+
 /// A test with its comment: the call, and the pixels that are expected of it.
 fn test(
     language: Language,
@@ -254,19 +276,6 @@ fn test(
     question: &Question,
     plain: &Checkable,
 ) -> String {
-    let indent = if language == Language::JavaScript { "  " } else { "" };
-    let mut comment = String::new();
-    for line in about.lines().flat_map(|line| {
-        match line.starts_with("  ") || line.contains("rasterproof") {
-            true => vec![line.to_owned()],
-            false => ascii::lines(line, COLUMNS - 8, ascii::columns),
-        }
-    }) {
-        // What a program says of itself, and the way to it, do not go on in the next line.
-        let line = line.trim_end_matches('\\');
-        comment += &format!("{indent}{} {line}", language.comment()).trim_end();
-        comment.push('\n');
-    }
     let none =
         |count: usize, name: &str| if count == 0 { "NULL".to_owned() } else { name.to_owned() };
     let either = plain.either.iter().map(|[x, y]| PlainPixel { x: *x, y: *y, values: Vec::new() });
@@ -325,7 +334,7 @@ fn test(
         code = code.replace(word, &text);
     }
     let gap = if language == Language::Python { "\n\n" } else { "\n" };
-    format!("{gap}{comment}{code}")
+    format!("{gap}{}{code}", comment(language, about))
 }
 
 /// What differs between the functions that are tested.
