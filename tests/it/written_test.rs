@@ -347,7 +347,8 @@ fn every_kind_of_pixel_is_tested() {
         return;
     }
     let folder = Folder::new("written-test-kinds");
-    let judge = "judge --cases 40 --family half-integer --family depth-order --family w-4";
+    let judge =
+        "judge --cases 40 --family half-integer --family fan --family depth-order --family w-4";
     let command =
         |name: &str| format!("{judge} --write-test {name} -- {PROGRAM} engine exclusive-edges");
     folder.check(command("a_test.py"), 1);

@@ -4,10 +4,11 @@
 //! said here in fixed words that do not depend on each other: the places at which nearly every pixel is wrong, as few of them as
 //! explain the wrong pixels, and the names of whatever else is wrong. And what was mended is decided by cases, which are the same.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question, Subject};
+use super::baseline;
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::failures;
@@ -27,16 +28,15 @@ const NEARLY_ALL: u64 = 90;
 /// Wrong pixels of a place, at least.
 const LEAST: u64 = 2;
 
-/// A case of a property, whatever it is judged to be.
-type CaseName = (&'static str, &'static str, u64);
-
 /// What a judgement leaves for the next one. The verdict has to remember all its cases.
 #[derive(Clone, Debug, Default)]
 pub struct JudgementRecord {
     /// What is wrong in a few words each, what is wrong most first.
     pub faults: Vec<String>,
     failing: Vec<Failing>,
-    judged: HashSet<CaseName>,
+    /// The names of the cases that fail, and of all that were judged, as in a baseline.
+    wrong: BTreeMap<String, u64>,
+    judged: HashSet<String>,
 }
 
 /// How a judgement differs from the one before.
@@ -59,7 +59,8 @@ impl JudgementRecord {
         Self {
             faults: faults(program, verdict),
             failing: found.failing.clone(),
-            judged: found.judged.iter().copied().collect(),
+            wrong: baseline::failing_cases(found),
+            judged: baseline::judged_cases(found),
         }
     }
 
@@ -79,16 +80,18 @@ impl JudgementRecord {
     /// was right fails; otherwise it is the old one, seen in another way.
     #[must_use]
     pub fn since(&self, before: &Self) -> Changes {
-        let [was, is] = [before, self]
-            .map(|judged| judged.failing.iter().map(case_name).collect::<HashSet<CaseName>>());
-        let mut out = Changes {
-            right_now: was.difference(&is).filter(|case| self.judged.contains(*case)).count()
-                as u64,
-            still_wrong: was.intersection(&is).count() as u64,
-            wrong_now: is.difference(&was).filter(|case| before.judged.contains(*case)).count()
-                as u64,
-            ..Changes::default()
-        };
+        let mut out = Changes::default();
+        for case in before.wrong.keys() {
+            if self.wrong.contains_key(case) {
+                out.still_wrong += 1;
+            } else if self.judged.contains(case) {
+                out.right_now += 1;
+            }
+        }
+        for case in self.wrong.keys() {
+            let was_right = before.judged.contains(case) && !before.wrong.contains_key(case);
+            out.wrong_now += u64::from(was_right);
+        }
         for fault in &self.faults {
             let is_new = out.wrong_now > 0 && !before.faults.contains(fault);
             let list = if is_new { &mut out.new } else { &mut out.still };
@@ -100,10 +103,6 @@ impl JudgementRecord {
         }
         out
     }
-}
-
-fn case_name(failing: &Failing) -> CaseName {
-    (failing.property, failing.family, failing.index)
 }
 
 /// Some of these, as many of each property as of the others.
@@ -173,12 +172,15 @@ fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
         is_explained = true;
         let wrong: Vec<Failing> =
             found.failing.iter().filter(|f| of_it.contains(&f.property)).cloned().collect();
-        let failing: HashSet<CaseName> = wrong.iter().map(case_name).collect();
+        let failing = baseline::failing_cases(found);
         let judged = found.judged.iter().filter(|(name, ..)| of_it.contains(name));
-        let right: Vec<Failing> = judged
-            .filter(|case| !failing.contains(*case))
-            .map(|&(property, family, index)| Failing { property, family, index, fingerprint: 0 })
-            .collect();
+        let mut right = Vec::new();
+        for &(property, family, index) in judged {
+            let case = Failing { property, family, index, fingerprint: 0 };
+            if !failing.contains_key(&case.name()) {
+                right.push(case);
+            }
+        }
         let mut table = PlaceTable::new(check);
         for case in spread(&wrong, ASKED_AGAIN).into_iter().chain(spread(&right, ASKED_AGAIN)) {
             let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
@@ -471,18 +473,22 @@ impl PlaceTable {
         drawn: &[(i32, i32)],
         is_set: bool,
     ) {
-        let [is, should]: [HashSet<(i32, i32)>; 2] =
-            [drawn, expected].map(|pixels| pixels.iter().copied().collect());
-        let is_same = is == should && drawn.len() == expected.len();
-        let is_in_order = is_set || !is_same || drawn == expected;
+        let (mut is, mut should) = (drawn.to_vec(), expected.to_vec());
+        is.sort_unstable();
+        should.sort_unstable();
+        let is_drawn = |pixel: &(i32, i32)| is.binary_search(pixel).is_ok();
+        let is_in_order = is_set || is != should || drawn == expected;
         // A pixel beside the right one says the same as the one that is missing.
-        let is_moved = should.iter().any(|pixel| !is.contains(pixel));
-        let extra = is.difference(&should).filter(|_| !is_moved);
-        for &(x, y) in should.iter().chain(extra) {
+        let is_moved = !should.iter().all(is_drawn);
+        for &(x, y) in should.iter().chain(&is) {
+            let is_expected = should.binary_search(&(x, y)).is_ok();
+            let is_wrong = !is_in_order || is_drawn(&(x, y)) != is_expected;
+            if !is_expected && is_moved {
+                continue;
+            }
             let spot = LineSpot { question, ends, pixel: [x, y], is_in_order };
-            let is_wrong = !is_in_order || is.contains(&(x, y)) != should.contains(&(x, y));
             let holds = LINE_PLACES.iter().map(|(_, holds)| holds(&spot));
-            self.count(holds, should.contains(&(x, y)), is_wrong);
+            self.count(holds, is_expected, is_wrong);
         }
     }
 
@@ -570,10 +576,11 @@ mod tests {
     fn changes_are_told_by_cases() {
         let one =
             |case: u64| Failing { property: "fan", family: "fan", index: case, fingerprint: 0 };
-        let all = (0..9).map(|case| ("fan", "fan", case)).collect::<HashSet<CaseName>>();
+        let all = (0..9).map(|case| one(case).name()).collect::<HashSet<String>>();
         let judged = |faults: &[&str], cases: &[u64]| JudgementRecord {
             faults: faults.iter().map(|fault| (*fault).to_owned()).collect(),
-            failing: cases.iter().map(|case| one(*case)).collect(),
+            failing: Vec::new(),
+            wrong: cases.iter().map(|case| (one(*case).name(), 0)).collect(),
             judged: all.clone(),
         };
         let said = |before: &JudgementRecord, now: &JudgementRecord| {

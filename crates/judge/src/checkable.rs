@@ -1,7 +1,5 @@
 //! What is expected of one answer, so plain that a test in any language can check it: pixels, each with a few numbers.
 
-use std::collections::HashSet;
-
 use super::ask::{Answer, Asked, Question};
 use super::check::Truth;
 use super::depth::{Pile, SurePixels};
@@ -115,8 +113,12 @@ impl Checkable {
         let window = PixelRect::window(question.width, question.height);
         let Some(mut drawn) = pixels_of(answer, window) else { return true };
         if !self.counts_hits {
-            let mut seen = HashSet::new();
-            drawn.retain(|p| seen.insert([p.x, p.y]));
+            let mut seen: Vec<[i32; 2]> = Vec::new();
+            drawn.retain(|p| {
+                let is_new = !seen.contains(&[p.x, p.y]);
+                seen.push([p.x, p.y]);
+                is_new
+            });
         }
         if self.in_order {
             return drawn != self.expected;

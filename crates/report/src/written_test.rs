@@ -6,13 +6,11 @@
 use std::path::Path;
 
 use super::judge_text;
-use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_judge::ask::{Asked, Question};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::checkable::{Checkable, PlainPixel, checkable};
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::verdict::Verdict;
-use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::judge::ascii;
 
 rasterproof_core::named! {
@@ -279,10 +277,13 @@ fn test(
     let none =
         |count: usize, name: &str| if count == 0 { "NULL".to_owned() } else { name.to_owned() };
     let either = plain.either.iter().map(|[x, y]| PlainPixel { x: *x, y: *y, values: Vec::new() });
-    let either = either.map(|p| match language {
-        Language::Rust => format!("({}, {})", p.x, p.y),
-        _ => pixel(language, &p),
-    });
+    let either: Vec<String> = either
+        .map(|p| match language {
+            Language::Rust => format!("({}, {})", p.x, p.y),
+            _ => pixel(language, &p),
+        })
+        .collect();
+    let pixels: Vec<String> = plain.expected.iter().map(|p| pixel(language, p)).collect();
     let (count, count_of_either) = (plain.expected.len(), plain.either.len());
     let bounds: Vec<String> = plain.bounds.iter().map(|bound| number(language, *bound)).collect();
     let kind = Kind::of(question);
@@ -309,8 +310,8 @@ fn test(
         ("{height}", question.height.to_string()),
         ("{arguments}", arguments(language, question)),
         ("{bounds}", bounds),
-        ("{either}", list(language, either)),
-        ("{pixels}", list(language, plain.expected.iter().map(|p| pixel(language, p)))),
+        ("{either}", list(language, &either)),
+        ("{pixels}", list(language, &pixels)),
     ];
     let is_samples = matches!(question.of, Asked::Samples(_));
     let holds = |condition: &str| match condition {
@@ -382,20 +383,19 @@ fn brackets(language: Language) -> [&'static str; 2] {
 }
 
 /// Items in brackets.
-fn joined(language: Language, items: impl Iterator<Item = String>) -> String {
+fn joined(language: Language, items: &[String]) -> String {
     let [open, close] = brackets(language);
-    format!("{open}{}{close}", items.collect::<Vec<_>>().join(", "))
+    format!("{open}{}{close}", items.join(", "))
 }
 
 /// The same in lines where they are many.
-fn list(language: Language, items: impl Iterator<Item = String>) -> String {
+fn list(language: Language, items: &[String]) -> String {
     let [open, close] = brackets(language);
     let indent = match language {
         Language::Python | Language::Rust => "        ",
         Language::JavaScript => "      ",
         Language::C => "    ",
     };
-    let items: Vec<String> = items.collect();
     let one_line = items.join(", ");
     if one_line.len() <= COLUMNS - 30 {
         return format!("{open}{one_line}{close}");
@@ -442,27 +442,28 @@ fn arguments(language: Language, question: &Question) -> String {
             }
         }
         Asked::Values(triangle) => {
-            let corners = triangle.vertices.iter().map(|v| {
-                let [x, y] = px(v.position);
-                tuple(&[x, y, v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y])
-            });
-            let corners = joined(language, corners);
-            if language == Language::C {
-                format!("(const struct corner[]){corners}")
-            } else {
-                corners
+            let mut corners = Vec::new();
+            for v in &triangle.vertices {
+                let (x, y) = v.position.to_px();
+                corners.push(tuple(&[x, y, v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y]));
+            }
+            let corners = joined(language, &corners);
+            match language {
+                Language::C => format!("(const struct corner[]){corners}"),
+                _ => corners,
             }
         }
         Asked::Depth(triangles) => {
-            let one = |triangle: &Triangle| {
-                let corners = triangle.vertices.iter().map(|v| {
-                    let [x, y] = px(v.position);
-                    tuple(&[x, y, v.depth])
-                });
-                joined(language, corners)
-            };
-            let count = triangles.len();
-            let all = joined(language, triangles.iter().map(one));
+            let mut all = Vec::new();
+            for triangle in triangles {
+                let mut corners = Vec::new();
+                for v in &triangle.vertices {
+                    let (x, y) = v.position.to_px();
+                    corners.push(tuple(&[x, y, v.depth]));
+                }
+                all.push(joined(language, &corners));
+            }
+            let (count, all) = (all.len(), joined(language, &all));
             match language {
                 Language::C => format!("(const struct point[][3]){all}, {count}"),
                 Language::Rust => format!("&{all}"),
@@ -470,21 +471,20 @@ fn arguments(language: Language, question: &Question) -> String {
             }
         }
         Asked::Coverage(corners) | Asked::Samples(corners) => {
-            let each = corners.iter().map(|corner| px(*corner).map(|v| number(language, v)));
+            let mut each = Vec::new();
+            for corner in corners {
+                let (x, y) = corner.to_px();
+                let [x, y] = [x, y].map(|v| number(language, v));
+                each.push(match language {
+                    Language::Rust => format!("({x}, {y})"),
+                    _ => format!("{x}, {y}"),
+                });
+            }
             match language {
-                Language::Rust => {
-                    let each: Vec<String> = each.map(|[x, y]| format!("({x}, {y})")).collect();
-                    format!("[{}]", each.join(", "))
-                }
-                _ => each.flatten().collect::<Vec<_>>().join(", "),
+                Language::Rust => format!("[{}]", each.join(", ")),
+                _ => each.join(", "),
             }
         }
         Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => String::new(),
     }
-}
-
-/// A position in pixels.
-fn px(point: SubpixelPoint) -> [f64; 2] {
-    let (x, y) = point.to_px();
-    [x, y]
 }
