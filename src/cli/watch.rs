@@ -15,6 +15,8 @@ use super::{InputError, Status, Streams, exit, usage};
 
 /// How often the files are looked at.
 const LOOK: Duration = Duration::from_millis(100);
+/// Questions between two looks at the files while a program answers.
+const AT_ONCE: usize = 64;
 
 /// When a file was written and how long it is; nothing where there is none.
 type State = Option<(SystemTime, u64)>;
@@ -125,10 +127,20 @@ impl Subject for UntilChanged {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        if self.files.have_changed() {
-            return Vec::new();
+        let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
+        for some in questions.chunks(AT_ONCE) {
+            if deaths >= most_deaths || self.files.have_changed() {
+                break;
+            }
+            let answered = self.asked.ask(some, most_deaths - deaths);
+            deaths += answered.iter().filter(|answer| answer.is_death()).count() as u64;
+            let is_whole = answered.len() == some.len();
+            answers.extend(answered);
+            if !is_whole {
+                break;
+            }
         }
-        self.asked.ask(questions, most_deaths)
+        answers
     }
 
     fn end_at(&mut self, end: Option<Instant>) {

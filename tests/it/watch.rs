@@ -75,8 +75,8 @@ fn what_changes_meanwhile_is_judged_anew() {
     // A file that is gone is waited for.
     std::fs::remove_file(&mine).unwrap();
     printed(&folder, |text| text.ends_with("mine.py is gone, and is waited for\n"));
-    // It takes long, so the next change comes while it is judged: of this one there is no verdict.
-    folder.put("mine.py", program(false, 0.05));
+    // It would take minutes, so the next change comes while it is judged: of this one there is no verdict.
+    folder.put("mine.py", program(false, 0.25));
     printed(&folder, |text| text.contains("mine.py has changed"));
     std::thread::sleep(Duration::from_millis(300));
     folder.put("mine.py", program(true, 0.0));
