@@ -13,7 +13,9 @@ for line in sys.stdin:
     if verb == "HELLO":
         print("HELLO 2 mine coverage window=64x64 batch=1")
     else:
-        time.sleep(PAUSE)
+        if PAUSE:
+            open("slow", "a").write("x")
+            time.sleep(PAUSE)
         rows = range(int(words[1])) if DRAWS else ()
         print("C", id, len(rows), *(f"{y} 0 {words[0]}" for y in rows))
     sys.stdout.flush()
@@ -86,5 +88,8 @@ fn what_changes_meanwhile_is_judged_anew() {
     assert_eq!(last.matches("mine is not right").count(), 1, "{last}");
     // It draws too much now, where it drew nothing; no case is right that was not before.
     assert!(!last.contains("draws nothing") && last.contains("still:"), "{last}");
+    // After the change it is asked no more than what was begun.
+    let asked = folder.text("slow").len();
+    assert!(asked <= 100, "{asked}");
     assert!(watching.0.try_wait().unwrap().is_none());
 }
