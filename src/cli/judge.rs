@@ -1,27 +1,31 @@
 //! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use rasterproof_host::output::Over;
-use rasterproof_host::text::printable_path;
+use rasterproof_host::text::{printable, printable_path};
 
 use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{InputError, Status, Streams, exit, league, usage};
+use super::watch::Files;
+use super::{InputError, Status, Streams, exit, league, usage, watch};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
+use rasterproof_judge::changes::JudgementRecord;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::{Scores as _, Verdict};
-use rasterproof_judge::{Options, family_names, polygons};
+use rasterproof_judge::{Options, Step, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
+use rasterproof_report::written_test::{self, Language};
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -63,6 +67,12 @@ pub struct JudgeArguments {
     /// Write JUnit XML into this file, beside what is printed
     #[arg(long, value_name = "FILE", conflicts_with = "league")]
     junit: Option<PathBuf>,
+    /// Write the smallest case of each fault as a test that needs nothing else: .py, .rs, .c, .js or .mjs
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["league", "against"])]
+    write_test: Option<PathBuf>,
+    /// Judge again when the program's file changes, or a file among its arguments, and say what got better and what worse
+    #[arg(long, conflicts_with_all = ["league", "against", "baseline", "json", "format", "junit", "write_test", "table"])]
+    watch: bool,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long)]
     table: bool,
@@ -107,6 +117,17 @@ impl JudgeArguments {
         options
     }
 
+    fn limits(&self) -> Limits {
+        Limits { answer: self.timeout, start: self.start_timeout }
+    }
+
+    /// The same, every case remembered.
+    fn remembering(&self) -> Options {
+        let mut options = self.options(None);
+        options.terms.remember = true;
+        options
+    }
+
     fn format(&self) -> Format {
         if self.json { Format::Json } else { self.format }
     }
@@ -117,8 +138,11 @@ impl JudgeArguments {
 }
 
 /// The commands that judge everything, and one case, again.
-fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u64) -> String) {
-    let again = typed.clone().without_output().without(&["update-baseline"]);
+fn again(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+) -> (String, impl Fn(&str, u64) -> String + use<>) {
+    let again = typed.clone().without_output().without(&["update-baseline", "watch"]);
     let again = again.set("seed", arguments.seed);
     let repeat_all = again.clone().first("cases", arguments.cases).line();
     let repeat_case = move |family: &str, index: u64| {
@@ -142,6 +166,43 @@ fn save_junit(
     }
 }
 
+/// Writes the file of `--write-test`, if there is one, and says what is in it.
+fn save_test(
+    path: &Path,
+    verdict: &Verdict,
+    repeat: &dyn Fn(&str, u64) -> String,
+    streams: &mut Streams<'_>,
+) -> Result<(), InputError> {
+    let language = Language::of(path).map_err(usage)?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let written = written_test::write(verdict, language, &printable(&file), repeat);
+    let shown = printable_path(path);
+    let output = Output { path: path.to_owned(), over: Over::None };
+    let left_out = |streams: &mut Streams<'_>| {
+        let mut all = written.left_out.iter();
+        all.try_for_each(|why| writeln!(streams.errors, "  no test of {why}"))
+    };
+    match &written.text {
+        Some(text) if streams.save(&output, text.as_bytes()) => {
+            let tests =
+                if written.count == 1 { "1 test" } else { &format!("{} tests", written.count) };
+            writeln!(streams.errors, "{tests} in {}: {shown}", language.name())?;
+            left_out(streams)?;
+        }
+        Some(_) => {}
+        None if verdict.failures.is_empty() => {
+            writeln!(streams.errors, "no test is written, since no case fails: {shown}")?;
+        }
+        None => {
+            streams.lose(&format!(
+                "{shown}: no test is written, since none can be made of these cases"
+            ));
+            left_out(streams)?;
+        }
+    }
+    Ok(())
+}
+
 /// Judges a program that declares `partition`: by its polygons alone.
 fn tessellator(
     arguments: &JudgeArguments,
@@ -157,7 +218,7 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["baseline", "against", "report"]) {
+    if let Some(option) = typed.given(&["baseline", "against", "report", "write-test"]) {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
@@ -176,28 +237,17 @@ fn tessellator(
     Ok(status)
 }
 
-pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
-    if let Some(names) = &arguments.league {
-        let options = arguments.options(None);
-        return league::run(names, &options, limits, &arguments.page.place, streams);
-    }
-    arguments.page.refuse_idle_folder(typed)?;
-    for words in &arguments.declare {
-        let understood = Declared::default().declare(words);
-        understood.map_err(|why| usage(format!("--declare: {why}")))?;
-    }
-    let page = arguments.page.page("judge.html");
-    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit))?;
-    let baseline = match &arguments.baseline {
-        Some(path) => Some(Baseline::read(path, arguments.seed)?),
-        None => None,
-    };
-    group::end_all_on_ctrl_c();
+/// The copies of the program that were started, those of the program of `--against`, and what both declare.
+struct Begun {
+    askers: Vec<Box<dyn Subject>>,
+    others: Vec<Box<dyn Subject>>,
+    declared: Declared,
+}
+
+/// Starts the programs of a command line.
+fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
     let start = |who: &str, command: &[String]| {
-        let program = Program::start(command, &arguments.words(), limits);
+        let program = Program::start(command, &arguments.words(), arguments.limits());
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
         Ok::<_, InputError>(Box::new(program) as Box<dyn Subject>)
     };
@@ -229,17 +279,111 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             )));
         }
     }
+    Ok(Begun { askers, others, declared })
+}
+
+fn progress_of(options: &Options, declared: &Declared, streams: &Streams<'_>) -> Progress {
+    Progress::new(streams.progress, "cases judged", Some(cases_of(options, declared)))
+}
+
+/// Judges a program by its copies.
+fn judge_one(
+    askers: &mut [Box<dyn Subject>],
+    options: &Options,
+    step: &(dyn Fn(Step) + Sync),
+) -> Verdict {
+    let scope = Scope::of(options);
+    let recognise = |program: &mut dyn Subject| recognise(program, scope);
+    rasterproof_judge::judge(askers, options, &recognise, step)
+}
+
+/// Judges the program as it is now, first by the cases that failed before, and shows what has changed. Nothing comes of it where a file
+/// changes meanwhile.
+fn watched(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+    before: Option<&JudgementRecord>,
+    files: &Arc<Files>,
+    streams: &mut Streams<'_>,
+) -> Result<Option<JudgementRecord>, InputError> {
+    let Begun { askers, declared, .. } = begin(arguments)?;
+    if declared.partition {
+        return Err(usage("--watch is not for tessellators; leave it out"));
+    }
+    let mut askers: Vec<_> =
+        askers.into_iter().map(|asked| watch::until_changed(asked, files)).collect();
+    let options = arguments.remembering();
+    if let Some(before) = before {
+        let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
+        if asked > 0 {
+            writeln!(
+                streams.output,
+                "of {asked} cases that failed, {right} are right now; all cases follow"
+            )?;
+            streams.output.flush()?;
+        }
+    }
+    let progress = progress_of(&options, &declared, streams);
+    let verdict = judge_one(&mut askers, &options, &|step| progress.step(step));
+    drop(progress);
+    let record = JudgementRecord::of(&mut *askers[0], &verdict);
+    askers[0].finish();
+    if files.have_changed() {
+        return Ok(None);
+    }
+    if let Some(why) = verdict.judged_nothing() {
+        return Err(usage(why));
+    }
+    let changes = before.map(|before| record.since(before));
+    let (repeat_all, repeat_case) = again(arguments, typed);
+    let report =
+        judge_text::watched(&verdict, &record.faults, changes.as_ref(), &repeat_all, &repeat_case);
+    show(report, Shown::Screen, None, exit::AGREES, streams)?;
+    Ok(Some(record))
+}
+
+pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    if let Some(names) = &arguments.league {
+        let options = arguments.options(None);
+        let limits = arguments.limits();
+        return league::run(names, &options, limits, &arguments.page.place, streams);
+    }
+    arguments.page.refuse_idle_folder(typed)?;
+    for words in &arguments.declare {
+        let understood = Declared::default().declare(words);
+        understood.map_err(|why| usage(format!("--declare: {why}")))?;
+    }
+    let page = arguments.page.page("judge.html");
+    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
+    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
+    let test = arguments.write_test.as_deref();
+    if let Some(path) = test {
+        Language::of(path)
+            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
+    }
+    let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
+    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(test))?;
+    let baseline = match &arguments.baseline {
+        Some(path) => Some(Baseline::read(path, arguments.seed)?),
+        None => None,
+    };
+    group::end_all_on_ctrl_c();
+    if arguments.watch {
+        let mut round =
+            |before: Option<&JudgementRecord>, files: &Arc<Files>, streams: &mut Streams<'_>| {
+                watched(arguments, typed, before, files, streams)
+            };
+        return watch::run(&arguments.command, &mut round, streams);
+    }
+    let Begun { mut askers, others, declared } = begin(arguments)?;
     let options = arguments.options(baseline.as_ref());
     if declared.partition {
         return tessellator(arguments, &mut *askers[0], &options, typed, streams);
     }
-    let total = cases_of(&options, &declared);
-    let progress = Progress::new(streams.progress, "cases judged", Some(total));
-    let scope = Scope::of(&options);
-    let recognise = |program: &mut dyn Subject| recognise(program, scope);
+    let progress = progress_of(&options, &declared, streams);
     let step = |step| progress.step(step);
     let mut verdict = if others.is_empty() {
-        rasterproof_judge::judge(&mut askers, &options, &recognise, &step)
+        judge_one(&mut askers, &options, &step)
     } else {
         let mut pairs: Vec<_> = askers.into_iter().zip(others).map(|(a, b)| [a, b]).collect();
         against::compare(&mut pairs, &options, &step)
@@ -272,6 +416,9 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
                 write_page(&page, report, streams);
             }
         }
+    }
+    if let Some(path) = &arguments.write_test {
+        save_test(path, &verdict, &repeat_case, streams)?;
     }
     // It was read, and is written anew.
     let updated = |path: &Path| Output { path: path.to_owned(), over: Over::Updated };

@@ -32,6 +32,7 @@ mod verify;
 mod view;
 #[cfg(feature = "vulkan")]
 mod vulkan;
+mod watch;
 pub mod wrap;
 
 use std::error::Error;

@@ -77,7 +77,17 @@ impl Typed {
 
     /// The same without what only decides where results go and how they are shown.
     pub fn without_output(self) -> Self {
-        self.without(&["report", "out", "force", "output", "json", "table", "format", "junit"])
+        self.without(&[
+            "report",
+            "out",
+            "force",
+            "output",
+            "json",
+            "table",
+            "format",
+            "junit",
+            "write-test",
+        ])
     }
 
     /// Another command about `word`, with the options that it has in common with this one.

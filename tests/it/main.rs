@@ -82,6 +82,8 @@ mod tiled;
 mod tiles;
 mod tolerances;
 mod transcripts;
+mod watch;
 mod workspace;
 mod writers;
+mod written_test;
 mod your_gpu;

@@ -29,6 +29,8 @@ pub enum Over {
     Marked,
     /// Also one that the command has read, in order to write it anew.
     Updated,
+    /// None: what is written is edited by hand, and then it is the user's.
+    None,
 }
 
 /// Refuses a file that may not be replaced.
@@ -41,6 +43,12 @@ pub fn check(path: &Path, over: Over) -> Result<(), FileError> {
     }
     // What is written to a pipe or a device replaces nothing.
     let is_file = || std::fs::metadata(path).is_ok_and(|data| data.is_file());
+    if over == Over::None && is_file() {
+        return Err(refused(
+            path,
+            "exists, and may be edited by hand: give another name, or remove it",
+        ));
+    }
     if over == Over::Marked && is_file() && !mark::is_marked(&head(path)) {
         return Err(refused(
             path,
@@ -369,6 +377,11 @@ mod tests {
         write(&page, b"<!DOCTYPE html>\nc", Over::Marked).unwrap();
         assert!(fs::read(&page).unwrap().ends_with(b"rasterproof -->\nc"));
         crate::input::read(&page, 99).unwrap();
+        let kept = folder.path("a.py");
+        write(&kept, b"mine", Over::None).unwrap();
+        let error = write(&kept, b"new", Over::None).unwrap_err();
+        assert!(error.cause.starts_with("exists, and may be edited"), "{error}");
+        assert_eq!(fs::read(&kept).unwrap(), b"mine");
         for over in [Over::Any, Over::Marked] {
             let error = write(&page, b"d", over).unwrap_err();
             assert_eq!(error.cause, "is read by this command; give the output another name");

@@ -12,7 +12,7 @@ use std::path::Path;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::run::Failing;
+use super::run::{Failing, RunFindings};
 use super::verdict::{Outcome, Verdict};
 
 const HEADER: &str = "# rasterproof baseline 1, seed ";
@@ -81,7 +81,7 @@ impl Baseline {
         let is_known = |f: &&Failing| self.known.get(&f.name()) == Some(&f.fingerprint);
         verdict.more.known = verdict.more.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
-        let judged = judged(verdict);
+        let judged = judged_cases(&verdict.more.found);
         for property in &mut verdict.more.properties {
             let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
             let all: Vec<&String> = failing.keys().filter(of_it).collect();
@@ -111,7 +111,7 @@ impl Baseline {
             let most = super::run::MOST_REMEMBERED;
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
         }
-        let judged = judged(verdict);
+        let judged = judged_cases(&verdict.more.found);
         let mut all: BTreeMap<_, _> =
             self.known.iter().filter(|(case, _)| !judged.contains(*case)).collect();
         let failing = failing(verdict);
@@ -125,15 +125,19 @@ impl Baseline {
     }
 }
 
-/// The cases that were judged, as in the file.
-fn judged(verdict: &Verdict) -> HashSet<String> {
-    verdict.more.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
+/// The cases that were judged, as in the file, where they were remembered.
+pub(super) fn judged_cases(found: &RunFindings) -> HashSet<String> {
+    found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
+}
+
+/// The cases that fail, as in the file.
+pub(super) fn failing_cases(found: &RunFindings) -> BTreeMap<String, u64> {
+    found.failing.iter().map(|f| (f.name(), f.fingerprint)).collect()
 }
 
 /// What fails, as in the file. What the whole run shows has one case.
 fn failing(verdict: &Verdict) -> BTreeMap<String, u64> {
-    let cases = verdict.more.found.failing.iter();
-    let mut all: BTreeMap<_, _> = cases.map(|f| (f.name(), f.fingerprint)).collect();
+    let mut all = failing_cases(&verdict.more.found);
     // That the program draws, in which winding, and by the protocol.
     let whole = verdict.more.properties.iter().filter(|p| p.outcome == Outcome::Fail);
     let rows: HashSet<&str> = verdict.families.iter().map(|row| row.name).collect();

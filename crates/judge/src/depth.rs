@@ -22,6 +22,15 @@ struct Layer {
     depths: Option<ExactTriangle<2>>,
 }
 
+/// What is sure of a pile.
+#[derive(Default)]
+pub(super) struct SurePixels {
+    /// Each with the number of the triangle that is seen there.
+    pub seen: Vec<([i32; 2], usize)>,
+    /// Pixels of which nothing is sure.
+    pub open: Vec<[i32; 2]>,
+}
+
 pub(super) struct Pile {
     layers: Vec<Layer>,
     window: PixelRect,
@@ -67,6 +76,22 @@ impl Pile {
         all.retain(|(depth, _)| *depth <= nearest + self.allowance);
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         (all.into_iter().map(|(_, t)| t).collect(), !must.is_empty())
+    }
+
+    /// The pixels at which one triangle alone may be seen and has to be, apart from those at which several may, or none.
+    pub fn sure(&self) -> SurePixels {
+        let mut out = SurePixels::default();
+        for y_px in self.window.y0..self.window.y1 {
+            for x in 0..self.window.width() as usize {
+                let pixel = [self.window.x0 + x as i32, y_px];
+                match self.seen(x, y_px) {
+                    (seen, _) if seen.is_empty() => {}
+                    (seen, true) if seen.len() == 1 => out.seen.push((pixel, seen[0])),
+                    _ => out.open.push(pixel),
+                }
+            }
+        }
+        out
     }
 
     /// What is seen, as runs of pixels with the number of their triangle.

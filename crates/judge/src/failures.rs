@@ -14,7 +14,7 @@ use super::pictured::{Pictured, pictured};
 use super::run::{Changing, Failing, Row, RunFindings};
 use super::shrink::smaller;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
 use rasterproof_verify::judge::ascii;
@@ -69,6 +69,11 @@ pub struct Exchange {
     pub other: String,
     /// What was expected instead, or nothing.
     pub expected: String,
+    /// The request and the answer as values; a long answer is cut where it is a line.
+    #[serde(skip)]
+    pub question: Question,
+    #[serde(skip)]
+    pub heard: Answer,
 }
 
 impl Exchanged {
@@ -200,6 +205,8 @@ pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Fa
             answer: show(first, 1),
             other: show(again, 1),
             expected: expected(*check, question, truth),
+            question: question.clone(),
+            heard: first.clone(),
         });
         let evidence = Exchanged {
             property: failing.property,
@@ -347,6 +354,8 @@ impl Search<'_> {
                 _ => String::new(),
             },
             expected: expected(check, question, truth),
+            question: question.clone(),
+            heard: answer.clone(),
         });
         let evidence = Exchanged {
             property: failing.property,
@@ -447,14 +456,17 @@ fn words(what: &str) -> Vec<String> {
     words.map(|word| word.trim_end_matches(',').to_owned()).collect()
 }
 
-fn is_on_edge([a, b, c]: Corners, [x, y]: [i32; 2]) -> bool {
-    [[a, b], [b, c], [c, a]].iter().any(|&[from, to]| {
-        let mut at = from;
-        (at.x, at.y) = (x, y);
-        let is_between = (from.x.min(to.x)..=from.x.max(to.x)).contains(&x)
-            && (from.y.min(to.y)..=from.y.max(to.y)).contains(&y);
-        is_between && twice_area(&[from, to, at]) == 0
-    })
+fn is_on_edge([a, b, c]: Corners, at: [i32; 2]) -> bool {
+    [[a, b], [b, c], [c, a]].iter().any(|&[from, to]| lies_between(from, to, at))
+}
+
+/// Whether a point lies on the way from one point to another.
+pub(super) fn lies_between(from: SubpixelPoint, to: SubpixelPoint, [x, y]: [i32; 2]) -> bool {
+    let mut at = from;
+    (at.x, at.y) = (x, y);
+    let is_between = (from.x.min(to.x)..=from.x.max(to.x)).contains(&x)
+        && (from.y.min(to.y)..=from.y.max(to.y)).contains(&y);
+    is_between && twice_area(&[from, to, at]) == 0
 }
 
 #[cfg(test)]

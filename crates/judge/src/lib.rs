@@ -4,10 +4,10 @@
 //! [`ask`] is what is asked and answered; the crate `program` asks a program through pipes, and [`in_process`] an
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
+//! wrong with a case ([`judged`]), [`checkable`] says it so that a test without this judge can, `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, `after` makes failing cases smaller and asks why they fail, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
-//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
+//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known, and [`changes`] what one judgement finds and another does not. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
 mod after;
@@ -15,7 +15,9 @@ pub mod against;
 pub mod ask;
 mod asked;
 pub mod baseline;
+pub mod changes;
 pub mod check;
+pub mod checkable;
 pub mod declared;
 mod depth;
 mod difference;

@@ -1,6 +1,6 @@
 //! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
-use super::html::{Chapter, Excerpt, Outcome, Report};
+use super::html::{Chapter, Excerpt, Outcome, Report, Statement};
 use super::json;
 use super::table::{Row, Table};
 use super::text::SCREEN;
@@ -8,6 +8,7 @@ use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::{Breach, Complaints};
+use rasterproof_judge::changes::Changes;
 use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
@@ -94,6 +95,55 @@ pub fn whole(
         cases: views(verdict, repeat),
         data: json::judgement(verdict, repeat_all, repeat),
         ..report(verdict, repeat_all, repeat, with_table)
+    }
+}
+
+/// The verdict on a program that is judged whenever it changes, short enough for a screen: what is wrong or has changed, and one failing
+/// case.
+pub fn watched(
+    verdict: &Verdict,
+    faults: &[String],
+    changes: Option<&Changes>,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Report {
+    let mut answers = Vec::new();
+    let mut say = |about: &'static str, what: &[String]| {
+        if !what.is_empty() {
+            answers.push(Statement { about, sentence: what.join("; "), command: String::new() });
+        }
+    };
+    match changes {
+        None => say("wrong:", faults),
+        Some(changes) => {
+            say("mended:", &changes.mended);
+            say("still:", &changes.still);
+            say("new:", &changes.new);
+            let Changes { right_now, still_wrong, wrong_now, .. } = changes;
+            let counts = [
+                (right_now, "that failed are right"),
+                (still_wrong, "still fail"),
+                (wrong_now, "that were right fail"),
+            ];
+            let counts = counts.into_iter().filter(|(count, _)| **count > 0);
+            let counts: Vec<String> =
+                counts.map(|(count, what)| format!("{} {what}", thousands(*count))).collect();
+            say("cases:", &counts);
+        }
+    }
+    let mut excerpts = excerpts(verdict, repeat, None);
+    let more = excerpts.len().saturating_sub(1);
+    excerpts.truncate(1);
+    if let Some(first) = excerpts.first_mut().filter(|_| more > 0) {
+        first.places.push(("others", format!("{more}, without --watch")));
+    }
+    Report {
+        about: by(verdict.options.seed),
+        outcome: Some(outcome(verdict, None)),
+        answers,
+        excerpts,
+        repeat: repeat_all.to_owned(),
+        ..Report::default()
     }
 }
 
@@ -442,7 +492,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let second = if changes { "again" } else { "other" };
     let mut exchanges = Vec::new();
     for exchange in failure.evidence.exchanges.iter().take(MOST_EXCHANGES) {
-        let Exchange { request, answer, other, expected } = exchange;
+        let Exchange { request, answer, other, expected, .. } = exchange;
         for (what, line) in
             [("request", request), ("answer", answer), (second, other), ("expected", expected)]
         {

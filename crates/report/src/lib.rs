@@ -21,3 +21,4 @@ pub mod summary;
 pub mod table;
 pub mod text;
 pub mod words;
+pub mod written_test;

@@ -1,0 +1,601 @@
+//! What two judgements of a program differ in: what was mended, what is still wrong, and what is new.
+//!
+//! The sentences of a cause or a convention change when one of two faults is mended, although the other one stays. So what is wrong is
+//! said here in fixed words that do not depend on each other: the places at which nearly every pixel is wrong, as few of them as
+//! explain the wrong pixels, and the names of whatever else is wrong. And what was mended is decided by cases, which are the same.
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::adapt_case;
+use super::ask::{Answer, Asked, Question, Subject};
+use super::baseline;
+use super::check::{Check, Truth};
+use super::declared::Declared;
+use super::failures;
+use super::pixels::picture_of;
+use super::run::Failing;
+use super::verdict::Verdict;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, PixelPoint};
+use rasterproof_verify::comparison::pixels::hits;
+
+/// Cases that are asked again, wrong ones and right ones, of triangles and of lines.
+const ASKED_AGAIN: usize = 240;
+/// In so many of a hundred pixels of a place something is wrong, if the place is named.
+const NEARLY_ALL: u64 = 90;
+/// Wrong pixels of a place, at least.
+const LEAST: u64 = 2;
+
+/// What a judgement leaves for the next one. The verdict has to remember all its cases.
+#[derive(Clone, Debug, Default)]
+pub struct JudgementRecord {
+    /// What is wrong in a few words each, what is wrong most first.
+    pub faults: Vec<String>,
+    failing: Vec<Failing>,
+    /// The names of the cases that fail, and of all that were judged, as in a baseline.
+    wrong: BTreeMap<String, u64>,
+    judged: HashSet<String>,
+}
+
+/// How a judgement differs from the one before.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Changes {
+    pub mended: Vec<String>,
+    pub still: Vec<String>,
+    pub new: Vec<String>,
+    /// Cases that failed before and are right now, and those that still fail.
+    pub right_now: u64,
+    pub still_wrong: u64,
+    /// Cases that were right before.
+    pub wrong_now: u64,
+}
+
+impl JudgementRecord {
+    /// What was found, in words for which the program is asked a few hundred cases again.
+    pub fn of(program: &mut dyn Subject, verdict: &Verdict) -> Self {
+        let found = &verdict.more.found;
+        Self {
+            faults: faults(program, verdict),
+            failing: found.failing.clone(),
+            wrong: baseline::failing_cases(found),
+            judged: baseline::judged_cases(found),
+        }
+    }
+
+    /// Asks again some of the cases that failed: how many there are, and how many of them are right now.
+    pub fn ask_again(&self, program: &mut dyn Subject, seed: u64) -> [u64; 2] {
+        let truth = Truth::of(program.declared());
+        let mut counts = [0, 0];
+        for failing in spread(&self.failing, ASKED_AGAIN) {
+            let Some(asked) = AskedAgain::of(program, failing, seed, &truth) else { continue };
+            counts[0] += 1;
+            counts[1] += u64::from(!asked.is_wrong);
+        }
+        counts
+    }
+
+    /// How this judgement differs from one before. A fault is mended only if a case that failed is right, and new only if a case that
+    /// was right fails; otherwise it is the old one, seen in another way.
+    #[must_use]
+    pub fn since(&self, before: &Self) -> Changes {
+        let mut out = Changes::default();
+        for case in before.wrong.keys() {
+            if self.wrong.contains_key(case) {
+                out.still_wrong += 1;
+            } else if self.judged.contains(case) {
+                out.right_now += 1;
+            }
+        }
+        for case in self.wrong.keys() {
+            let was_right = before.judged.contains(case) && !before.wrong.contains_key(case);
+            out.wrong_now += u64::from(was_right);
+        }
+        for fault in &self.faults {
+            let is_new = out.wrong_now > 0 && !before.faults.contains(fault);
+            let list = if is_new { &mut out.new } else { &mut out.still };
+            list.push(fault.clone());
+        }
+        if out.right_now > 0 {
+            let is_gone = |fault: &&String| !self.faults.contains(*fault);
+            out.mended = before.faults.iter().filter(is_gone).cloned().collect();
+        }
+        out
+    }
+}
+
+/// Some of these, as many of each property as of the others.
+fn spread(all: &[Failing], most: usize) -> Vec<&Failing> {
+    let mut properties: Vec<(&str, Vec<&Failing>)> = Vec::new();
+    for failing in all {
+        match properties.iter_mut().find(|(name, _)| *name == failing.property) {
+            Some((_, list)) => list.push(failing),
+            None => properties.push((failing.property, vec![failing])),
+        }
+    }
+    let mut chosen = Vec::new();
+    let longest = properties.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
+    for number in 0..longest {
+        let turn = properties.iter().filter_map(|(_, list)| list.get(number));
+        chosen.extend(turn.copied().take(most - chosen.len()));
+    }
+    chosen
+}
+
+/// A case that was judged before and is asked again.
+struct AskedAgain {
+    check: Check,
+    questions: Vec<Question>,
+    answers: Vec<Answer>,
+    is_wrong: bool,
+}
+
+impl AskedAgain {
+    fn of(program: &mut dyn Subject, of: &Failing, seed: u64, truth: &Truth) -> Option<Self> {
+        let family = adapt_case::family(of.family)?;
+        let case = adapt_case::case(family, seed, of.index, &truth.declared);
+        let checks = Check::of_truth(family.name, &case, of.index, truth);
+        let check = checks.into_iter().find(|check| check.name(family.name) == of.property)?;
+        let mut questions = Vec::new();
+        check.questions(&case, truth, &mut questions);
+        let answers = program.ask(&questions, 1);
+        let judged = failures::judge(check, &case, &answers, questions.len(), truth);
+        // Where the time is up, nothing is known of it.
+        let is_answered = answers.len() == questions.len() || !judged.died.is_empty();
+        is_answered.then(|| Self { check, is_wrong: judged.is_wrong(), questions, answers })
+    }
+}
+
+/// What is wrong with a program, in fixed words.
+fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
+    let found = &verdict.more.found;
+    let truth = Truth::of(program.declared());
+    let mut faults = Vec::new();
+    for incident in found.incidents.iter().map(|incident| &incident.what).chain(&found.strays) {
+        let what = format!("it {}", incident.breach.name());
+        if !faults.contains(&what) {
+            faults.push(what);
+        }
+    }
+    let rows = || verdict.families.iter().filter(|row| row.wrong_cases > 0);
+    if rows().any(|row| row.refused > 0) {
+        faults.push("requests that it refuses".to_owned());
+    }
+    let mut is_explained = false;
+    for check in [Check::Coverage, Check::Line] {
+        let of_it: Vec<&str> =
+            rows().filter(|row| row.check == Some(check)).map(|row| row.name).collect();
+        if of_it.is_empty() {
+            continue;
+        }
+        is_explained = true;
+        let wrong: Vec<Failing> =
+            found.failing.iter().filter(|f| of_it.contains(&f.property)).cloned().collect();
+        let failing = baseline::failing_cases(found);
+        let judged = found.judged.iter().filter(|(name, ..)| of_it.contains(name));
+        let mut right = Vec::new();
+        for &(property, family, index) in judged {
+            let case = Failing { property, family, index, fingerprint: 0 };
+            if !failing.contains_key(&case.name()) {
+                right.push(case);
+            }
+        }
+        let mut table = PlaceTable::new(check);
+        for case in spread(&wrong, ASKED_AGAIN).into_iter().chain(spread(&right, ASKED_AGAIN)) {
+            let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
+            if let Some(asked) = asked.filter(|asked| asked.check == check) {
+                for (question, answer) in asked.questions.iter().zip(&asked.answers) {
+                    table.add(question, answer, &truth);
+                }
+            }
+        }
+        faults.extend(table.named());
+    }
+    for row in rows() {
+        let name = match row.check {
+            Some(Check::Values) if row.wrong_values > 0 => "values",
+            Some(Check::Samples) => "samples",
+            Some(Check::Depth) => "which triangle is seen",
+            Some(Check::Near) => "corners at the near plane",
+            Some(Check::Carried) => "attributes at the near plane",
+            // What is wrong between answers, and with the pixels of values, comes of wrong pixels, where there are any.
+            Some(Check::Values) if !is_explained => "pixels of values",
+            Some(Check::Order | Check::Watertight | Check::Direction | Check::Outline)
+                if !is_explained =>
+            {
+                row.name
+            }
+            _ => continue,
+        };
+        if !faults.iter().any(|known| known == name) {
+            faults.push(name.to_owned());
+        }
+    }
+    faults
+}
+
+/// A pixel of a triangle that is drawn, or might be, with what a place asks of it.
+struct Spot<'a> {
+    question: &'a Question,
+    pixel: [i32; 2],
+    /// On which edges its sample lies: left, right, top, bottom.
+    on_edge: [bool; 4],
+    /// The first and last column and row of the window whose samples lie between the corners; they may have no pixel.
+    columns: [i32; 2],
+    rows: [i32; 2],
+    /// The first and last column and row with a pixel that is expected.
+    drawn_columns: [i32; 2],
+    drawn_rows: [i32; 2],
+    /// The first and last pixel that is expected in its row.
+    run: Option<[i32; 2]>,
+}
+
+/// The same of a line.
+struct LineSpot<'a> {
+    question: &'a Question,
+    ends: [PixelPoint; 2],
+    pixel: [i32; 2],
+    is_in_order: bool,
+}
+
+/// The name of a place, and whether a pixel lies there.
+type TrianglePlace = (&'static str, fn(&Spot<'_>) -> bool);
+type LinePlace = (&'static str, fn(&LineSpot<'_>) -> bool);
+
+/// Places of pixels, those that say most first. A row or column of a shape is meant in either of two ways.
+const TRIANGLE_PLACES: [TrianglePlace; 24] = [
+    ("ties on left edges", |s| s.on_edge[0]),
+    ("ties on right edges", |s| s.on_edge[1]),
+    ("ties on top edges", |s| s.on_edge[2]),
+    ("ties on bottom edges", |s| s.on_edge[3]),
+    ("the first row of shapes", |s| s.pixel[1] == s.rows[0]),
+    ("the last row of shapes", |s| s.pixel[1] == s.rows[1]),
+    ("the first column of shapes", |s| s.pixel[0] == s.columns[0]),
+    ("the last column of shapes", |s| s.pixel[0] == s.columns[1]),
+    ("the first row of shapes", |s| s.pixel[1] == s.drawn_rows[0]),
+    ("the last row of shapes", |s| s.pixel[1] == s.drawn_rows[1]),
+    ("the first column of shapes", |s| s.pixel[0] == s.drawn_columns[0]),
+    ("the last column of shapes", |s| s.pixel[0] == s.drawn_columns[1]),
+    ("the left ends of rows", |s| s.run.is_some_and(|run| run[0] == s.pixel[0])),
+    ("the right ends of rows", |s| s.run.is_some_and(|run| run[1] == s.pixel[0])),
+    ("pixels left of the rows", |s| s.run.is_some_and(|run| s.pixel[0] == run[0] - 1)),
+    ("pixels right of the rows", |s| s.run.is_some_and(|run| s.pixel[0] == run[1] + 1)),
+    ("windows of width 1", |s| s.question.width == 1),
+    ("windows of height 1", |s| s.question.height == 1),
+    ("the last row of windows", |s| s.pixel[1] as u32 + 1 == s.question.height),
+    ("the last column of windows", |s| s.pixel[0] as u32 + 1 == s.question.width),
+    ("clockwise triangles", |s| corners(s.question).is_some_and(|c| twice_area(c) > 0)),
+    ("counterclockwise triangles", |s| corners(s.question).is_some_and(|c| twice_area(c) < 0)),
+    ("triangles without area", |s| corners(s.question).is_some_and(|c| twice_area(c) == 0)),
+    ("all pixels of triangles", |_| true),
+];
+
+const LINE_PLACES: [LinePlace; 18] = [
+    ("the first pixel of lines", |s| s.pixel == [s.ends[0].x, s.ends[0].y]),
+    ("the last pixel of lines", |s| s.pixel == [s.ends[1].x, s.ends[1].y]),
+    ("ties of lines", |s| s.is_tie()),
+    ("ties of lines drawn backwards", |s| s.is_tie() && s.is_backwards()),
+    ("ties of lines whose x and y go opposite ways", |s| {
+        s.is_tie() && s.side()[0].signum() * s.side()[1].signum() < 0
+    }),
+    ("level lines", |s| s.side()[1] == 0),
+    ("upright lines", |s| s.side()[0] == 0),
+    ("diagonal lines", |s| s.side()[0].abs() == s.side()[1].abs()),
+    ("windows of width 1", |s| s.question.width == 1),
+    ("windows of height 1", |s| s.question.height == 1),
+    ("steep lines", |s| s.side()[1].abs() > s.side()[0].abs()),
+    ("flat lines", |s| s.side()[0].abs() > s.side()[1].abs()),
+    ("lines to the left", |s| s.side()[0] < 0),
+    ("lines to the right", |s| s.side()[0] > 0),
+    ("lines that run up", |s| s.side()[1] < 0),
+    ("lines that run down", |s| s.side()[1] > 0),
+    ("the order of the pixels of lines", |s| !s.is_in_order),
+    ("all pixels of lines", |_| true),
+];
+
+impl LineSpot<'_> {
+    fn side(&self) -> [i64; 2] {
+        let [from, to] = self.ends;
+        [i64::from(to.x) - i64::from(from.x), i64::from(to.y) - i64::from(from.y)]
+    }
+
+    /// Whether it runs to the smaller coordinate along its longer side.
+    fn is_backwards(&self) -> bool {
+        let [dx, dy] = self.side();
+        (if dy.abs() > dx.abs() { dy } else { dx }) < 0
+    }
+
+    /// Whether the line passes halfway between two pixels where it passes this one.
+    fn is_tie(&self) -> bool {
+        let [dx, dy] = self.side();
+        let start = [self.ends[0].x, self.ends[0].y];
+        let along = usize::from(dy.abs() > dx.abs());
+        let (longer, shorter) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+        let steps = (i64::from(self.pixel[along]) - i64::from(start[along])).abs();
+        longer > 0 && (2 * shorter * steps) % (2 * longer) == longer
+    }
+}
+
+fn corners(question: &Question) -> Option<&Corners> {
+    match &question.of {
+        Asked::Coverage(corners) => Some(corners),
+        _ => None,
+    }
+}
+
+/// Left, right, top, bottom: on which edges a point lies.
+fn edges_at(corners: &Corners, at: [i32; 2]) -> [bool; 4] {
+    let mut on = [false; 4];
+    // What has no area has no sides.
+    let edges = if twice_area(corners) == 0 { 0..0 } else { 0..3 };
+    for i in edges {
+        let (mut from, mut to, third) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        if !failures::lies_between(from, to, at) {
+            continue;
+        }
+        if from.y == to.y {
+            on[if third.y > from.y { 2 } else { 3 }] = true;
+            continue;
+        }
+        if from.y > to.y {
+            (from, to) = (to, from);
+        }
+        // Of an edge that runs down, the third corner lies on the left where the triangle is clockwise.
+        on[usize::from(twice_area(&[from, to, third]) > 0)] = true;
+    }
+    on
+}
+
+/// The first and last pixel whose sample lies between two coordinates, the second one excluded, within the window.
+fn between(least: i32, most: i32, sample: i32, side: u32) -> [i32; 2] {
+    let first_at_or_after = |v: i32| {
+        (v - sample).div_euclid(SUBPIXELS) + i32::from((v - sample).rem_euclid(SUBPIXELS) > 0)
+    };
+    [first_at_or_after(least).max(0), (first_at_or_after(most) - 1).min(side as i32 - 1)]
+}
+
+/// For each place how many pixels there are and how many are wrong; and each wrong pixel with its places, as bits. Pixels that should
+/// be drawn and those that should not are told apart: each place is there for both, one half of all behind the other.
+struct PlaceTable {
+    check: Check,
+    names: Vec<&'static str>,
+    all: Vec<u64>,
+    wrong: Vec<u64>,
+    wrong_pixels: Vec<u64>,
+}
+
+impl PlaceTable {
+    fn new(check: Check) -> Self {
+        let names: Vec<&str> = match check {
+            Check::Line => LINE_PLACES.iter().map(|(name, _)| *name).collect(),
+            _ => TRIANGLE_PLACES.iter().map(|(name, _)| *name).collect(),
+        };
+        let names = names.repeat(2);
+        let none = vec![0; names.len()];
+        Self { check, names, all: none.clone(), wrong: none, wrong_pixels: Vec::new() }
+    }
+
+    fn count(&mut self, holds: impl Iterator<Item = bool>, is_expected: bool, is_wrong: bool) {
+        let first = if is_expected { 0 } else { self.names.len() / 2 };
+        let mut places = 0;
+        for (place, _) in holds.enumerate().filter(|(_, holds)| *holds) {
+            let place = first + place;
+            self.all[place] += 1;
+            self.wrong[place] += u64::from(is_wrong);
+            places |= 1 << place;
+        }
+        if is_wrong {
+            self.wrong_pixels.push(places);
+        }
+    }
+
+    /// Adds the pixels of an answer that are drawn, or might be.
+    fn add(&mut self, question: &Question, answer: &Answer, truth: &Truth) {
+        let window = PixelRect::window(question.width, question.height);
+        match &question.of {
+            Asked::Coverage(corners) => {
+                let Some(picture) = truth.expect.picture(corners, window) else { return };
+                let must = hits(&picture.must, window).0;
+                let may = picture.may.map_or_else(|| must.clone(), |may| hits(&may, window).0);
+                let nothing = || Coverage::new(window, 0);
+                let drawn = picture_of(answer, window).unwrap_or_else(nothing);
+                self.add_triangle(question, corners, [&must, &may, &drawn], &truth.declared);
+            }
+            Asked::Line { ends, .. } => {
+                let Some(expected) = truth.expect.line(ends, window) else { return };
+                let drawn = if let Answer::Line(pixels) = answer { &pixels[..] } else { &[] };
+                self.add_line(question, *ends, &expected, drawn, truth.declared.line_set);
+            }
+            _ => {}
+        }
+    }
+
+    fn add_triangle(
+        &mut self,
+        question: &Question,
+        corners: &Corners,
+        [must, may, drawn]: [&Coverage; 3],
+        declared: &Declared,
+    ) {
+        let sample = declared.convention.sample;
+        let range = |of: fn(&SubpixelPoint) -> i32, axis: usize, side: u32| {
+            let values = corners.each_ref().map(of);
+            let (least, most) = (values.iter().min().copied(), values.iter().max().copied());
+            between(least.unwrap_or(0), most.unwrap_or(0), sample[axis], side)
+        };
+        let columns = range(|corner| corner.x, 0, question.width);
+        let rows = range(|corner| corner.y, 1, question.height);
+        let (mut drawn_columns, mut drawn_rows) = ([i32::MAX, -1], [i32::MAX, -1]);
+        for (y, x0, x1) in must.runs() {
+            drawn_columns = [drawn_columns[0].min(x0), drawn_columns[1].max(x1 - 1)];
+            drawn_rows = [drawn_rows[0].min(y), y];
+        }
+        for (y, row) in drawn.rows() {
+            let expected = must.row(y);
+            let first = expected.iter().position(|hits| *hits > 0);
+            let last = expected.iter().rposition(|hits| *hits > 0);
+            let run = first.zip(last).map(|(first, last)| [first as i32, last as i32]);
+            for (x, &hits) in row.iter().enumerate() {
+                let (must, may) = (expected[x], may.row(y)[x]);
+                let pixel = [x as i32, y];
+                let at = [0, 1]
+                    .map(|axis| pixel[axis].saturating_mul(SUBPIXELS).saturating_add(sample[axis]));
+                let on_edge = edges_at(corners, at);
+                // A pixel that is rightly left out says something where another one like it is drawn.
+                let is_beside =
+                    run.is_some_and(|[first, last]| [first - 1, last + 1].contains(&pixel[0]));
+                if must == 0 && hits == 0 && !is_beside && on_edge == [false; 4] {
+                    continue;
+                }
+                let spot = Spot {
+                    question,
+                    pixel,
+                    on_edge,
+                    columns,
+                    rows,
+                    drawn_columns,
+                    drawn_rows,
+                    run,
+                };
+                let is_wrong = hits != must && !(hits == 1 && may == 1);
+                let holds = TRIANGLE_PLACES.iter().map(|(_, holds)| holds(&spot));
+                self.count(holds, must > 0, is_wrong);
+            }
+        }
+    }
+
+    fn add_line(
+        &mut self,
+        question: &Question,
+        ends: [PixelPoint; 2],
+        expected: &[(i32, i32)],
+        drawn: &[(i32, i32)],
+        is_set: bool,
+    ) {
+        let (mut is, mut should) = (drawn.to_vec(), expected.to_vec());
+        is.sort_unstable();
+        should.sort_unstable();
+        let is_drawn = |pixel: &(i32, i32)| is.binary_search(pixel).is_ok();
+        let is_in_order = is_set || is != should || drawn == expected;
+        // A pixel beside the right one says the same as the one that is missing.
+        let is_moved = !should.iter().all(is_drawn);
+        for &(x, y) in should.iter().chain(&is) {
+            let is_expected = should.binary_search(&(x, y)).is_ok();
+            let is_wrong = !is_in_order || is_drawn(&(x, y)) != is_expected;
+            if !is_expected && is_moved {
+                continue;
+            }
+            let spot = LineSpot { question, ends, pixel: [x, y], is_in_order };
+            let holds = LINE_PLACES.iter().map(|(_, holds)| holds(&spot));
+            self.count(holds, is_expected, is_wrong);
+        }
+    }
+
+    /// As few places as explain the wrong pixels: each time the one that explains most of what is left. What no place explains has a
+    /// name of its own.
+    fn named(mut self) -> Vec<String> {
+        let mut named = Vec::new();
+        while !self.wrong_pixels.is_empty() {
+            let mut best = None;
+            for place in 0..self.names.len() {
+                let count =
+                    self.wrong_pixels.iter().filter(|pixel| *pixel >> place & 1 == 1).count();
+                let is_wrong = 100 * self.wrong[place] >= NEARLY_ALL * self.all[place];
+                // Of places that explain the same, the first says most.
+                if is_wrong && count as u64 >= LEAST && best.is_none_or(|(most, _)| count > most) {
+                    best = Some((count, place));
+                }
+            }
+            let Some((_, place)) = best else { break };
+            self.wrong_pixels.retain(|pixel| pixel >> place & 1 == 0);
+            if !named.iter().any(|name| name == self.names[place]) {
+                named.push(self.names[place].to_owned());
+            }
+        }
+        if !self.wrong_pixels.is_empty() {
+            let whose = if self.check == Check::Line { "lines" } else { "triangles" };
+            let what = if named.is_empty() { "some pixels" } else { "some other pixels" };
+            named.push(format!("{what} of {whose}"));
+        }
+        named
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Options;
+    use crate::in_process::Inside;
+    use rasterproof_registry::engines;
+
+    fn judged(engine: &str) -> JudgementRecord {
+        let entry = engines::find(engine).copied().or_else(|| engines::find_planted(engine));
+        let mut options = Options::default().cases(60);
+        options.terms.remember = true;
+        // Causes are not looked at.
+        options.terms.patience = std::time::Duration::ZERO;
+        let asked = Box::new(Inside::new(&entry.unwrap())) as Box<dyn Subject>;
+        let mut askers = [asked];
+        let verdict = crate::judge(&mut askers, &options, &|_| None, &|_| ());
+        JudgementRecord::of(&mut *askers[0], &verdict)
+    }
+
+    /// Each fault has the words that a person would use, and nothing else is said.
+    #[test]
+    fn faults_are_named_by_their_places() {
+        let all: [(&str, &[&str]); 9] = [
+            ("scanline", &[]),
+            ("dda", &[]),
+            (
+                "exclusive-edges",
+                &["ties on left edges", "ties on top edges", "which triangle is seen", "samples"],
+            ),
+            ("drops-first-row", &["the first row of shapes", "which triangle is seen", "samples"]),
+            ("swapped-weights", &["values"]),
+            ("line-misses-end", &["the last pixel of lines"]),
+            ("line-draws-backwards", &["the order of the pixels of lines"]),
+            ("line-directed-ties", &["ties of lines drawn backwards"]),
+            (
+                "inclusive-edges",
+                &[
+                    "ties on right edges",
+                    "ties on bottom edges",
+                    "which triangle is seen",
+                    "samples",
+                ],
+            ),
+        ];
+        for (engine, faults) in all {
+            assert_eq!(judged(engine).faults, faults, "{engine}");
+        }
+    }
+
+    /// What is mended, what stays and what is new, by cases and not by words alone.
+    #[test]
+    fn changes_are_told_by_cases() {
+        let one =
+            |case: u64| Failing { property: "fan", family: "fan", index: case, fingerprint: 0 };
+        let all = (0..9).map(|case| one(case).name()).collect::<HashSet<String>>();
+        let judged = |faults: &[&str], cases: &[u64]| JudgementRecord {
+            faults: faults.iter().map(|fault| (*fault).to_owned()).collect(),
+            failing: Vec::new(),
+            wrong: cases.iter().map(|case| (one(*case).name(), 0)).collect(),
+            judged: all.clone(),
+        };
+        let said = |before: &JudgementRecord, now: &JudgementRecord| {
+            let Changes { mended, still, new, .. } = now.since(before);
+            [mended, still, new].map(|list| list.join(", "))
+        };
+        let before = judged(&["a", "b"], &[0, 1, 2]);
+        assert_eq!(said(&before, &judged(&["b", "c"], &[1, 2, 3])), ["a", "b", "c"]);
+        // Seen in another way, since no case is another.
+        assert_eq!(said(&before, &judged(&["b", "c"], &[0, 1, 2])), ["", "b, c", ""]);
+        assert_eq!(said(&before, &judged(&["c"], &[1])), ["a, b", "c", ""]);
+        assert_eq!(said(&before, &judged(&["a", "b", "c"], &[0, 1, 2, 3])), ["", "a, b", "c"]);
+        assert_eq!(said(&before, &judged(&[], &[])), ["a, b", "", ""]);
+        // A case that was not judged before is not new.
+        let few = JudgementRecord { judged: HashSet::new(), ..judged(&["a"], &[0]) };
+        assert_eq!(said(&few, &judged(&["a", "c"], &[0, 3])), ["", "a, c", ""]);
+    }
+}
