@@ -5,8 +5,8 @@
 //! are is learned as any other fact.
 
 use super::picture::{MARGIN, Picture};
-use super::quantity::EDGES;
-use super::question::AnyQuestion;
+use super::quantity::{AXES, EDGES, Quantities};
+use super::question::{AnyQuestion, Unit};
 
 /// Where a number is rounded to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -424,6 +424,29 @@ impl Site {
             (false, _) => -(sample * den - value).div_euclid(256 * den),
         };
         i64::try_from(pixel).ok()
+    }
+
+    /// The quantities of its edge, beside those of the pixel there.
+    pub(super) fn quantities(&self, q: &AnyQuestion, out: &mut Quantities) {
+        let edge = EDGES.iter().position(|points| *points == self.points);
+        out.number(Unit::Count, edge.map_or(0, |i| i as i64 + 1), &["the number of its edge"]);
+        let [from, to] = self.points;
+        let is_long = !q.is_line() && ![from, to].contains(&q.by_height()[1]);
+        out.flag(
+            is_long,
+            &["its edge joins the top and the bottom corner"],
+            "its edge does not join the top and the bottom corner",
+        );
+        let sides = q.side_of(from, to);
+        for axis in [0, 1] {
+            let noun = ["d", AXES[axis], " of its edge in the order given"];
+            out.number(Unit::Subpixels, sides[axis] * (256 / q.one()), &noun);
+        }
+    }
+
+    /// A site of a question, whose quantities have the names of all.
+    pub(super) fn sample() -> Self {
+        Self { axis: 1, place: 0, end: 0, points: EDGES[0] }
     }
 
     /// What a picture has there: of a row of which no pixel is drawn, or which has a gap, nothing.

@@ -1,6 +1,6 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
-use super::border::{self, Crossing, RowRule};
+use super::border::{self, Crossing, RowRule, Site};
 use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
@@ -22,6 +22,8 @@ pub(super) struct Vocabulary {
     pub(super) of_question: usize,
     /// How many quantities of a pixel each group has.
     sizes: [usize; quantity::GROUPS],
+    /// The names of what a border has beside the quantities of its pixel.
+    of_border: Vec<Name>,
 }
 
 impl Vocabulary {
@@ -31,16 +33,21 @@ impl Vocabulary {
         let of_question = out.values.len();
         let picture = Picture::new(question.side);
         Scene::new(question, &picture, [128; 2]).of_pixel([0, 0], &mut out);
-        Self { names: out.names.unwrap_or_default(), of_question, sizes: out.sizes }
+        let mut border = Quantities::with_names();
+        Site::sample().quantities(question, &mut border);
+        let [names, of_border] = [out.names, border.names].map(Option::unwrap_or_default);
+        Self { names, of_question, sizes: out.sizes, of_border }
     }
 
-    /// The names without comparisons of two quantities, which are many.
-    pub(super) fn unpaired(&self) -> Vec<Name> {
+    /// The names of the quantities of a border, without comparisons of two quantities, which are many.
+    pub(super) fn of_borders(&self) -> Vec<Name> {
         let mut names = self.names.clone();
-        names
-            .iter_mut()
-            .filter(|name| name.unit == Unit::Paired)
-            .for_each(|n| n.unit = Unit::Count);
+        names.extend(self.of_border.iter().cloned());
+        for name in &mut names {
+            if name.unit == Unit::Paired {
+                name.unit = Unit::Count;
+            }
+        }
         names
     }
 
@@ -196,6 +203,7 @@ impl Model {
                     let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
                     let mut row = Quantities { values, names: None, left_out, sizes };
                     scene.of_pixel(site.pixel(right, before), &mut row);
+                    site.quantities(&a.question, &mut row);
                     row.values
                 }
             };

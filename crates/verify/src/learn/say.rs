@@ -153,7 +153,7 @@ fn base(
     if !parts.is_empty() {
         how += &format!(" as if {}", parts.join(" and "));
     }
-    let when = |all: &[Conjunction]| any(all, vocabulary);
+    let when = |all: &[Conjunction]| any(all, &vocabulary.names);
     match (&guarded.when, is_other) {
         (Some(all), false) => format!("It {how} where {}.", when(all)),
         (Some(all), true) => format!("Elsewhere, it {how} where {}.", when(all)),
@@ -163,8 +163,8 @@ fn base(
 }
 
 /// Where one of some conjunctions holds.
-fn any(all: &[Conjunction], vocabulary: &Vocabulary) -> String {
-    let all = all.iter().map(|f| facts(f, &vocabulary.names));
+fn any(all: &[Conjunction], names: &[Name]) -> String {
+    let all = all.iter().map(|f| facts(f, names));
     all.collect::<Vec<_>>().join("; or where ")
 }
 
@@ -178,7 +178,7 @@ fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> St
     let how = formula(&guarded.crossing, guarded.ends, is_line).join(" and ");
     match &guarded.when {
         Some(when) => {
-            format!("It computes {what} as if {how}, where {}.", any(when, vocabulary))
+            format!("It computes {what} as if {how}, where {}.", any(when, &vocabulary.of_borders()))
         }
         None => format!("It computes {what} as if {how}."),
     }

@@ -406,7 +406,7 @@ impl Search<'_> {
         // What breaks hardly any holds everywhere: where rows begin and end is found out afterwards.
         let when = match FEW_BROKEN * table.no.len() <= table.yes.len() {
             true => None,
-            false => Some(self.guard(table, &self.vocabulary.unpaired())?),
+            false => Some(self.guard(table, &self.vocabulary.of_borders())?),
         };
         Some(GuardedBorder { when, ends, crossing })
     }
@@ -416,6 +416,7 @@ impl Search<'_> {
         self.drawer.work().spend(ALL_OF_A_PIXEL);
         let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
         scene.of_pixel(seen.site.pixel(seen.right, &a.right), &mut row);
+        seen.site.quantities(&a.question, &mut row);
         row.values
     }
 
