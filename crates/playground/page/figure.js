@@ -113,14 +113,14 @@
       this.words = WORDS[this.language];
       this.question = make('p', { className: 'question', id: 'question', textContent: this.querySelector('strong')?.textContent ?? '' });
       this.stage = make('div', { className: 'stage waits' });
-      this.picture = make('div', { attr: { role: 'img', 'aria-hidden': 'true' } });
+      this.picture = make('div', { role: 'img', 'aria-hidden': 'true' });
       this.controls = make('div', { className: 'controls' });
-      this.verdict = make('p', { className: 'verdict', attr: { role: 'status' } });
-      this.says = make('p', { className: 'answer', attr: { 'aria-live': 'polite' } });
+      this.verdict = make('p', { className: 'verdict', role: 'status' });
+      this.says = make('p', { className: 'answer', 'aria-live': 'polite' });
       this.hint = make('p', { className: 'hint' });
       this.link = make('a', { textContent: this.words.open });
       this.links = make('p', { className: 'links', hidden: true }, this.link);
-      this.figure = make('figure', { attr: { 'aria-labelledby': 'question' } },
+      this.figure = make('figure', { 'aria-labelledby': 'question' },
         this.question, this.stage, this.controls, this.verdict, this.says, this.hint, this.links);
       this.still = make('slot', { hidden: true });
       this.attachShadow({ mode: 'open' }).append(make('style', { textContent: STYLE }), this.figure, this.still);
@@ -231,7 +231,7 @@
       const show = this.button(this.words.show, () => this.reveal(''));
       if (predict.kind === 'pixels') {
         const cells = predict.cells.map((cell, i) => this.cover(make('button', {
-          type: 'button', tabIndex: i === 0 ? 0 : -1, attr: { 'aria-pressed': 'false', 'aria-label': this.words.pixel(cell[3], cell[4]) },
+          type: 'button', tabIndex: i === 0 ? 0 : -1, 'aria-pressed': 'false', 'aria-label': this.words.pixel(cell[3], cell[4]),
         }), cell));
         cells.forEach((button, i) => {
           button.addEventListener('click', () => button.setAttribute('aria-pressed', String(button.getAttribute('aria-pressed') !== 'true')));
@@ -244,7 +244,7 @@
           this.reveal(i === predict.right ? this.words.right : this.words.no(predict.options[predict.right]));
         })), show);
       } else {
-        const input = make('input', { type: 'number', step: 'any', inputMode: 'decimal', attr: { 'aria-label': this.words.number } });
+        const input = make('input', { type: 'number', step: 'any', inputMode: 'decimal', 'aria-label': this.words.number });
         const judge = () => {
           if (input.value === '') { input.focus(); return; }
           const right = Number(input.value).toFixed(predict.decimals) === predict.right;
@@ -317,7 +317,7 @@
       if (!this.isAnswered) return;
       let handle = this.stage.querySelectorAll('[role=slider]')[i];
       if (!handle) {
-        handle = make('div', { tabIndex: 0, attr: { role: 'slider', 'aria-label': grip.name } });
+        handle = make('div', { tabIndex: 0, role: 'slider', 'aria-label': grip.name });
         this.listen(handle, i);
         this.stage.append(handle);
       }

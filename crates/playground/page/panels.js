@@ -10,7 +10,7 @@ function readColours() {
 
 function newPanel(i) {
   const caption = make('figcaption');
-  const canvas = make('canvas', { tabIndex: 0, attr: { role: 'application', 'aria-describedby': 'keys' } });
+  const canvas = make('canvas', { tabIndex: 0, role: 'application', 'aria-describedby': 'keys' });
   const figure = make('figure', {}, caption, canvas);
   $('panels').append(figure);
   listen(canvas, i);
@@ -26,7 +26,7 @@ function drawPanel(panel, i, answer) {
     shown[i].said = key;
     const head = panel.select ? chooser(i, panel.select) : make('strong', {}, panel.title);
     // What it says is said once, by the live region of the page.
-    caption.replaceChildren(head, make('output', { attr: { 'aria-live': 'off' } }));
+    caption.replaceChildren(head, make('output', { 'aria-live': 'off' }));
   }
   const output = caption.lastChild;
   const says = panel.says ?? '';

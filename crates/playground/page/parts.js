@@ -3,7 +3,7 @@
 const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
 const corner = (i) => LETTERS[i % LETTERS.length];
 /** What may be wider than its place scrolls there, by the keyboard as well. */
-const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, attr: { role: 'group', 'aria-label': word('table') } }, ...children);
+const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': word('table') }, ...children);
 const table = (head, rows) => scrolling(make('table', {},
   make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', { scope: 'col' }, cell)))),
   make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
@@ -55,7 +55,7 @@ const RULES = { 'exclusive-edges': 'strict', 'inclusive-edges': 'inclusive', 'ed
 function rules() {
   const choose = (name) => () => { state.by[1] = name; redraw(); };
   const buttons = Object.entries(RULES).map(([name, key]) => button(word(key), choose(name), { id: `rule-${key}`, 'data-by': name }));
-  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('ruleOf') } }, `${word('ruleOf')} `, ...buttons);
+  return make('span', { className: 'group', role: 'group', 'aria-label': word('ruleOf') }, `${word('ruleOf')} `, ...buttons);
 }
 
 const SQUARE = [[at(2.5, 2.5), at(10.5, 2.5), at(10.5, 10.5)], [at(2.5, 10.5), at(2.5, 2.5), at(10.5, 10.5)]];
@@ -68,7 +68,7 @@ const SHAPES = {
 function shapes() {
   const take = (name) => () => { load({ picture: { window: [0, 0, 14, 14], snap: true, triangles: structuredClone(SHAPES[name]) } }, {}); };
   const buttons = Object.keys(SHAPES).map((name) => button(word(name), take(name), { id: `shape-${name}` }));
-  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('shape') } }, `${word('shape')} `, ...buttons);
+  return make('span', { className: 'group', role: 'group', 'aria-label': word('shape') }, `${word('shape')} `, ...buttons);
 }
 
 /** Two panels, or four. */

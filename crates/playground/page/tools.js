@@ -7,14 +7,14 @@ function button(label, act, attr = {}) {
 }
 
 function check(label, key, then = () => {}) {
-  const box = make('input', { type: 'checkbox', checked: state[key], attr: { 'data-state': key } });
+  const box = make('input', { type: 'checkbox', checked: state[key], 'data-state': key });
   box.addEventListener('change', () => { state[key] = box.checked; then(); redraw(); });
   return make('label', {}, box, ` ${label}`);
 }
 
 function slide(label, get, [low, high, step], set) {
   const range = make('input', { type: 'range', min: low, max: high, step, value: get() });
-  const says = make('output', { attr: { 'aria-live': 'off' } }, String(get()));
+  const says = make('output', { 'aria-live': 'off' }, String(get()));
   range.addEventListener('input', () => { set(Number(range.value)); redraw(); });
   sliding.push(() => {
     const text = String(get());

@@ -8,6 +8,7 @@
 //! beyond [`limits::PAGE_BYTES`]: what does not fit is left out, and the page says what that is.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use base64::Engine as _;
@@ -27,8 +28,21 @@ const MOST_LEFT_OUT_NAMES: usize = 20;
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
-const STYLE: &str = include_str!("page/page.css");
-const SCRIPT: &str = include_str!("page/page.js");
+
+/// The style of all pages, and that of reports.
+static STYLE: LazyLock<String> =
+    LazyLock::new(|| rasterproof_view::style(&[include_str!("page/page.css")]));
+
+/// The viewer, and the modules of reports, each behind those that it uses.
+static SCRIPT: LazyLock<String> = LazyLock::new(|| {
+    rasterproof_view::script(&[
+        include_str!("page/exact.js"),
+        include_str!("page/items.js"),
+        include_str!("page/explain.js"),
+        include_str!("page/tables.js"),
+        include_str!("page/report.js"),
+    ])
+});
 
 /// What the page shows; sections that are empty are left out.
 #[must_use]
@@ -271,8 +285,8 @@ pub fn page(report: &Report) -> String {
     let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&report.title),
-        "style" => STYLE.to_owned(),
-        "script" => SCRIPT.to_owned(),
+        "style" => STYLE.clone(),
+        "script" => SCRIPT.clone(),
         "head" => head.clone(),
         "about" => about(report),
         "jump" => jump.clone(),
@@ -381,12 +395,13 @@ pub fn index(pages: &[(String, String)]) -> String {
         ))
     };
     let rows: String = pages.iter().filter_map(row).collect();
+    let style = &*STYLE;
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
          style-src 'unsafe-inline'; img-src data:\">\n<title>Pages of rasterproof</title>\n\
-         <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\
+         <link rel=\"icon\" href=\"data:,\">\n<style>\n{style}</style>\n</head>\n<body>\n<header>\
          <h1>Pages of rasterproof</h1></header>\n<main>\n<ul class=\"pages\">\n{rows}</ul>\n</main>\n\
          </body>\n</html>\n"
     )

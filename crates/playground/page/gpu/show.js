@@ -48,7 +48,7 @@ function row(result, index, check) {
   const rule = ruleOf(result.name, check);
   const view = result.views[check];
   const show = view && make('button', { type: 'button', onclick: () => showCase(index, check) }, word('show'));
-  return make('tr', { attr: { 'data-check': check } },
+  return make('tr', { 'data-check': check },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
     make('td', {}, tally ? word('details')[check](tally, facts) : ''),
@@ -60,7 +60,7 @@ function resultOf(result, index) {
   const software = result.isSoftware ? make('p', { className: 'note' }, word('software')) : null;
   const { samples } = result.rows;
   const totals = result.seconds ? make('p', {}, word('totals')(result.triangles, samples?.tally?.subjects ?? 0, result.seconds.toFixed(1))) : null;
-  return make('section', { attr: { 'data-api': result.name } },
+  return make('section', { 'data-api': result.name },
     make('h2', {}, result.title ?? result.name),
     result.refused ? make('p', {}, said(result.refused)) : null,
     summary(result),
@@ -175,7 +175,7 @@ function report(result, check, view) {
 }
 
 function copying(text) {
-  const done = make('span', { attr: { role: 'status' } });
+  const done = make('span', { role: 'status' });
   const press = async () => {
     try {
       await navigator.clipboard.writeText(text);
