@@ -401,7 +401,7 @@ fn blink_and_modes(browser: &mut Browser, page: &Path) {
     // What was zoomed to in one panel does not spread over four.
     browser.open(page, "#case-T2");
     for _ in 0..6 {
-        browser.eval("document.querySelector('[data-word=zoomIn]').click()");
+        browser.eval("document.querySelector('[data-tool=zoomIn]').click()");
     }
     browser.press("3");
     let inside = "[...document.querySelectorAll('rp-view .frame')].every(p => p.getBoundingClientRect().right <= innerWidth)

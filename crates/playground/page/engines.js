@@ -1,5 +1,6 @@
-// The page draws what the compiled engines answer, and listens. It computes no pixel of its own.
-// The compiled module: questions and answers.
+// The compiled module: questions and answers. The page draws what it answers, and computes no pixel of its own.
+
+const word = (key) => WORDS[state.lang][key] ?? key;
 
 let engines = null;
 let compiled = null;

@@ -32,7 +32,7 @@ const entry = (name) => Object.values(names).flat().find((one) => one.name === n
 
 /** A list to choose from, with a line below that says what the choice is about. */
 function choice(id, label, options, value) {
-  const select = make('select', { id, attr: { 'aria-describedby': `${id}-about` } }, ...options);
+  const select = make('select', { id, 'aria-describedby': `${id}-about` }, ...options);
   if (value) select.value = value;
   const says = make('p', { id: `${id}-about`, className: 'quiet' });
   const tell = () => { says.textContent = about(entry(select.value)); };

@@ -21,12 +21,8 @@ function painters() {
 
 /** A pixel by its hits and what they should be. */
 function judged(hits, right) {
-  const [is, should] = [Number(hits), Number(right)];
-  if (is === 0 && should === 0) return null;
-  if (is < should) return { colour: colours.missing, glyph: is ? String(is) : '−' };
-  const glyph = is > 1 || state.numbers ? String(is) : '';
-  if (is > should) return { colour: is > 1 ? colours.twice : colours.extra, glyph: glyph || '+' };
-  return { colour: colours.agrees, glyph };
+  const mark = judge(Number(hits), Number(right));
+  return mark && state.numbers ? { ...mark, glyph: hits } : mark;
 }
 
 function verdict(panel) {

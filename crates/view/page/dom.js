@@ -9,7 +9,7 @@ export function make(tag, properties = {}, ...children) {
     if (name in element) element[name] = value;
     else element.setAttribute(name, value);
   }
-  fill(element, children);
+  if (children.length > 0) fill(element, children);
   return element;
 }
 

@@ -38,7 +38,7 @@ export function contextOf(canvas, width, height) {
   return g;
 }
 
-const placed = ({ x0, y0, unit }, [x, y]) => [(x - x0) * unit, (y - y0) * unit];
+export const placed = ({ x0, y0, unit }, [x, y]) => [(x - x0) * unit, (y - y0) * unit];
 /** The columns and rows that are seen, also in part. */
 const seenOf = ({ x0, y0, x1, y1 }) => [Math.floor(x0), Math.floor(y0), Math.ceil(x1), Math.ceil(y1)];
 
@@ -99,7 +99,7 @@ function paintSigns(sheet, signs) {
     const [left, top] = placed(sheet, [x, y]);
     if (unit < 2) {
       g.fillStyle = colours[fill] ?? fill;
-      g.fillRect(left - 1, top - 1, 2, 2);
+      g.fillRect(Math.round(left) - 1, Math.round(top) - 1, 2, 2);
       continue;
     }
     g.fillStyle = fill === 'missing' || fill === 'twice' ? colours.sign : colours.glyph;

@@ -4,7 +4,7 @@
 //   part      [x0, y0, x1, y1], what is shown at first and after fit; another part is fitted anew
 //   bounds    what there is; without it the plane is endless and seen in whole pixels only, and `onSeen` is told what to bring
 //   panels    {key, head, says, isBad, label, view, layers, samples, outlines, corners, over, svg}, see paintPanel
-//   grips     {name, says, x, y, view, place, nudge}: what can be dragged on the panels of a view; `from` draws a stalk
+//   grips()   {name, says, x, y, view, place, nudge} for each that can be dragged on the panels of a view, where it is now; `from` draws a stalk
 //   cursor    the pixel that is looked at; onPoint(x, y, byKeys) is told another one, onHold(i) which grip is taken
 //   covers    elements over the picture, each {element, x, y, width, height}
 //   title     what a saved picture is called, and `about`, what it says below
@@ -25,7 +25,7 @@ const VIEW_WORDS = {
     keys: '画面上的按键：方向键逐像素移动，加 Shift 移动八个像素，加 Alt 平移画面；+ 和 − 缩放，0 恢复适合的大小，f 占满窗口，Esc 退出。在拖动点上，方向键移动它，加 Shift 移动得更细。双指缩放，拖动则平移；点过画面之后，滚轮也可缩放。',
   },
 };
-export const viewWords = (element) => VIEW_WORDS[(element.closest('[lang]')?.lang ?? '').startsWith('zh') ? 'zh' : 'en'];
+export const viewWords = () => VIEW_WORDS[document.documentElement.lang.startsWith('zh') ? 'zh' : 'en'];
 
 const sideOf = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
 
@@ -33,7 +33,7 @@ class View extends HTMLElement {
   connectedCallback() {
     if (this.body) return;
     Object.assign(this, { shown: [], seen: null, source: null, laidOut: '', isWide: false });
-    const act = (word, label, then) => button(label, then, { 'data-word': word });
+    const act = (word, label, then) => button(label, then, { 'data-tool': word });
     this.scale = make('output', { 'aria-live': 'off' });
     this.larger = act('enlarge', '\u2922', () => this.enlarge());
     this.tools = make('div', { className: 'view-tools', role: 'toolbar' },
@@ -42,7 +42,8 @@ class View extends HTMLElement {
     this.legend = make('ul', { className: 'legend' });
     this.append(this.tools, this.body, this.legend);
     this.speak();
-    readColours(this);
+    // All views of a page have the same colours.
+    if (!colours.empty) readColours(this);
     new ResizeObserver(() => this.resized()).observe(this.body);
     addEventListener('resize', () => this.resized());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(this); this.resized(); });
@@ -57,10 +58,10 @@ class View extends HTMLElement {
 
   /** The words of the tools, in the language of the page. */
   speak() {
-    const words = viewWords(this);
+    const words = viewWords();
     this.tools.setAttribute('aria-label', words.tools);
-    for (const made of this.tools.querySelectorAll('[data-word]')) {
-      const word = made === this.larger && this.isWide ? 'back' : made.dataset.word;
+    for (const made of this.tools.querySelectorAll('[data-tool]')) {
+      const word = made === this.larger && this.isWide ? 'back' : made.dataset.tool;
       if (word === 'fit' || word === 'save') made.textContent = words[word];
       else Object.assign(made, { title: words[word], ariaLabel: words[word] });
     }
@@ -131,11 +132,12 @@ class View extends HTMLElement {
     const axis = numbers ? axisWide(part) : 0;
     const rows = Math.ceil(panels.length / getComputedStyle(this.body).gridTemplateColumns.split(' ').length);
     const room = this.isWide ? (innerHeight - 90) / rows - 60 : Math.max(200, innerHeight * high);
-    const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2);
-    // Two pixels of frame.
+    const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2); // its frame
     const fits = Math.min(this.isWide ? Infinity : most, wide / width, room / height);
     this.cell = fits >= 4 ? Math.floor(fits) : fits;
-    this.size = [Math.max(1, Math.round(width * this.cell)), Math.max(1, Math.round(height * this.cell))];
+    // A canvas has whole pixels; a drawing keeps its shape to the last part of one.
+    const isDrawing = panels[0]?.svg !== undefined;
+    this.size = [width, height].map((length) => (isDrawing ? length * this.cell : Math.max(1, Math.round(length * this.cell))));
     for (const { figure, frame, canvas, above, beside } of this.shown) {
       figure.classList.toggle('numbered', Boolean(numbers));
       figure.style.setProperty('--axis', `${axis}px`);
@@ -145,11 +147,14 @@ class View extends HTMLElement {
     }
   }
 
+  grips() { return this.source.grips?.() ?? []; }
+
   /** Screen pixels for each pixel. */
   get unit() { return this.size[0] / (this.seen[2] - this.seen[0]); }
 
   paint() {
-    const { bounds, grips = [], covers = [] } = this.source;
+    const { bounds, covers = [] } = this.source;
+    const grips = this.grips();
     this.dataset.cell = String(Math.round(this.unit * 1000) / 1000);
     this.scale.textContent = this.source.isPicture ? `${Math.round(100 * this.unit)}%` : `${Math.round(this.unit * 10) / 10} : 1`;
     const canMove = !bounds || this.seen[0] > bounds[0] || this.seen[1] > bounds[1] || this.seen[2] < bounds[2] || this.seen[3] < bounds[3];
@@ -168,12 +173,14 @@ class View extends HTMLElement {
   }
 
   /** A panel is a drawing of its own (`svg`), or layers over one another, each {mark | image, from, to, veil}: from one column to another, the next over the last through a veil. */
-  paintPanel({ canvas, frame, above, beside, of: panel }) {
+  paintPanel(shown) {
+    const { canvas, frame, above, beside, of: panel } = shown;
     const [width, height] = this.size;
     const [x0, y0, x1, y1] = this.seen;
+    canvas.hidden = panel.svg !== undefined;
     if (panel.svg !== undefined) {
-      if (frame.dataset.svg !== panel.svg) {
-        frame.dataset.svg = panel.svg;
+      if (shown.svg !== panel.svg) {
+        shown.svg = panel.svg;
         frame.querySelector('svg')?.remove();
         frame.insertAdjacentHTML('afterbegin', panel.svg);
       }
@@ -199,7 +206,7 @@ class View extends HTMLElement {
     if (panel.hasGrid !== false && !(this.source.isPicture && this.unit < 6)) paintGrid(sheet);
     for (const outline of panel.outlines ?? []) paintOutline(sheet, outline);
     if (panel.samples) paintSamples(sheet, panel.samples);
-    for (const { from, x, y, view } of this.source.grips ?? []) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
+    for (const { from, x, y, view } of this.grips()) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
     panel.over?.(sheet);
     if (this.source.cursor) paintCursor(sheet, this.source.cursor);
     if (panel.corners) paintCorners(sheet, panel.corners);
@@ -216,7 +223,7 @@ class View extends HTMLElement {
   placeGrips(shown, own, tabIndex) {
     while (shown.grips.length > own.length) shown.grips.pop().remove();
     own.forEach(({ grip, index }, i) => {
-      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { className: 'grip', role: 'slider', 'aria-valuenow': 0 })));
+      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { className: 'knob', role: 'slider', 'aria-valuenow': 0 })));
       if (made.dataset.name !== grip.name) Object.assign(made.dataset, { name: grip.name, label: own.length > 26 ? '' : grip.name });
       made.dataset.index = index;
       made.tabIndex = tabIndex;
@@ -315,7 +322,7 @@ class View extends HTMLElement {
     const apart = ([a, b]) => Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY));
     frame.addEventListener('pointerdown', (event) => {
       if (event.target.closest('button')) return;
-      const grip = event.target.closest('.grip');
+      const grip = event.target.closest('.knob');
       frame.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, event);
       if (fingers.size === 2) {
@@ -328,12 +335,10 @@ class View extends HTMLElement {
       const [x, y] = this.at(panel, event);
       if (grip) {
         const index = Number(grip.dataset.index);
-        const taken = this.source.grips[index];
+        const taken = this.grips()[index];
         held = { index, dx: taken.x - x, dy: taken.y - y };
         this.source.onHold?.(index);
-        grip.focus({ preventScroll: true });
-        // The text of the page is not selected by a drag.
-        event.preventDefault();
+        grip.focus({ preventScroll: true, focusVisible: false });
       } else held = { pan: [x, y], moved: false };
     });
     frame.addEventListener('pointermove', (event) => {
@@ -347,7 +352,7 @@ class View extends HTMLElement {
         return;
       }
       const [x, y] = this.at(panel, event);
-      if (held?.index !== undefined) this.source.grips[held.index]?.place(x + held.dx, y + held.dy);
+      if (held?.index !== undefined) this.grips()[held.index]?.place(x + held.dx, y + held.dy);
       else if (held) {
         const moved = [held.pan[0] - x, held.pan[1] - y].map((d) => (this.source.bounds ? d : Math.round(d)));
         held.moved ||= Math.hypot(...moved) * this.unit > 4;
@@ -368,9 +373,9 @@ class View extends HTMLElement {
       held = null;
     };
     for (const ends of ['pointerup', 'pointercancel']) frame.addEventListener(ends, release);
-    frame.addEventListener('focusin', ({ target }) => { if (target.matches('.grip')) this.source.onHold?.(Number(target.dataset.index)); });
+    frame.addEventListener('focusin', ({ target }) => { if (target.matches('.knob')) this.source.onHold?.(Number(target.dataset.index)); });
     frame.addEventListener('keydown', (event) => {
-      const grip = this.source.grips?.[event.target.closest('.grip')?.dataset.index];
+      const grip = this.grips()[event.target.closest('.knob')?.dataset.index];
       const step = arrowOf(event);
       const { cursor, fine = 1 } = this.source;
       if (step && event.altKey) this.pan(...step);

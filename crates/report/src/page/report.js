@@ -90,10 +90,10 @@ const show = () => {
   view.show({
     title: item.name, about: item.found || item.about, part, bounds: item.box, numbers: true, isPicture: !item.isCase, cursor, onPoint: moveCursor, panels: panels(), legend: legend(item),
     high: isSide ? 0.42 : item.isCase ? 0.56 : 0.68, most: isLarge ? 1 : 112,
-    grips: mode !== 'slider' ? [] : [{
+    grips: () => (mode !== 'slider' ? [] : [{
       name: 'A | B', says: `A to column ${Math.floor(state.split)}`, x: state.split, y: (part[1] + part[3]) / 2, from: [state.split, part[1]],
       place: (x) => { state.split = Math.max(part[0], Math.min(part[2], x)); show(); },
-    }],
+    }]),
   });
 };
 
@@ -488,7 +488,7 @@ const start = async () => {
   $('chooser').hidden = items.length === 1;
   $('modes').append(...MODES.map(([value, text], i) => make('label', {},
     make('input', { type: 'radio', name: 'mode', value }), make('kbd', { 'aria-hidden': 'true' }, String(i + 1)), text)));
-  $('keys-help').textContent = viewWords(view).keys;
+  $('keys-help').textContent = viewWords().keys;
   view.tools.append($('whole'));
   setPaused(state.paused);
   fillFilters();
