@@ -22,7 +22,8 @@ function painters() {
 /** A pixel by its hits and what they should be. */
 function judged(hits, right) {
   const mark = judge(Number(hits), Number(right));
-  return mark && state.numbers ? { ...mark, glyph: hits } : mark;
+  const isRightlyTwice = mark?.fill === 'overlap';
+  return mark && (state.numbers || isRightlyTwice) ? { fill: isRightlyTwice ? 'agrees' : mark.fill, glyph: hits } : mark;
 }
 
 function verdict(panel) {
