@@ -418,7 +418,7 @@ fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Valu
                         host.innerHTML = last.answer.panels[i].svg;
                         const [is, should] = [frame, host].map(e => JSON.stringify({PIXELS}(e)));
                         host.remove();
-                        return is === should && is.length > 2 && frame.querySelector('svg').clientWidth === frame.clientWidth;
+                        return is === should && frame.querySelector('svg').childElementCount > 1 && frame.querySelector('svg').clientWidth === frame.clientWidth;
                     }}); }})()"
             ));
             assert_eq!(there, json!([true, true]), "{link}");

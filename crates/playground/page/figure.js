@@ -30,7 +30,7 @@ const STYLE = `
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
   rp-view .frame { border-color: transparent; }
-  rp-view .view-tools { position: absolute; right: 0; bottom: -2.2rem; margin: 0; }
+  rp-view .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
   rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
   rp-view:not(.is-wide) { position: relative; }
   .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
