@@ -607,6 +607,15 @@ fn page_shows_a_planted_fault_first() {
     assert!(pickers[0].as_str().unwrap().starts_with("inclusive-edges ("), "{pickers}");
     assert_eq!(pickers[1], "oracle");
     assert!(!browser.text("#agreement").contains("agree in every pixel"));
+    // What is drawn, what is expected and the difference stand side by side, each at the same scale.
+    let panels = browser.eval(
+        "document.querySelector('rp-view').shown.map(({ caption, canvas }) => [caption.textContent.trim(), canvas.clientWidth, canvas.clientHeight])",
+    );
+    let [drawn, expected, difference] = [0, 1, 2].map(|i| panels[i].clone());
+    assert!(drawn[0].as_str().unwrap().contains("inclusive-edges"), "{panels}");
+    assert!(expected[0].as_str().unwrap().contains("oracle"), "{panels}");
+    assert_eq!(difference[0], "difference: A less B");
+    assert!((1..=2).all(|side| drawn[side] == expected[side] && drawn[side] == difference[side]));
     first_screen_is_the_picture(&mut browser, &page);
     // Nobody calls a case with wrong pixels close to a bound.
     let wrong = browser.eval(
@@ -792,6 +801,40 @@ fn page_takes_every_section_and_any_text() {
     assert!(browser.text("#about-pixel").contains("A #0a141e, B #c8141e: different"));
     browser.press("3");
     assert_eq!(browser.eval("document.querySelectorAll('rp-view .pixels').length"), json!(3));
+}
+
+/// What marks pixels of another picture is not compared with it, and the page says what its colours mean. A plot fills the
+/// window and leaves it again. On paper nothing blinks, and no tool is printed.
+#[test]
+fn page_tells_marks_from_pictures() {
+    let [old, new] = [[10, 20, 30], [200, 20, 30]].map(|c| RgbImage::from_pixel(7, 5, Rgb(c)));
+    let marks = [(Rgb([200, 20, 30]), "where it is wrong")];
+    let layers = vec![PictureLayer::new("picture", &old), PictureLayer::map("marks", &new, &marks)];
+    let frames = vec![PictureView { name: "one".to_owned(), layers, ..PictureView::default() }];
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned();
+    let figures = vec![Figure { caption: "a plot".to_owned(), svg, narrow: None }];
+    let path = folder("page-marks").join("index.html");
+    std::fs::write(&path, page(&Report { frames, figures, ..Report::default() })).unwrap();
+    let Some(mut browser) = Browser::start("marks") else { return };
+    browser.open(&path, "#case-one&mode=side");
+    let panels = "document.querySelector('rp-view').shown.length";
+    assert_eq!(browser.eval(panels), json!(2), "no difference, which would be a red sheet");
+    let legend = browser.eval(
+        "[...document.querySelectorAll('.legend li')].map(li => [li.textContent, getComputedStyle(li.firstChild).backgroundColor])",
+    );
+    assert_eq!(legend, json!([["where it is wrong", "rgb(200, 20, 30)"]]));
+    let wide = "document.querySelector('.plot img').getBoundingClientRect().width > 0.9 * innerWidth";
+    assert_eq!(browser.eval(wide), json!(false));
+    browser.eval("document.querySelector('.plot button').click()");
+    assert_eq!(browser.eval(wide), json!(true));
+    browser.press("Escape");
+    assert_eq!(browser.eval(wide), json!(false));
+    browser.open(&path, "#case-one&mode=blink");
+    browser.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    browser.eval("dispatchEvent(new Event('beforeprint'))");
+    assert_eq!(browser.eval(panels), json!(2));
+    let seen = "[...document.querySelectorAll('button, select')].filter(e => e.checkVisibility() && !e.querySelector('img')).length";
+    assert_eq!(browser.eval(seen), json!(0));
 }
 
 #[test]

@@ -30,7 +30,7 @@ const STYLE = `
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
   rp-view .frame { border-color: transparent; }
-  rp-view .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
+  rp-view > .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
   rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
   rp-view:not(.is-wide) { position: relative; }
   .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
@@ -57,25 +57,10 @@ const beside = (name) => new URL(name, own.src).href;
 
 let module = null;
 /** The compiled engines, loaded once for all figures. */
-function engines() {
-  module ??= new Promise((resolve, reject) => {
-    globalThis.rasterproofEngines = resolve;
-    document.head.append(make('script', { src: beside('engines.js'), onerror: reject }));
-  }).then(async (text) => {
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    return WebAssembly.compile(bytes);
-  }).then((compiled) => WebAssembly.instantiate(compiled, {})).then(({ exports }) => exports);
-  return module;
-}
-
-/** Asks the engines: a question and its answer are JSON. */
-function ask(exports, question) {
-  const text = new TextEncoder().encode(JSON.stringify(question));
-  const at = exports.room(text.length);
-  new Uint8Array(exports.memory.buffer, at, text.length).set(text);
-  const length = exports.answer();
-  return JSON.parse(new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), length)));
-}
+const loaded = () => (module ??= new Promise((resolve, reject) => {
+  globalThis.rasterproofEngines = resolve;
+  document.head.append(make('script', { src: beside('engines.js'), onerror: reject }));
+}).then((text) => WebAssembly.compile(bytesOf(text))).then(instantiate));
 
 /** Whether the page around an element is dark, whatever made it so. */
 function isDark(element) {
@@ -141,7 +126,7 @@ class Figure extends HTMLElement {
   /** Loads the engines; whether they are there. */
   async begin() {
     try {
-      this.exports ??= await engines();
+      this.exports ??= await loaded();
       live.add(this);
       if (this.first) this.draw();
       else this.begun();
@@ -165,7 +150,7 @@ class Figure extends HTMLElement {
   /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
   answer(isDark) {
     if (!this.exports) return this.first[isDark ? 'dark' : 'light'];
-    return ask(this.exports, {
+    return ask({
       ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: isDark,
     });
   }

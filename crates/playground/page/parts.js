@@ -143,26 +143,10 @@ function playSteps() {
 /** t against t', as a curve in a square, with the diagonal for comparison. */
 function plot(pairs) {
   const path = pairs.map(([screen, space], i) => `${i ? 'L' : 'M'}${(screen * 100).toFixed(2)} ${(100 - space * 100).toFixed(2)}`).join('');
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', '-4 -4 108 108');
-  svg.setAttribute('role', 'img');
-  svg.setAttribute('aria-label', word('tPlot'));
-  svg.style.maxWidth = '14rem';
-  const line = (d, colour, width) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-    for (const [name, value] of Object.entries({ d, fill: 'none', stroke: colour, 'stroke-width': width })) element.setAttribute(name, value);
-    svg.append(element);
-  };
-  line('M0 0V100H100', colours.cursor, 0.8);
-  line('M0 100L100 0', colours.grid, 1);
-  line(path, colours.edge, 2);
-  const name = (text, x, y) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', 'text');
-    for (const [key, value] of Object.entries({ x, y, fill: colours.sample, 'font-size': 7 })) element.setAttribute(key, value);
-    element.textContent = text;
-    svg.append(element);
-  };
-  name('t', 2, 5);
-  name('t′', 95, 97);
-  return svg;
+  const line = (d, colour, width) => `<path d="${d}" fill="none" stroke="${colour}" stroke-width="${width}"/>`;
+  const name = (text, x, y) => `<text x="${x}" y="${y}" fill="${colours.sample}" font-size="7">${text}</text>`;
+  const around = make('div');
+  around.innerHTML = `<svg viewBox="-4 -4 108 108" role="img" aria-label="${word('tPlot')}" style="max-width: 14rem">
+    ${line('M0 0V100H100', colours.cursor, 0.8)}${line('M0 100L100 0', colours.grid, 1)}${line(path, colours.edge, 2)}${name('t', 2, 5)}${name('t′', 95, 97)}</svg>`;
+  return around.firstChild;
 }

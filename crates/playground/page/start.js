@@ -20,9 +20,7 @@ function drawAll() {
 }
 
 function start() {
-  const text = $('module').textContent.trim();
-  compiled = new WebAssembly.Module(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
-  instantiate();
+  instantiate(new WebAssembly.Module(bytesOf($('module').textContent.trim())));
   names = ask({ ask: 'list' });
   restore(location.hash);
   drawAll();

@@ -52,7 +52,11 @@ pub const YOUR_GPU: Parts = Parts {
 /// The script of the live figures, which pages load that are not made here. No style of theirs reaches into a figure.
 #[must_use]
 pub fn figure_script() -> String {
-    let own = [include_str!("../page/grips.js"), include_str!("../page/figure.js")];
+    let own = [
+        include_str!("../page/engines.js"),
+        include_str!("../page/grips.js"),
+        include_str!("../page/figure.js"),
+    ];
     let style = (rasterproof_view::TOKENS.to_owned() + rasterproof_view::VIEW_STYLE).replace(":root", ":host");
     format!("(() => {{\nconst VIEW_STYLE = {};\n{}}})();\n", json!(style), rasterproof_view::script(&own))
 }

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use base64::Engine as _;
-use image::RgbImage;
+use image::{Rgb, RgbImage};
 use rasterproof_host::limits::{self, PAGE_BYTES};
 use serde::Serialize;
 use similar::{ChangeTag, TextDiff as Lines};
@@ -194,6 +194,9 @@ pub struct PictureLayer {
     png: String,
     /// Whether it marks pixels of another layer, so that its colours are not compared with those of others.
     is_map: bool,
+    /// What its colours mark, each with its name in HTML.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    legend: Vec<(String, &'static str)>,
 }
 
 impl PictureLayer {
@@ -205,12 +208,16 @@ impl PictureLayer {
     }
 
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false }
+        Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false, legend: Vec::new() }
     }
 
-    /// A picture whose colours mark pixels of another layer.
-    pub fn map(name: &str, image: &RgbImage) -> Self {
-        Self { is_map: true, ..Self::new(name, image) }
+    /// A picture whose colours mark pixels of another layer, and what each of them marks.
+    pub fn map(name: &str, image: &RgbImage, marks: &[(Rgb<u8>, &'static str)]) -> Self {
+        let named = |(Rgb([r, g, b]), what): &(Rgb<u8>, &'static str)| {
+            (format!("#{r:02x}{g:02x}{b:02x}"), *what)
+        };
+        let legend = marks.iter().map(named).collect();
+        Self { is_map: true, legend, ..Self::new(name, image) }
     }
 }
 
@@ -516,7 +523,8 @@ fn figure(figure: &Figure) -> String {
         format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
     });
     format!(
-        "<figure><picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture>\
+        "<figure class=\"plot\"><button type=\"button\" class=\"enlarge\" title=\"as large as the window, and back\">\
+         <picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
          <figcaption>{caption}</figcaption></figure>\n",
         address(&figure.svg)
     )

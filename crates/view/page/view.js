@@ -82,7 +82,7 @@ class View extends HTMLElement {
     if (this.legend.dataset.shows !== legend) {
       this.legend.dataset.shows = legend;
       fill(this.legend, ...(source.legend ?? []).map(([colour, glyph, text]) => (
-        make('li', {}, make('span', { className: `px-${colour}`, 'aria-hidden': 'true' }, glyph), text))));
+        make('li', {}, make('span', { className: `px-${colour}`, style: colours[colour] ? '' : `background: ${colour}`, 'aria-hidden': 'true' }, glyph), text))));
     }
     this.layOut();
     this.paint();
@@ -285,13 +285,22 @@ class View extends HTMLElement {
 
   fit() { this.see(this.source.home ?? this.source.part); }
 
+  /** Moves the tools elsewhere; they come along when the viewer fills the window. */
+  putTools(place) {
+    this.place = place;
+    place.append(this.tools);
+  }
+
   /** As large as the window, and back. */
   enlarge() {
     this.isWide = !this.isWide;
     this.classList.toggle('is-wide', this.isWide);
     this.larger.setAttribute('aria-pressed', String(this.isWide));
+    if (this.isWide) this.prepend(this.tools);
+    else if (this.place) this.place.append(this.tools);
     this.speak();
     this.resized();
+    this.larger.focus({ preventScroll: true });
   }
 
   // ---- Hands ----
@@ -433,7 +442,7 @@ class View extends HTMLElement {
     });
     let at = PAD;
     for (const [colour, , text] of this.source.legend ?? []) {
-      g.fillStyle = colours[colour];
+      g.fillStyle = colours[colour] ?? colour;
       g.fillRect(at, high - PAD - 14, 14, 14);
       g.fillStyle = ink;
       write(text, at + 19, high - PAD - 14, '12px');

@@ -267,8 +267,7 @@ function restore() {
 }
 
 function start() {
-  compiled = new WebAssembly.Module(Uint8Array.from(atob($('module').textContent.trim()), (c) => c.charCodeAt(0)));
-  instantiate();
+  instantiate(new WebAssembly.Module(bytesOf($('module').textContent.trim())));
   $('agent').textContent = navigator.userAgent;
   $('judge').addEventListener('click', () => { if (state.running) state.running = false; else judgeAll(); });
   $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });

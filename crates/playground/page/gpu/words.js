@@ -14,7 +14,7 @@ const WORDS = {
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
     asking: (api, at) => `${api}: looking for the cause (picture ${at}) …`,
     cause: ({ cause, asked }) => `By ${count(asked, 'more triangle')}, ${cause}`,
-    crash: 'The module stopped, and was started again.',
+    
     noWebgl2: 'This browser gives no WebGL 2 context.', noWebgpu: 'This browser has no WebGPU here.', noAdapter: 'The browser has WebGPU, but gave no adapter.', noDevice: (why) => `The adapter refused to make a device (${why}).`,
     advice: 'Nothing could be judged. Turn on hardware acceleration in the settings of this browser, or open this page in a current Chrome, Edge, Firefox or Safari.',
     contextLost: 'the WebGL context was lost', deviceLost: 'the WebGPU device was lost', unnamed: 'not named by the browser',
@@ -62,7 +62,7 @@ const WORDS = {
     starting: '正在启动……', progress: (api, check, at, of) => `${api}：${check}（第 ${at} 批，共 ${of} 批）`, shrinking: (api, check) => `${api}：${check}：正在寻找最小的用例……`,
     asking: (api, at) => `${api}：正在寻找原因（第 ${at} 张图）……`,
     cause: ({ cause, asked }) => `又问了 ${zhCount(asked)} 个三角形（结论为英文）：${cause}`,
-    crash: '模块停了，已重新启动。',
+    
     noWebgl2: '这个浏览器不提供 WebGL 2 上下文。', noWebgpu: '这个浏览器在这里没有 WebGPU。', noAdapter: '浏览器有 WebGPU，但没有给出适配器。', noDevice: (why) => `适配器拒绝创建设备（${why}）。`,
     advice: '什么都没能评判。请在浏览器设置里打开硬件加速，或者用新版的 Chrome、Edge、Firefox 或 Safari 打开本页。',
     contextLost: 'WebGL 上下文丢失了', deviceLost: 'WebGPU 设备丢失了', unnamed: '浏览器没有给出名字',

@@ -68,8 +68,10 @@ const panels = () => {
   if (mode === 'slider') return [panel([{ ...drawn(a), to: state.split }, { ...drawn(b), from: state.split }], ...ofA, '|', ...ofB)];
   if (mode === 'onion') return [panel([drawn(a), { ...drawn(b), veil: 1 - Number($('opacity').value) / 100 }], ...ofB, 'over', ...ofA)];
   const oracle = [-1, a, b].includes(item.oracle) ? [] : [panel([drawn(item.oracle)], nameOf(item.oracle))];
-  const says = `difference: ${item.isCase ? 'hits of A less hits of B' : 'where A and B differ'}`;
-  return [panel([drawn(a)], ...ofA), panel([drawn(b)], ...ofB), ...oracle, panel([difference(state)], says)];
+  // A picture whose colours mark pixels differs everywhere from one whose do not.
+  const isMap = [a, b].some((i) => item.layers[i].is_map);
+  const differs = isMap ? [] : [panel([difference(state)], item.isCase ? 'difference: A less B' : 'difference: where A and B differ')];
+  return [panel([drawn(a)], ...ofA), panel([drawn(b)], ...ofB), ...oracle, ...differs];
 };
 
 /** Smaller frames are enlarged; others are shown as they are, where they have room. */
@@ -89,7 +91,7 @@ const show = () => {
   Object.assign(view.dataset, { mode, phase: state.phase });
   view.show({
     title: item.name, about: item.found || item.about, part, bounds: item.box, numbers: true, isPicture: !item.isCase, cursor, onPoint: moveCursor, panels: panels(), legend: legend(item),
-    high: isSide ? 0.42 : item.isCase ? 0.56 : 0.68, most: isLarge ? 1 : 112,
+    high: isSide ? 0.42 : item.isCase ? 0.56 : 0.68, most: isLarge ? 1 : Math.max(112, 240 / Math.max(part[2] - part[0], part[3] - part[1])),
     grips: () => (mode !== 'slider' ? [] : [{
       name: 'A | B', says: `A to column ${Math.floor(state.split)}`, x: state.split, y: (part[1] + part[3]) / 2, from: [state.split, part[1]],
       place: (x) => { state.split = Math.max(part[0], Math.min(part[2], x)); show(); },
@@ -97,10 +99,11 @@ const show = () => {
   });
 };
 
+/** What the colours mean: of marks, or of the maps that are shown. */
 const legend = ({ isCase, layers, oracle }) => (isCase
   ? [['agrees', '', layers[oracle].role === 'oracle' ? 'as the oracle' : 'as expected'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
     ['twice', '2', 'too often'], ['overlap', '*', 'rightly more than once']]
-  : []);
+  : [...new Set([state.a, state.b])].flatMap((i) => (layers[i].legend ?? []).map(([colour, text]) => [colour, '', text])));
 
 let announcing = 0;
 const tellPixel = (delay) => {
@@ -482,7 +485,9 @@ const start = async () => {
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.copy');
     if (pressed) copy(pressed);
+    event.target.closest('.plot button')?.parentElement.classList.toggle('is-wide');
   });
+  document.addEventListener('keydown', ({ key }) => { if (key === 'Escape') within('.plot.is-wide')?.classList.remove('is-wide'); });
   if (items.length === 0) return;
   $('cases').hidden = false;
   $('chooser').hidden = items.length === 1;
@@ -490,6 +495,7 @@ const start = async () => {
     make('input', { type: 'radio', name: 'mode', value }), make('kbd', { 'aria-hidden': 'true' }, String(i + 1)), text)));
   $('keys-help').textContent = viewWords().keys;
   view.tools.append($('whole'));
+  view.putTools($('controls'));
   setPaused(state.paused);
   fillFilters();
   listen();
