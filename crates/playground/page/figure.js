@@ -22,11 +22,10 @@ const WORDS = {
   },
 };
 const STYLE = `
-  :host { display: block; margin: 1.5em 0; }
+  :host { display: block; margin: 1.5em 0; color-scheme: light; }
   .whole { margin: 0 auto; max-width: 34em; border: 1px solid #8885; border-radius: 8px; padding: 0.7em; box-sizing: border-box; }
   p { margin: 0.4em 0; }
-  .question { font-weight: 600; margin-top: 0; }
-  :host { color-scheme: light; }
+  :is(.question, .verdict) { font-weight: 600; margin-top: 0; }
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
   rp-view .frame { border-color: transparent; }
@@ -34,23 +33,17 @@ const STYLE = `
   rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
   rp-view:not(.is-wide) { position: relative; }
   .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
-  rp-view .frame > button { cursor: pointer; }
   rp-view .frame > button:hover { background: #0b57d033; }
   rp-view .frame > button[aria-pressed=true] { background: #0b57d055; box-shadow: inset 0 0 0 3px #0b57d0; }
   rp-view .mark { pointer-events: none; box-shadow: inset 0 0 0 3px #0b57d0; }
   rp-view .mark.no { box-shadow: inset 0 0 0 3px #b3261e; }
-  :focus-visible { outline: 3px solid var(--accent); outline-offset: 1px; z-index: 1; }
   .controls { display: flex; flex-wrap: wrap; gap: 0.4em; align-items: center; margin: 0.5em 2.5em 0.5em 0; min-height: 2.4em; }
-  .view-tools button, .controls button, .controls input { font: inherit; font-size: 0.95em; color: inherit; background: #8881; border: 1px solid #888a; border-radius: 6px; padding: 0.35em 0.7em; min-height: 2.4em; text-align: start; }
-  .view-tools button, .controls button { cursor: pointer; }
-  .controls button:hover { background: #8884; }
+  .controls button { text-align: start; min-height: 2.4em; }
   .controls input { width: 5.5em; box-sizing: border-box; }
   .verdict:empty, .hint:empty, .answer:empty { display: none; }
-  .verdict { font-weight: 600; }
   .hint, .links { font-size: 0.9em; opacity: 0.85; }
   a { color: inherit; }
-  [hidden] { display: none; }
-  @media print { .whole { display: none; } slot[hidden] { display: contents; } }
+  @media print { .whole { display: none; } slot[hidden] { display: contents !important; } }
 `;
 const own = document.currentScript;
 const beside = (name) => new URL(name, own.src).href;

@@ -22,11 +22,7 @@ function drawFrame() {
     view.show(shownOf(answer));
   }
   explain(answer);
-  drawCorners();
   pressTools();
-  const same = command();
-  if ($('command').textContent !== same) $('command').textContent = same;
-  $('as-command').hidden = same === '';
 }
 
 /** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
@@ -37,6 +33,10 @@ function explain(answer) {
   const wait = explained + 100 - performance.now();
   if (wait > 0) { explaining = setTimeout(() => { if (last.answer) explain(last.answer); }, wait); return; }
   explained = performance.now();
+  drawCorners();
+  const same = command();
+  if ($('command').textContent !== same) $('command').textContent = same;
+  $('as-command').hidden = same === '';
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });

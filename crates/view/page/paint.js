@@ -106,7 +106,7 @@ function paintSigns(sheet, signs) {
     if (glyph && unit > 7) g.fillText(glyph, left + unit * (isAside ? 0.08 : 0.5) + 1, top + unit * (isAside ? 0.04 : 0.5) + 1);
     if (ring) {
       g.beginPath();
-      g.arc(left + unit / 2, top + unit / 2, Math.min(9, unit * 0.36), 0, 7);
+      g.arc(left + unit / 2, top + unit / 2, Math.min(9, unit * 0.25), 0, 7);
       g.stroke();
     }
   }

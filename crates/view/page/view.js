@@ -168,7 +168,7 @@ class View extends HTMLElement {
     });
     for (const { element, x, y, width, height } of covers) {
       this.over(element, x, y);
-      Object.assign(element.style, { width: `${(100 * width * this.unit) / this.size[0]}%`, height: `${(100 * height * this.unit) / this.size[1]}%` });
+      Object.assign(element.style, { width: `${width * this.unit}px`, height: `${height * this.unit}px` });
     }
   }
 
@@ -213,10 +213,11 @@ class View extends HTMLElement {
     if (this.source.numbers) paintNumbers(sheet, above, beside);
   }
 
+  /** Puts an element over a place of the picture, by its upper left corner; nothing of the page is laid out anew. */
   over(element, x, y) {
     const [x0, y0, x1, y1] = this.seen;
-    element.style.left = `${(100 * (x - x0)) / (x1 - x0)}%`;
-    element.style.top = `${(100 * (y - y0)) / (y1 - y0)}%`;
+    const place = `translate(${(x - x0) * this.unit}px, ${(y - y0) * this.unit}px)`;
+    if (element.style.transform !== place) element.style.transform = place;
     element.hidden = x < x0 || y < y0 || x > x1 || y > y1;
   }
 

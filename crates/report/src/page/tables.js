@@ -15,7 +15,8 @@ export const layerTable = ({ item, cursor, a, b }) => {
     : ['picture', 'size', 'colour here'];
   const numbers = item.isCase ? [2, 3, 4, 5, 6] : [];
   const rows = item.layers.map((layer, i) => {
-    const cells = item.isCase ? caseCells(item, layer, cursor) : [
+    const here = cursor ? [String(hitsOf(item, layer, ...cursor)), spanOf(item, layer, ...cursor)] : ['', ''];
+    const cells = item.isCase ? [ROLES[layer.role], ...[layer.covered, layer.tally.missing, layer.tally.extra, layer.tally.twice].map(String), ...here] : [
       `${layer.pixels.width} x ${layer.pixels.height}`,
       cursor ? hex(colourOf(layer, ...cursor)) : ''];
     const chosen = [i === a && 'is-a', i === b && 'is-b'].filter(Boolean).join(' ');
@@ -28,13 +29,6 @@ export const layerTable = ({ item, cursor, a, b }) => {
     make('th', { scope: 'col', className: numbers.includes(at) ? 'number' : '' }, text));
   $('layers').replaceChildren(make('caption', {}, item.isCase ? `Who draws what, judged by ${target(item)}` : 'Pictures'),
     make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...rows));
-};
-
-const caseCells = (item, layer, cursor) => {
-  const { missing, extra, twice } = layer.tally;
-  const here = cursor ? String(hitsOf(item, layer, ...cursor)) : '';
-  const span = cursor ? spanOf(item, layer, ...cursor) : '';
-  return [ROLES[layer.role], ...[layer.covered, missing, extra, twice].map(String), here, span];
 };
 
 const runsOfRow = (item, layer, y) => {
