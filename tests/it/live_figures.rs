@@ -475,7 +475,12 @@ fn live_figures_show_what_the_oracle_draws() {
     for figure in ALL.iter() {
         visit(&mut browser, figure);
         let of = of(figure);
-        assert_eq!(browser.eval(&format!("{PIXELS}({of}.view.shown[0].frame)")), json!([]), "{}", figure.name);
+        assert_eq!(
+            browser.eval(&format!("{PIXELS}({of}.view.shown[0].frame)")),
+            json!([]),
+            "{}",
+            figure.name
+        );
         assert_eq!(
             browser.eval(&format!("{of}.shadowRoot.querySelectorAll('[role=slider]').length")),
             0
@@ -626,5 +631,13 @@ fn live_figures_ask_in_chinese() {
         browser.eval(&format!("{of}.controls.lastChild.click()"));
         let wide = browser.eval("document.documentElement.scrollWidth").as_u64().unwrap();
         assert!(wide <= 360, "{}: {wide} px wide", figure.name);
+        // It fills the window, and what brings it back is there to be pressed.
+        let tool = format!("{of}.shadowRoot.querySelector('[data-tool=enlarge]')");
+        let shown = format!(
+            "[{of}.view.clientHeight, (({{ top, bottom }}) => top >= 0 && bottom <= innerHeight)({tool}.getBoundingClientRect())]"
+        );
+        browser.eval(&format!("{tool}.click()"));
+        assert_eq!(browser.eval(&shown), json!([740, true]), "{}", figure.name);
+        browser.eval(&format!("{tool}.click()"));
     }
 }

@@ -823,7 +823,8 @@ fn page_tells_marks_from_pictures() {
         "[...document.querySelectorAll('.legend li')].map(li => [li.textContent, getComputedStyle(li.firstChild).backgroundColor])",
     );
     assert_eq!(legend, json!([["where it is wrong", "rgb(200, 20, 30)"]]));
-    let wide = "document.querySelector('.plot img').getBoundingClientRect().width > 0.9 * innerWidth";
+    let wide =
+        "document.querySelector('.plot img').getBoundingClientRect().width > 0.9 * innerWidth";
     assert_eq!(browser.eval(wide), json!(false));
     browser.eval("document.querySelector('.plot button').click()");
     assert_eq!(browser.eval(wide), json!(true));

@@ -186,7 +186,8 @@ fn playground_shows_every_scene() {
         browser.prefer("prefers-color-scheme", scheme);
         browser.open(&page, &format!("#scene={scene}&lang={lang}"));
         settle(&mut browser);
-        let shown = browser.eval("[state.scene, state.lang, view.shown.length > 0, last.answer.error]");
+        let shown =
+            browser.eval("[state.scene, state.lang, view.shown.length > 0, last.answer.error]");
         assert_eq!(shown, json!([scene, lang, true, null]));
         assert_eq!(browser.eval("document.getElementById('trouble').hidden"), true);
         for width in [1280, 400] {

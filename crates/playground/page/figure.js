@@ -29,9 +29,9 @@ const STYLE = `
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
   rp-view .frame { border-color: transparent; }
-  rp-view > .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
-  rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
   rp-view:not(.is-wide) { position: relative; }
+  rp-view:not(.is-wide) .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
+  rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
   .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
   rp-view .frame > button:hover { background: #0b57d033; }
   rp-view .frame > button[aria-pressed=true] { background: #0b57d055; box-shadow: inset 0 0 0 3px #0b57d0; }

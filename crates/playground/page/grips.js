@@ -1,4 +1,4 @@
-// The grips of a live figure for the viewer: where each lies on the picture, and what moving it does. `move(i, value)` is told.
+// The grips of a live figure for the viewer: where each lies on the picture, and what moving it does: it calls `move(i, value)`.
 const figureGrips = (grips, move) => grips.map(({ name, value, spot, scale, step, low, high }, i) => {
   const isFree = scale.every(Boolean);
   const axis = scale[0] ? 0 : 1;

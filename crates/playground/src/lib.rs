@@ -57,8 +57,13 @@ pub fn figure_script() -> String {
         include_str!("../page/grips.js"),
         include_str!("../page/figure.js"),
     ];
-    let style = (rasterproof_view::TOKENS.to_owned() + rasterproof_view::VIEW_STYLE).replace(":root", ":host");
-    format!("(() => {{\nconst VIEW_STYLE = {};\n{}}})();\n", json!(style), rasterproof_view::script(&own))
+    let style = (rasterproof_view::TOKENS.to_owned() + rasterproof_view::VIEW_STYLE)
+        .replace(":root", ":host");
+    format!(
+        "(() => {{\nconst VIEW_STYLE = {};\n{}}})();\n",
+        json!(style),
+        rasterproof_view::script(&own)
+    )
 }
 
 /// What a page may weigh, so that it can be sent and opened anywhere.

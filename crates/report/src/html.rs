@@ -208,7 +208,12 @@ impl PictureLayer {
     }
 
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false, legend: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            png: data_address("image/png", bytes),
+            is_map: false,
+            legend: Vec::new(),
+        }
     }
 
     /// A picture whose colours mark pixels of another layer, and what each of them marks.

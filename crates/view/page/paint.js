@@ -186,7 +186,7 @@ export function paintOutline(sheet, points, colour = colours.edge, thick = sheet
 }
 
 /** More corners would hide the picture. */
-const MOST_CORNERS = 8;
+export const MOST_CORNERS = 8;
 
 /** Corners, each {at, name, text}, with their words where these have room. */
 export function paintCorners(sheet, corners) {

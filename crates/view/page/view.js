@@ -1,14 +1,15 @@
 // <rp-view>: panels of pixels side by side at one scale, with zoom, panning, keys, fingers, grips to drag, and a size as large as the window.
 //
 // A page calls show() with what there is to see, as often as that changes:
-//   part      [x0, y0, x1, y1], what is shown at first and after fit; another part is fitted anew
-//   bounds    what there is; without it the plane is endless and seen in whole pixels only, and `onSeen` is told what to bring
+//   part      [x0, y0, x1, y1], what is shown at first and after `fit`; another part is fitted anew
+//   bounds    the whole picture. Without it the plane is endless, is shown in whole pixels, and the viewer calls `onSeen` with what it shows
 //   panels    {key, head, says, isBad, label, view, layers, samples, outlines, corners, over, svg}, see paintPanel
-//   grips()   {name, says, x, y, view, place, nudge} for each that can be dragged on the panels of a view, where it is now; `from` draws a stalk
-//   cursor    the pixel that is looked at; onPoint(x, y, byKeys) is told another one, onHold(i) which grip is taken
+//   grips()   what can be dragged, each {name, says, x, y, view, place, nudge} where it is now, on the panels of a view; `from` draws a stalk
+//   cursor    the pixel that is looked at; the viewer calls onPoint(x, y, byKeys) for another one, and onHold(i) when a grip is taken
 //   covers    elements over the picture, each {element, x, y, width, height}
-//   title     what a saved picture is called, and `about`, what it says below
-//   legend    [fill, glyph, text] of each colour; high: the share of the window's height; most: the largest pixel
+//   legend    [fill, glyph, text] of each colour
+//   title     the name of a saved picture, with `about` below it
+//   high      the largest share of the window's height, and `most`, the largest pixel
 import { arrowOf, button, fill, make } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 

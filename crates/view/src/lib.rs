@@ -4,11 +4,11 @@
 //! them one behind the other in one script: [`script`] leaves out the lines that name other modules. No two of
 //! them define the same name.
 
-/// Colours, sizes and spaces.
+/// The colours, sizes and spaces that every page and the site share.
 pub const TOKENS: &str = include_str!("../page/tokens.css");
 /// How the viewer looks, also inside of an element that sees no style of the page around it.
 pub const VIEW_STYLE: &str = include_str!("../page/view.css");
-/// How a page of its own looks.
+/// The look of everything on a page of the program that is not the viewer.
 pub const PAGE_STYLE: &str = include_str!("../page/style.css");
 
 /// The modules of the viewer, each behind those that it uses.
@@ -88,16 +88,14 @@ mod tests {
         let product = |rows: &[[f64; 3]; 3], c: [f64; 3]| {
             rows.map(|row| row.iter().zip(c).map(|(a, b)| a * b).sum::<f64>())
         };
-        let to_xyz =
-            [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0177, 0.1095, 0.8730]];
+        let to_xyz = [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0177, 0.1095, 0.8730]];
         let seen = product(eye, colour).map(|part| part.clamp(0.0, 1.0));
-        let [x, y, z] = product(&to_xyz, seen).map(|t| {
-            if t > 0.008_856 { libm::cbrt(t) } else { 7.787 * t + 16.0 / 116.0 }
-        });
+        let [x, y, z] = product(&to_xyz, seen)
+            .map(|t| if t > 0.008_856 { libm::cbrt(t) } else { 7.787 * t + 16.0 / 116.0 });
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// Two are told apart from a distance of about 2 side by side; 20 is no doubt.
+    /// Eyes see a difference from a distance of about 2 where two colours lie side by side; 20 is a plain one.
     #[test]
     fn marks_are_told_apart_by_all_eyes() {
         let names = ["empty", "agrees", "missing", "extra", "twice", "overlap"];

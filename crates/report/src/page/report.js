@@ -1,6 +1,6 @@
 // The report page: its cases and pictures in the viewer, which of them is shown and how, and the address that leads to it.
 import { $, button, copyText, fill, make } from './dom.js';
-import { judge } from './paint.js';
+import { MOST_CORNERS, judge } from './paint.js';
 import { viewWords } from './view.js';
 import { aboutPixel, plural } from './explain.js';
 import { byRule, caseItem, cheapRule, colourOf, corners, cropOf, differIn, hitsOf, isTie, load, outlines, pictureItem, pixelsWhere } from './items.js';
@@ -58,6 +58,8 @@ const panels = () => {
   const { item, a, b, mode, phase } = state;
   const drawn = (i) => layerOf(item, item.layers[i]);
   const common = item.isCase ? { outlines: outlines(item), samples: [0.5, 0.5], corners: corners(item) } : {};
+  // The border between the two.
+  if (mode === 'slider') common.outlines = [...(common.outlines ?? []), [[state.split, item.box[1]], [state.split, item.box[3]]]];
   const panel = (layers, ...parts) => {
     const head = () => parts.map((part) => (part === 'A' || part === 'B' ? make('b', { className: `sign of-${part}` }, part) : ` ${part} `));
     const label = parts.join(' ');
@@ -93,7 +95,7 @@ const show = () => {
     title: item.name, about: item.found || item.about, part, bounds: item.box, numbers: true, isPicture: !item.isCase, cursor, onPoint: moveCursor, panels: panels(), legend: legend(item),
     high: isSide ? 0.42 : item.isCase ? 0.56 : 0.68, most: isLarge ? 1 : Math.max(112, 240 / Math.max(part[2] - part[0], part[3] - part[1])),
     grips: () => (mode !== 'slider' ? [] : [{
-      name: 'A | B', says: `A to column ${Math.floor(state.split)}`, x: state.split, y: (part[1] + part[3]) / 2, from: [state.split, part[1]],
+      name: 'A | B', says: `A to column ${Math.floor(state.split)}`, x: state.split, y: (part[1] + part[3]) / 2,
       place: (x) => { state.split = Math.max(part[0], Math.min(part[2], x)); show(); },
     }]),
   });
@@ -342,8 +344,6 @@ const chapterOf = (item) => {
 
 /** A window from here on has room for three panels. */
 const WIDE_PX = 960;
-/** More corners are not told. */
-const MOST_TOLD_CORNERS = 8;
 
 const open = async (item, settings = {}) => {
   state.opening = item;
@@ -370,7 +370,7 @@ const open = async (item, settings = {}) => {
   $('case-kind').className = `kind ${item.kind}`;
   $('case-chapter').replaceChildren(...chapterOf(item));
   const places = item.isCase ? corners(item) : [];
-  $('case-corners').textContent = places.length > 0 && places.length <= MOST_TOLD_CORNERS
+  $('case-corners').textContent = places.length > 0 && places.length <= MOST_CORNERS
     ? `Corners, in pixels: ${places.map(({ text }) => text).join('  ')}` : '';
   $('case-about').textContent = item.about;
   $('case-found').textContent = item.found;
@@ -507,7 +507,7 @@ const start = async () => {
   }
 };
 
-// For tests and the curious: the rule over every pixel of every case; cases that differ; the view.
+// For tests: the cases in which the rule, computed here at every pixel, differs from the oracle, and what the viewer saves.
 window.rasterproof = {
   snapshot: () => view.picture().toDataURL('image/png'),
   audit: () => items.filter((item) => item.isCase).filter((item) => {

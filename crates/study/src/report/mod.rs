@@ -657,7 +657,7 @@ fn grids(prices: &[GridPrice]) -> Option<Table> {
 /// Pixels of a mark around a pixel that stands alone, which would not be seen otherwise.
 const MARK_PX: i32 = 5;
 
-/// The colours of the maps.
+/// The colours of the two maps, which the page explains in a legend.
 const HARD: Rgb<u8> = Rgb([230, 60, 40]);
 const RING: Rgb<u8> = Rgb([250, 220, 60]);
 const DECIDED: Rgb<u8> = Rgb([120, 130, 140]);

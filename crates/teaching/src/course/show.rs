@@ -384,7 +384,7 @@ fn differs(a: Rgb<u8>, b: Rgb<u8>) -> bool {
     a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VISIBLE)
 }
 
-/// The colours of what differs.
+/// The colours of a picture of differences, and what each means to the student.
 const DIFFERENCES: [(Rgb<u8>, &str); 3] = [
     (Rgb([214, 60, 60]), "your program drew nothing here"),
     (Rgb([240, 160, 40]), "only your program drew here"),
