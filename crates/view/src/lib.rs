@@ -24,12 +24,19 @@ pub fn style(own: &[&str]) -> String {
     [TOKENS, PAGE_STYLE, VIEW_STYLE].into_iter().chain(own.iter().copied()).collect()
 }
 
-/// The viewer and the modules of a page as one script.
+/// Whether a line is nothing but a comment. Shaders are made of lines with places, and keep theirs.
+fn is_comment(line: &str) -> bool {
+    let line = line.trim();
+    (line.starts_with("// ") && !line.contains("${"))
+        || (line.starts_with("/** ") && line.ends_with("*/"))
+}
+
+/// The viewer and the modules of a page as one script, without their comments.
 #[must_use]
 pub fn script(own: &[&str]) -> String {
     let mut script = String::new();
     for line in MODULES.iter().chain(own).flat_map(|module| module.lines()) {
-        if !line.starts_with("import ") {
+        if !line.starts_with("import ") && !is_comment(line) {
             script += line.strip_prefix("export ").unwrap_or(line);
             script.push('\n');
         }
@@ -114,8 +121,12 @@ mod tests {
 
     #[test]
     fn a_script_has_no_modules() {
-        let script = script(&["import { x } from './x.js';\nexport const y = 1;\n"]);
-        assert!(script.ends_with("const y = 1;\n") && !script.contains("\nimport "));
+        let own = "import { x } from './x.js';\n  // Why.\n/** What. */\nexport const y = 1;\n";
+        let script = script(&[own]);
+        assert!(
+            script.ends_with("}\n\ncustomElements.define('rp-view', View);\nconst y = 1;\n")
+                && !script.contains("\nimport ")
+        );
         assert!(!script.contains("\nexport "), "{script}");
     }
 }
