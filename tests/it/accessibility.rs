@@ -191,7 +191,9 @@ fn site_has_accessible_tools() {
             let view = next(&mut browser);
             browser.open(&page, fragment);
             browser.eval(unfold);
-            browser.eval("for (let i = 0; i < 9; i++) document.getElementById('zoom-in').click()");
+            browser.eval(
+                "for (let i = 0; i < 9; i++) document.querySelector('[data-tool=zoomIn]').click()",
+            );
             wrong.extend(violations(&mut browser, &format!("{}, {view}", page.display())));
         }
     }

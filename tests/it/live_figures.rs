@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -127,9 +127,8 @@ fn live_figures_are_whole() {
 fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
     let module = module()?;
     let folder = folder(&format!("figures-{name}"));
-    for file in ["crates/playground/page/figure.js", "target/rasterproof/engines.js"] {
-        fs::copy(root().join(file), folder.join(Path::new(file).file_name().unwrap())).unwrap();
-    }
+    fs::write(folder.join("figure.js"), pages::figure_script()).unwrap();
+    fs::copy(root().join("target/rasterproof/engines.js"), folder.join("engines.js")).unwrap();
     // Where the links of the figures lead.
     let playground = pages::page(&pages::PLAYGROUND, &fs::read(module).unwrap()).unwrap();
     fs::write(folder.join("playground.html"), playground).unwrap();
@@ -215,7 +214,7 @@ fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
     )))
     .unwrap();
     let stage = browser.eval(&format!(
-        "(() => {{ const e = {of}.picture.firstChild; e.scrollIntoView({{ block: 'center', behavior: 'instant' }});
+        "(() => {{ const e = {of}.view.shown[0].frame.querySelector('svg'); e.scrollIntoView({{ block: 'center', behavior: 'instant' }});
             const b = e.getBoundingClientRect(); return [b.left + scrollX, b.top + scrollY, b.width, b.height]; }})()"
     ));
     let [x, y, width, height]: [f64; 4] = serde_json::from_value(stage).unwrap();
@@ -260,13 +259,11 @@ const FOLLOW: &str = r"new Promise(done => {
         explained = 0;
         explain(last.answer);
         const [x0, y0, x1, y1] = state.window;
-        const kinds = ['agrees', 'missing', 'extra', 'twice', 'a', 'b', 'c', 'd'];
-        const kind = (colour) => kinds.find(name => colours[name] === colour) ?? colour;
         const panels = scene().panels(last.answer).filter(panel => panel.pixel).map(panel => {
             const pixels = [];
             for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) {
                 const pixel = panel.pixel((y - y0) * (x1 - x0) + x - x0, x, y);
-                if (pixel) pixels.push([x, y, kind(pixel.colour)]);
+                if (pixel) pixels.push([x, y, pixel.fill]);
             }
             return pixels;
         });
@@ -413,23 +410,18 @@ fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Valu
             }
         }
         if panels_of(&figure.name).is_empty() && figure.name != "weights" {
-            // The picture has arrived on both panels: what is painted has its colour there.
-            browser.wait_for("sheets.every(sheet => sheet.shows === sheet.wanted)");
-            let lost = browser.eval(&format!(
+            // The picture is on both panels, each as large as its place.
+            let there = browser.eval(&format!(
                 "(() => {{ drawFrame();
-                    const host = document.body.appendChild(document.createElement('div'));
-                    const root = host.attachShadow({{ mode: 'open' }}); root.innerHTML = last.answer.svg;
-                    const pixels = {PIXELS}(root); host.remove();
-                    return shown.map(({{ canvas }}) => {{
-                        const zoom = canvas.width / 360, g = canvas.getContext('2d');
-                        const last = new Map(pixels.map(pixel => [`${{pixel[0]}},${{pixel[1]}}`, pixel]));
-                        const isThere = ([left, top, side, ...rgb]) => [[0.2, 0.2], [0.8, 0.2], [0.2, 0.8], [0.8, 0.8], [0.5, 0.2]].some(([x, y]) =>
-                            String([...g.getImageData((left + x * side) * zoom, (top + y * side) * zoom, 1, 1).data.slice(0, 3)]) === String(rgb));
-                        const isFree = ([left, top, side]) => grips().every(grip => Math.hypot(grip.x - left - side / 2, grip.y - top - side / 2) > 16);
-                        return [...last.values()].filter(pixel => isFree(pixel) && !isThere(pixel)).length;
+                    return view.shown.map(({{ frame }}, i) => {{
+                        const host = document.body.appendChild(document.createElement('div'));
+                        host.innerHTML = last.answer.panels[i].svg;
+                        const [is, should] = [frame, host].map(e => JSON.stringify({PIXELS}(e)));
+                        host.remove();
+                        return is === should && frame.querySelector('svg').childElementCount > 1 && frame.querySelector('svg').clientWidth === frame.clientWidth;
                     }}); }})()"
             ));
-            assert_eq!(lost, json!([0, 0]), "{link}");
+            assert_eq!(there, json!([true, true]), "{link}");
         }
     }
     let all: BTreeSet<_> = ALL.iter().map(|figure| figure.name.clone()).collect();
@@ -440,9 +432,8 @@ fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Valu
     };
     go(browser, "#scene=figure&figure=edge-sign");
     // The panels are drawn in the frame after the state is taken.
-    browser.wait_for("state.at === '[[1.5,5.5],[7.5,1.5]]' && shown.length > 0");
-    browser.eval("(shown[0].canvas.focus(), 0)");
-    browser.press("]");
+    browser.wait_for("state.at === '[[1.5,5.5],[7.5,1.5]]' && view.shown[0]?.grips.length === 2");
+    browser.eval("view.shown[0].grips[1].focus()");
     browser.press("ArrowLeft");
     browser.wait_for("state.at === '[[1.5,5.5],[7,1.5]]'");
     let says = "document.querySelectorAll('figcaption output')[1]?.textContent";
@@ -484,7 +475,12 @@ fn live_figures_show_what_the_oracle_draws() {
     for figure in ALL.iter() {
         visit(&mut browser, figure);
         let of = of(figure);
-        assert_eq!(browser.eval(&format!("{PIXELS}({of}.picture)")), json!([]), "{}", figure.name);
+        assert_eq!(
+            browser.eval(&format!("{PIXELS}({of}.view.shown[0].frame)")),
+            json!([]),
+            "{}",
+            figure.name
+        );
         assert_eq!(
             browser.eval(&format!("{of}.shadowRoot.querySelectorAll('[role=slider]').length")),
             0
@@ -585,7 +581,7 @@ fn keys_predict(browser: &mut Browser) {
             fresh.setAttribute('scene', 'one-sample'); {of}.replaceWith(fresh); }})()"
     ));
     visit(browser, figure);
-    browser.eval(&format!("{of}.stage.querySelector('button').focus()"));
+    browser.eval(&format!("{of}.stage.querySelector('.frame button').focus()"));
     // From (0, 0) to (1, 1) and around the square of four pixels.
     for arrow in [&["ArrowRight", "ArrowDown"][..], &["ArrowRight"], &["ArrowDown"], &["ArrowLeft"]]
     {
@@ -596,7 +592,7 @@ fn keys_predict(browser: &mut Browser) {
             browser.call("Input.dispatchKeyEvent", space);
         }
     }
-    let marked = format!("{of}.stage.querySelectorAll('[aria-pressed=true]').length");
+    let marked = format!("{of}.stage.querySelectorAll('.frame [aria-pressed=true]').length");
     assert_eq!(browser.eval(&marked), 4);
     browser.eval(&format!("{of}.controls.firstChild.click()"));
     assert_eq!(browser.eval(&format!("{of}.verdict.textContent")), "Right.");
@@ -635,5 +631,13 @@ fn live_figures_ask_in_chinese() {
         browser.eval(&format!("{of}.controls.lastChild.click()"));
         let wide = browser.eval("document.documentElement.scrollWidth").as_u64().unwrap();
         assert!(wide <= 360, "{}: {wide} px wide", figure.name);
+        // It fills the window, and what brings it back is there to be pressed.
+        let tool = format!("{of}.shadowRoot.querySelector('[data-tool=enlarge]')");
+        let shown = format!(
+            "[{of}.view.clientHeight, (({{ top, bottom }}) => top >= 0 && bottom <= innerHeight)({tool}.getBoundingClientRect())]"
+        );
+        browser.eval(&format!("{tool}.click()"));
+        assert_eq!(browser.eval(&shown), json!([740, true]), "{}", figure.name);
+        browser.eval(&format!("{tool}.click()"));
     }
 }

@@ -82,6 +82,7 @@ mod tiled;
 mod tiles;
 mod tolerances;
 mod transcripts;
+mod view;
 mod watch;
 mod workspace;
 mod writers;

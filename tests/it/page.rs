@@ -188,20 +188,18 @@ impl Browser {
     }
 
     fn picture(&mut self) -> String {
-        let url = self.eval("document.querySelector('#stage canvas').toDataURL()");
+        let url = self.eval("document.querySelector('rp-view .pixels').toDataURL()");
         url.as_str().unwrap().to_owned()
     }
 
     /// Moves the mouse over the middle of a pixel of the first panel, counted from the window's corner.
     fn hover(&mut self, x: u32, y: u32) {
-        self.eval("document.querySelector('#stage canvas').scrollIntoView()");
+        self.eval("document.querySelector('rp-view .pixels').scrollIntoView()");
         self.draw();
         let spot = self.eval(&format!(
-            "(() => {{ const c = document.querySelector('#stage canvas');
-                const b = c.getBoundingClientRect();
-                const cell = Number(document.querySelector('#stage').dataset.cell);
-                const p = c.closest('.port');
-                return [b.left + ({x} + 0.5) * cell - p.scrollLeft, b.top + ({y} + 0.5) * cell - p.scrollTop]; }})()"
+            "(() => {{ const v = document.querySelector('rp-view');
+                const b = v.shown[0].canvas.getBoundingClientRect(), [x0, y0] = v.source.bounds;
+                return [b.left + (x0 + {x} + 0.5 - v.seen[0]) * v.unit, b.top + (y0 + {y} + 0.5 - v.seen[1]) * v.unit]; }})()"
         ));
         let event = json!({ "type": "mouseMoved", "x": spot[0], "y": spot[1] });
         self.call("Input.dispatchMouseEvent", event);
@@ -364,27 +362,27 @@ fn audit_sees_a_moved_corner(browser: &mut Browser, page: &str) {
 }
 
 fn blink_and_modes(browser: &mut Browser, page: &Path) {
-    browser.open(page, "#case-T2&a=games101-strict&b=oracle");
+    browser.open(page, "#case-T2&a=games101-strict&b=oracle&mode=blink");
     assert_eq!(browser.text("#case-title"), "T2");
     assert_eq!(browser.text("#case-command code"), "rasterproof inspect T2");
     // It blinks by itself, slower than three times a second.
-    browser.wait_for("document.querySelector('#stage').dataset.phase === 'A'");
+    browser.wait_for("document.querySelector('rp-view').dataset.phase === 'A'");
     let a = browser.picture();
-    browser.wait_for("document.querySelector('#stage').dataset.phase === 'B'");
+    browser.wait_for("document.querySelector('rp-view').dataset.phase === 'B'");
     let b = browser.picture();
     assert_ne!(a, b);
     browser.press("b");
-    let phase = browser.eval("document.querySelector('#stage').dataset.phase");
+    let phase = browser.eval("document.querySelector('rp-view').dataset.phase");
     std::thread::sleep(Duration::from_millis(900));
-    assert_eq!(browser.eval("document.querySelector('#stage').dataset.phase"), phase, "paused");
+    assert_eq!(browser.eval("document.querySelector('rp-view').dataset.phase"), phase, "paused");
     browser.eval("document.querySelector('#other').click()");
-    assert_ne!(browser.eval("document.querySelector('#stage').dataset.phase"), phase);
+    assert_ne!(browser.eval("document.querySelector('rp-view').dataset.phase"), phase);
     for (key, mode, panels) in
         [("2", "slider", 1), ("3", "side", 3), ("4", "onion", 1), ("1", "blink", 1)]
     {
         browser.press(key);
         let is = browser.eval(
-            "[document.querySelector('#stage').dataset.mode, document.querySelectorAll('.port canvas').length,
+            "[document.querySelector('rp-view').dataset.mode, document.querySelectorAll('rp-view .pixels').length,
               document.querySelector('#modes :checked').value]",
         );
         assert_eq!(is, json!([mode, panels, mode]));
@@ -399,15 +397,15 @@ fn blink_and_modes(browser: &mut Browser, page: &Path) {
     let half = browser.picture();
     assert!(half != a && half != b, "a slider shows a part of both");
     browser.press("b");
-    assert_eq!(browser.eval("document.querySelector('#stage').dataset.mode"), json!("blink"));
+    assert_eq!(browser.eval("document.querySelector('rp-view').dataset.mode"), json!("blink"));
     // What was zoomed to in one panel does not spread over four.
     browser.open(page, "#case-T2");
     for _ in 0..6 {
-        browser.eval("document.querySelector('#zoom-in').click()");
+        browser.eval("document.querySelector('[data-tool=zoomIn]').click()");
     }
     browser.press("3");
-    let inside = "[...document.querySelectorAll('.port')].every(p => p.getBoundingClientRect().right <= innerWidth)
-        && document.querySelectorAll('.port').length === 3";
+    let inside = "[...document.querySelectorAll('rp-view .frame')].every(p => p.getBoundingClientRect().right <= innerWidth)
+        && document.querySelectorAll('rp-view .frame').length === 3";
     browser.wait_for(inside);
     // Side by side the oracle is beside two others, and never there twice.
     browser.open(page, "#case-T2&mode=side&a=games101-strict&b=sysu-inclusive");
@@ -457,7 +455,7 @@ fn first_screen_is_the_picture(browser: &mut Browser, page: &Path) {
             )
         };
         let numbers = |value: Value| -> Vec<f64> { serde_json::from_value(value).unwrap() };
-        let port = numbers(browser.eval(&box_of(".port")));
+        let port = numbers(browser.eval(&box_of("rp-view .frame")));
         assert!(port[0] > 0.0 && port[1] <= port[3] && port[2] >= 150.0, "{width}: {port:?}");
         let title = numbers(browser.eval(&box_of("#case-title")));
         assert!(title[1] <= port[0], "its name stands over it: {title:?} {port:?}");
@@ -470,7 +468,7 @@ fn first_screen_is_the_picture(browser: &mut Browser, page: &Path) {
             ));
             assert!(ink.as_u64() > Some(20), "{axis} at {width}: {ink}");
         }
-        let cell = browser.eval("Number(document.querySelector('#stage').dataset.cell)");
+        let cell = browser.eval("Number(document.querySelector('rp-view').dataset.cell)");
         assert!(cell.as_f64() >= Some(16.0), "{cell}");
     }
     browser.resize(1280, 900);
@@ -506,7 +504,7 @@ fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
         json!([["inside", "top", "yes"], ["inside", "right", "no"], ["on it", "left", "yes"]]);
     assert_eq!(rows[0], upper);
     // The keyboard moves on, and the live region follows.
-    browser.eval("document.querySelector('#stage').focus()");
+    browser.eval("document.querySelector('rp-view .pixels').focus()");
     browser.press("ArrowRight");
     assert_eq!(browser.text("#about-pixel h4"), "Pixel 4, 3");
     browser.wait_for("document.querySelector('#announce').textContent.startsWith('pixel 4, 3: ')");
@@ -536,8 +534,8 @@ fn search_and_filters(browser: &mut Browser) {
     assert_eq!(search(""), all);
     // Keys are letters while something is typed.
     browser.eval("document.querySelector('#search').focus()");
-    browser.press("3");
-    assert_ne!(browser.eval("document.querySelector('#stage').dataset.mode"), json!("side"));
+    browser.press("2");
+    assert_ne!(browser.eval("document.querySelector('rp-view').dataset.mode"), json!("slider"));
     search_by_table(browser);
     browser.eval("document.querySelector('#filters [data-kind=named]').click()");
     let named = browser.names_listed();
@@ -573,7 +571,7 @@ fn narrow_and_still(browser: &mut Browser, page: &Path) {
     browser.resize(1280, 900);
     browser.prefer("prefers-reduced-motion", "reduce");
     browser.open(page, "#case-T2");
-    assert_eq!(browser.eval("document.querySelector('#stage').dataset.paused"), json!("true"));
+    assert_eq!(browser.eval("document.querySelector('rp-view').dataset.paused"), json!("true"));
     let light = browser.picture();
     browser.prefer("prefers-color-scheme", "dark");
     browser.open(page, "#case-T2&mode=blink");
@@ -609,6 +607,15 @@ fn page_shows_a_planted_fault_first() {
     assert!(pickers[0].as_str().unwrap().starts_with("inclusive-edges ("), "{pickers}");
     assert_eq!(pickers[1], "oracle");
     assert!(!browser.text("#agreement").contains("agree in every pixel"));
+    // What is drawn, what is expected and the difference stand side by side, each at the same scale.
+    let panels = browser.eval(
+        "document.querySelector('rp-view').shown.map(({ caption, canvas }) => [caption.textContent.trim(), canvas.clientWidth, canvas.clientHeight])",
+    );
+    let [drawn, expected, difference] = [0, 1, 2].map(|i| panels[i].clone());
+    assert!(drawn[0].as_str().unwrap().contains("inclusive-edges"), "{panels}");
+    assert!(expected[0].as_str().unwrap().contains("oracle"), "{panels}");
+    assert_eq!(difference[0], "difference: A less B");
+    assert!((1..=2).all(|side| drawn[side] == expected[side] && drawn[side] == difference[side]));
     first_screen_is_the_picture(&mut browser, &page);
     // Nobody calls a case with wrong pixels close to a bound.
     let wrong = browser.eval(
@@ -702,7 +709,7 @@ fn page_shows_frames_as_they_are() {
     for (width, height) in [(1280, 720), (1280, 900)] {
         browser.resize(width, height);
         browser.open(&page, "");
-        assert_eq!(browser.eval("document.querySelector('#stage').dataset.cell"), json!("1"));
+        assert_eq!(browser.eval("document.querySelector('rp-view').dataset.cell"), json!("1"));
     }
 }
 
@@ -793,7 +800,42 @@ fn page_takes_every_section_and_any_text() {
     browser.hover(4, 2);
     assert!(browser.text("#about-pixel").contains("A #0a141e, B #c8141e: different"));
     browser.press("3");
-    assert_eq!(browser.eval("document.querySelectorAll('.port canvas').length"), json!(3));
+    assert_eq!(browser.eval("document.querySelectorAll('rp-view .pixels').length"), json!(3));
+}
+
+/// What marks pixels of another picture is not compared with it, and the page says what its colours mean. A plot fills the
+/// window and leaves it again. On paper nothing blinks, and no tool is printed.
+#[test]
+fn page_tells_marks_from_pictures() {
+    let [old, new] = [[10, 20, 30], [200, 20, 30]].map(|c| RgbImage::from_pixel(7, 5, Rgb(c)));
+    let marks = [(Rgb([200, 20, 30]), "where it is wrong")];
+    let layers = vec![PictureLayer::new("picture", &old), PictureLayer::map("marks", &new, &marks)];
+    let frames = vec![PictureView { name: "one".to_owned(), layers, ..PictureView::default() }];
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned();
+    let figures = vec![Figure { caption: "a plot".to_owned(), svg, narrow: None }];
+    let path = folder("page-marks").join("index.html");
+    std::fs::write(&path, page(&Report { frames, figures, ..Report::default() })).unwrap();
+    let Some(mut browser) = Browser::start("marks") else { return };
+    browser.open(&path, "#case-one&mode=side");
+    let panels = "document.querySelector('rp-view').shown.length";
+    assert_eq!(browser.eval(panels), json!(2), "no difference, which would be a red sheet");
+    let legend = browser.eval(
+        "[...document.querySelectorAll('.legend li')].map(li => [li.textContent, getComputedStyle(li.firstChild).backgroundColor])",
+    );
+    assert_eq!(legend, json!([["where it is wrong", "rgb(200, 20, 30)"]]));
+    let wide =
+        "document.querySelector('.plot img').getBoundingClientRect().width > 0.9 * innerWidth";
+    assert_eq!(browser.eval(wide), json!(false));
+    browser.eval("document.querySelector('.plot button').click()");
+    assert_eq!(browser.eval(wide), json!(true));
+    browser.press("Escape");
+    assert_eq!(browser.eval(wide), json!(false));
+    browser.open(&path, "#case-one&mode=blink");
+    browser.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    browser.eval("dispatchEvent(new Event('beforeprint'))");
+    assert_eq!(browser.eval(panels), json!(2));
+    let seen = "[...document.querySelectorAll('button, select')].filter(e => e.checkVisibility() && !e.querySelector('img')).length";
+    assert_eq!(browser.eval(seen), json!(0));
 }
 
 #[test]
@@ -881,7 +923,7 @@ fn page_reviews_a_changed_snapshot() {
             "1 of 559989 pixels of the picture changed, from 20,30 to 20,30"
         );
         browser.press("3");
-        assert_eq!(browser.eval("document.querySelectorAll('.port canvas').length"), json!(3));
+        assert_eq!(browser.eval("document.querySelectorAll('rp-view .pixels').length"), json!(3));
     }
     // The test writes its picture as accepted, and nothing waits any more.
     let (passes, said) = run_its_test(&folder, "always");

@@ -186,7 +186,8 @@ fn playground_shows_every_scene() {
         browser.prefer("prefers-color-scheme", scheme);
         browser.open(&page, &format!("#scene={scene}&lang={lang}"));
         settle(&mut browser);
-        let shown = browser.eval("[state.scene, state.lang, shown.length > 0, last.answer.error]");
+        let shown =
+            browser.eval("[state.scene, state.lang, view.shown.length > 0, last.answer.error]");
         assert_eq!(shown, json!([scene, lang, true, null]));
         assert_eq!(browser.eval("document.getElementById('trouble').hidden"), true);
         for width in [1280, 400] {
@@ -237,7 +238,7 @@ fn playground_survives_any_address() {
     for (address, is_refused) in all {
         browser.open(&page, &format!("{address}&lang=en"));
         settle(&mut browser);
-        let shown = browser.eval("[shown.length > 0, last.answer?.error ?? null]");
+        let shown = browser.eval("[view.shown.length > 0, last.answer?.error ?? null]");
         assert_eq!(shown, json!([true, null]), "{address}");
         let trouble = browser.text("#trouble");
         assert_eq!(trouble.contains("cannot be shown"), is_refused, "{address}: {trouble}");
@@ -292,11 +293,11 @@ fn playground_says_its_command() {
     for (fragment, change, options) in [
         ("#scene=triangle", "", "--plant exclusive-edges"),
         ("#by=oracle,scanline", fan, "--window 0,0,14x14"),
-        ("#by=oracle,edge-function", "(grips()[0].place(-3.5, 2), zoom(1))", "--window"),
+        ("#by=oracle,edge-function", "(grips()[0].place(-3.5, 2), view.zoom(1))", "--window"),
         (free, "", "--exact"),
         (tie, "", "--plant exact-inclusive-ties"),
         ("#case=T2&by=oracle,sysu-inclusive", "", "inspect T2 --specimen sysu-inclusive"),
-        ("#case=T2&by=oracle,scanline", "pan(2, -1)", "--window 2,-1,"),
+        ("#case=T2&by=oracle,scanline", "view.pan(2, -1)", "--window 2,-1,"),
         ("#case=T2&by=oracle,scanline&snap=0", "", "inspect T2 --exact"),
         ("#case=double_row&by=oracle,scanline", "", "--window"),
         ("#case=f32-tie%235&seed=3&by=oracle,scanline", "", "'f32-tie#5' --seed 3"),
@@ -388,7 +389,7 @@ fn playground_opens_cases_of_the_report() {
             "state.by[0] === 'inclusive-edges' && state.named === 'T2' && document.querySelector('#look .say')?.textContent.includes('hit twice')",
         ),
         // So large a window is cut to what the playground can show.
-        ("T2 --window 0,0,300x20", "state.triangles.length === 2 && shown.length === 2"),
+        ("T2 --window 0,0,300x20", "state.triangles.length === 2 && view.shown.length === 2"),
     ] {
         let folder = folder("playground-report-inspect");
         // A page leads to the playground only where that lies beside it.

@@ -13,9 +13,9 @@ use crate::playground::{SCENES, both, opened, settle};
 /// Where what is called `name` lies on panel `i`, in pixels of the tab.
 fn grip(browser: &mut Browser, i: usize, name: &str) -> [f64; 2] {
     let spot = browser.eval(&format!(
-        "(() => {{ const {{ canvas, view }} = shown[{i}]; canvas.scrollIntoView({{ block: 'center' }});
+        "(() => {{ const {{ canvas }} = view.shown[{i}]; canvas.scrollIntoView({{ block: 'center' }});
             const b = canvas.getBoundingClientRect(), g = grips().find(g => g.name === '{name}');
-            return [b.left + view.x(g.x) / view.ratio, b.top + view.y(g.y) / view.ratio]; }})()"
+            return [b.left + (g.x - view.seen[0]) * view.unit, b.top + (g.y - view.seen[1]) * view.unit]; }})()"
     ));
     serde_json::from_value(spot).unwrap()
 }
@@ -24,6 +24,13 @@ pub fn mouse(browser: &mut Browser, kind: &str, [x, y]: [f64; 2]) {
     let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1,
         "clickCount": 1 });
     browser.call("Input.dispatchMouseEvent", event);
+}
+
+/// Gives the keyboard what is called so on the first panel that shows it.
+fn hold(browser: &mut Browser, name: &str) {
+    browser.eval(&format!(
+        "view.querySelector('.knob[data-name=\"{name}\"][tabindex=\"0\"]').focus()"
+    ));
 }
 
 /// Drags from one place to another with the mouse.
@@ -59,7 +66,7 @@ fn playground_follows_the_mouse() {
     let Some((mut browser, page)) = opened("mouse") else { return };
     browser.open(&page, "#lang=en");
     settle(&mut browser);
-    let picture = "shown[0].canvas.toDataURL()";
+    let picture = "view.shown[0].canvas.toDataURL()";
     let before = browser.eval(picture);
     let spot = grip(&mut browser, 0, "B");
     drag(&mut browser, spot, [-60.0, 40.0]);
@@ -80,14 +87,14 @@ fn playground_follows_the_mouse() {
     ] {
         browser.eval(&format!("document.getElementById('rule-{rule}').click()"));
         settle(&mut browser);
-        let verdict = browser.text("#panels figure:nth-child(2) output");
+        let verdict = browser.text("rp-view figure:nth-child(2) output");
         assert!(verdict.contains(says), "{rule}: {verdict}");
         assert!(browser.text("#look .say").contains(why), "{rule}");
     }
     // Both are shown against each other too.
     browser.eval("(state.by[1] = 'exclusive-edges', document.querySelector('[data-state=difference]').click())");
     settle(&mut browser);
-    assert_eq!(browser.text("#panels figure:nth-child(3) output"), "22 pixels differ");
+    assert_eq!(browser.text("rp-view figure:nth-child(3) output"), "22 pixels differ");
 }
 
 /// w of a corner and the near plane are dragged on the picture, by mouse, finger and keys; sliders follow.
@@ -97,7 +104,7 @@ fn playground_drags_values() {
     let Some((mut browser, page)) = opened("values") else { return };
     browser.open(&page, "#scene=perspective&lang=en");
     settle(&mut browser);
-    let picture = "shown[0].canvas.toDataURL()";
+    let picture = "view.shown[0].canvas.toDataURL()";
     let before = browser.eval(picture);
     let spot = grip(&mut browser, 0, "w A");
     // Toward the middle of the picture, which is farther from the eye.
@@ -115,10 +122,8 @@ fn playground_drags_values() {
     assert!((x - spot[0] - 40.0).hypot(y - spot[1] + 40.0) < 8.0, "{spot:?} to {x}, {y}");
     let slider = "Number(document.querySelector('#tools input[type=range]').value)";
     assert_eq!(browser.eval(slider), ws[0]);
-    // By keys: from one grip to the next, and along.
-    browser.eval("(shown[0].canvas.focus(), state.chosen = 3)");
-    browser.press("]");
-    browser.press("]");
+    // By keys.
+    hold(&mut browser, "w B");
     let chosen = "grips()[state.chosen].says";
     assert_eq!(browser.eval(chosen), "w B = 4");
     press(&mut browser, "ArrowUp", 38, 0);
@@ -151,15 +156,15 @@ fn playground_drags_values() {
     settle(&mut browser);
     assert!(browser.eval("state.points[2][2]").as_f64().unwrap() < 0.0, "behind the eye");
     assert_eq!(browser.eval(on_screen), places, "along its ray");
-    browser.eval("(shown[0].canvas.focus(), state.near = 1)");
-    browser.press("]");
+    browser.eval("(state.near = 1, redraw())");
+    settle(&mut browser);
+    hold(&mut browser, "near plane");
     assert_eq!(browser.eval(chosen), "near plane = 1");
     press(&mut browser, "ArrowRight", 39, 8);
     assert_eq!(browser.eval("state.near"), 1.1);
-    // On a panel of the screen the arrows move what lies there.
-    browser.eval("shown[1].canvas.focus()");
-    press(&mut browser, "ArrowDown", 40, 0);
-    assert_eq!(browser.eval("grips()[state.chosen].name"), "A");
+    // Each panel has the grips that lie there.
+    let grips = browser.eval("view.shown.map(p => p.grips.map(g => g.dataset.name).join())");
+    assert_eq!(grips, json!(["w A,w B,w C,near plane", "A,B,C", "A,B,C", "A,B,C"]));
 }
 
 /// Whatever takes the focus has a role, a name and, where it has one, a value, as a screen reader is told.
@@ -201,7 +206,7 @@ fn playground_names_every_control() {
         }
         // What changes is said: what is dragged, what each panel makes of it, why.
         let said = browser.text("#announce");
-        let panels = browser.eval("shown.map(p => p.canvas.getAttribute('aria-label'))");
+        let panels = browser.eval("view.shown.map(p => p.canvas.getAttribute('aria-label'))");
         for panel in panels.as_array().unwrap() {
             assert!(said.contains(panel.as_str().unwrap()), "{scene}: {panel} in {said}");
         }
@@ -232,7 +237,7 @@ fn playground_frames_are_timed() {
          &by=scanline,exclusive-edges,oracle,games101-strict",
     );
     settle(&mut browser);
-    assert_eq!(browser.eval("shown.length"), 4);
+    assert_eq!(browser.eval("view.shown.length"), 4);
     let [x, y] = grip(&mut browser, 0, "B");
     mouse(&mut browser, "mousePressed", [x, y]);
     browser.call("Performance.enable", json!({ "timeDomain": "threadTicks" }));
@@ -245,7 +250,7 @@ fn playground_frames_are_timed() {
     let seconds = browser.eval(&format!(
         "(async () => {{
             const next = () => new Promise(requestAnimationFrame);
-            const [{{ canvas }}] = shown;
+            const {{ frame: canvas }} = view.shown[0];
             frames.length = 0;
             const begun = await next();
             for (let i = 0; i < 120; i++) {{
@@ -304,7 +309,7 @@ fn playground_needs_no_mouse() {
     browser.open(&page, "#lang=en");
     settle(&mut browser);
     let controls = browser.eval(
-        "[...document.querySelectorAll('button, select, input, canvas, summary')]
+        "[...document.querySelectorAll('button, select, input, .pixels, .knob[tabindex=\"0\"], summary')]
             .filter(e => e.checkVisibility()).length",
     );
     let mut reached = BTreeSet::new();
@@ -316,14 +321,12 @@ fn playground_needs_no_mouse() {
         reached.insert(tag.as_str().unwrap().to_owned());
     }
     let missed = browser.eval(
-        "[...document.querySelectorAll('button, select, input, canvas, summary')]
+        "[...document.querySelectorAll('button, select, input, .pixels, .knob[tabindex=\"0\"], summary')]
             .filter(e => e.checkVisibility() && !seen.has(e)).map(e => e.outerHTML.slice(0, 90))",
     );
     assert_eq!(missed, json!([]), "not reached by Tab; reached {reached:?}");
-    browser.eval("shown[0].canvas.focus()");
     let corner = "[handles()[state.chosen].x, handles()[state.chosen].y]";
-    // Tab went through the numbers of the corners, and chose the last one.
-    browser.press("]");
+    hold(&mut browser, "A");
     assert_eq!(browser.eval(corner), json!([2.5, 2.5]));
     press(&mut browser, "ArrowRight", 39, 0);
     press(&mut browser, "ArrowDown", 40, 8);
@@ -332,10 +335,10 @@ fn playground_needs_no_mouse() {
     settle(&mut browser);
     let heard = browser.text("#announce");
     assert!(heard.contains("A 3.5, 2.50390625") && heard.contains("as the oracle"), "{heard}");
-    browser.press("]");
+    hold(&mut browser, "B");
     press(&mut browser, "ArrowLeft", 37, 0);
     assert_eq!(browser.eval(corner), json!([9.5, 2.5]));
-    browser.press("p");
+    browser.eval("view.shown[0].canvas.focus()");
     press(&mut browser, "ArrowDown", 40, 0);
     assert_eq!(browser.eval("state.px"), json!([6, 7]));
     browser.press("+");

@@ -407,6 +407,41 @@ fn site_figures_do_not_wait_for_engines() {
     }
 }
 
+/// On a phone a table keeps the name of a row in sight, and at least half of the width for its numbers. The league shows
+/// scores before dates, and all of its columns on a desktop.
+#[test]
+#[ignore = "needs docs/build"]
+fn site_tables_can_be_read() {
+    let Some(mut browser) = Browser::start("site-tables") else { return };
+    let root = site();
+    browser.resize(360, 740);
+    for page in ["en/league.html", "zh/league.html", "en/effects.html"] {
+        go(&mut browser, &root, page);
+        let seen = browser.eval(
+            "(() => {
+                const wide = [...document.querySelectorAll('.table-wrapper')].filter(t => t.scrollWidth > t.clientWidth);
+                return wide.map(table => {
+                    table.scrollLeft = 1e6;
+                    const box = table.getBoundingClientRect(), name = table.querySelector('tbody :is(td, th)').getBoundingClientRect();
+                    return Math.abs(name.left - box.left) < 2 && name.width < 0.5 * box.width;
+                });
+            })()",
+        );
+        let seen: Vec<bool> = serde_json::from_value(seen).unwrap();
+        assert!(!seen.is_empty() && seen.iter().all(|seen| *seen), "{page}: {seen:?}");
+    }
+    browser.resize(1280, 900);
+    go(&mut browser, &root, "en/league.html");
+    let heads = browser.eval(
+        "[...document.querySelectorAll('table')[0].querySelectorAll('th')].map(h => h.textContent)",
+    );
+    assert_eq!([&heads[0], &heads[1], &heads[9]], ["library", "as is", "version"], "{heads}");
+    let cut =
+        "[...document.querySelectorAll('.table-wrapper')].map(t => t.scrollWidth - t.clientWidth)";
+    assert_eq!(browser.eval(cut)[0], json!(0), "nothing of the league is cut");
+    assert_eq!(browser.eval("document.documentElement.scrollWidth <= innerWidth"), true);
+}
+
 /// A server's page for an address that leads nowhere offers the page that was probably meant.
 #[test]
 #[ignore = "needs docs/build"]

@@ -401,8 +401,13 @@ fn pages_begin_with_the_answer_as_a_picture() {
         folder.check(&*format!("{command} m.obj --size 64x48 --once --report --out ."), 0);
         let page = folder.text(&format!("{command}.html"));
         let place = |what: &str| page.find(what).unwrap_or_else(|| panic!("{command}: {what}"));
-        let places =
-            ["<h1>", "<p class=\"pictured\">", "<figure>", "<p class=\"quiet\">", "<details>"];
+        let places = [
+            "<h1>",
+            "<p class=\"pictured\">",
+            "<figure class=\"plot\">",
+            "<p class=\"quiet\">",
+            "<details>",
+        ];
         assert!(places.map(place).is_sorted(), "{command}: {:?}", places.map(place));
         let picture = &page[place("<img src=\"data:image/svg+xml;base64,")..];
         let svg = picture.split_once("base64,").unwrap().1.split_once('"').unwrap().0;

@@ -129,7 +129,7 @@ function command() {
   if (!state.snap && !names.offFamilies.some(({ name }) => name === state.generated?.family)) words.push('--exact');
   const [x0, y0, x1, y1] = state.window;
   // A recorded input has a screen of its own; what is larger than a panel was cut.
-  const isWhole = side() < SIDES.at(-1) && !names.recorded.some(({ name }) => name === state.named);
+  const isWhole = side() < MOST_PX && !names.recorded.some(({ name }) => name === state.named);
   if (!(isWhole && String(state.own) === String(state.window) && (state.named || state.generated))) {
     words.push(`--window ${x0},${y0},${x1 - x0}x${y1 - y0}`);
   }
@@ -141,15 +141,7 @@ function command() {
 }
 
 async function copy(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    const area = make('textarea', { value: text });
-    document.body.append(area);
-    area.select();
-    document.execCommand('copy');
-    area.remove();
-  }
+  await copyText(text);
   $('copied').textContent = word('copied');
   setTimeout(() => { $('copied').textContent = ''; }, 1500);
 }

@@ -1,15 +1,21 @@
-// The page draws what the compiled engines answer, and listens. It computes no pixel of its own.
-// The compiled module: questions and answers.
+// The compiled module: questions and answers. The page draws what it answers, and computes no pixel of its own.
+
+const word = (key) => WORDS[state.lang][key] ?? key;
 
 let engines = null;
 let compiled = null;
 
-function instantiate() {
+const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+
+/** Starts the engines; those of a module that stopped are started again. */
+function instantiate(module = compiled) {
+  compiled = module;
   engines = new WebAssembly.Instance(compiled, {}).exports;
+  return engines;
 }
 
 /**
- * Asks the engines; an answer, or an error as its text. A module that stopped is started again. Pixels are bytes of ASCII, and
+ * Asks the engines; an answer, or an error as its text. Pixels are bytes of ASCII, and
  * become the text `pixels` of the question without being copied through one.
  */
 function ask(question, pixels) {
@@ -29,6 +35,6 @@ function ask(question, pixels) {
     return JSON.parse(new TextDecoder().decode(bytes));
   } catch (error) {
     instantiate();
-    return { error: `${word('crash')} (${error.message})` };
+    return { error: `The engine stopped, and was started again. 引擎停了，已重新启动。 (${error.message})` };
   }
 }

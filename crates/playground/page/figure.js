@@ -1,4 +1,3 @@
-'use strict';
 // Live figures: <rp-figure scene="NAME"> around a still picture with its caption. The compiled engines draw and judge
 // (crates/wasm/src/figures); this script inserts what they answer and passes on what the reader does. They are
 // loaded before the first figure comes into view, from engines.js beside this script, which calls
@@ -6,361 +5,280 @@
 // element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
 // inside a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
 // A figure that is `open` begins with its answer.
-(() => {
-  const WORDS = {
-    en: {
-      check: 'Check', show: 'Show the answer', again: 'Ask me again', open: 'The same in the playground', number: 'Your number',
-      mark: 'Mark the pixels, then check. ', drag: 'Drag the blue points, or move them by arrow keys: ', pixel: (x, y) => `column ${x}, row ${y}`,
-      right: 'Right.', missed: (n) => `not marked but right: ${n}`, wrong: (n) => `marked but wrong: ${n}`, no: (right) => `No: ${right}.`,
-      lost: 'The live figure could not be loaded; this is its picture.',
-    },
-    zh: {
-      check: '检查', show: '显示答案', again: '再问我一次', open: '在试验场中打开', number: '你的数',
-      mark: '标出像素，然后检查。', drag: '拖动蓝点，或用方向键移动：', pixel: (x, y) => `第 ${x} 列，第 ${y} 行`,
-      right: '对。', missed: (n) => `漏标：${n}`, wrong: (n) => `错标：${n}`, no: (right) => `不对，是 ${right}。`,
-      lost: '互动图无法载入，这里是它的静态图。',
-    },
-  };
-  const STYLE = `
-    :host { display: block; margin: 1.5em 0; }
-    figure { margin: 0 auto; max-width: 34em; border: 1px solid #8885; border-radius: 8px; padding: 0.7em; box-sizing: border-box; }
-    p { margin: 0.4em 0; }
-    .question { font-weight: 600; margin-top: 0; }
-    .stage { position: relative; touch-action: manipulation; user-select: none; -webkit-user-select: none; }
-    .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
-    svg { display: block; width: 100%; border-radius: 4px; }
-    .stage > button, .stage > [role=slider], .mark { position: absolute; box-sizing: border-box; padding: 0; margin: 0; background: none; border: 0; border-radius: 0; }
-    .stage > button { cursor: pointer; }
-    .stage > button:hover { background: #0b57d033; }
-    .stage > button[aria-pressed=true] { background: #0b57d055; box-shadow: inset 0 0 0 3px #0b57d0; }
-    .mark { pointer-events: none; box-shadow: inset 0 0 0 3px #0b57d0; }
-    .mark.no { box-shadow: inset 0 0 0 3px #b3261e; }
-    [role=slider] { width: 44px; height: 44px; transform: translate(-50%, -50%); border-radius: 50%; cursor: grab; touch-action: none; }
-    [role=slider]:active { cursor: grabbing; }
-    :focus-visible { outline: 3px solid #0b57d0; outline-offset: 1px; z-index: 1; }
-    :host([data-dark]) :focus-visible { outline-color: #7fb0ff; }
-    .controls { display: flex; flex-wrap: wrap; gap: 0.4em; align-items: center; margin: 0.5em 0; }
-    .controls button, .controls input { font: inherit; font-size: 0.95em; color: inherit; background: #8881; border: 1px solid #888a; border-radius: 6px; padding: 0.35em 0.7em; min-height: 2.4em; text-align: start; }
-    .controls button { cursor: pointer; }
-    .controls button:hover { background: #8884; }
-    .controls input { width: 5.5em; box-sizing: border-box; }
-    .verdict:empty, .hint:empty, .answer:empty, .controls:empty { display: none; }
-    .verdict { font-weight: 600; }
-    .hint, .links { font-size: 0.9em; opacity: 0.85; }
-    a { color: inherit; }
-    [hidden] { display: none; }
-    @media print { figure { display: none; } slot[hidden] { display: contents; } }
-  `;
-  const own = document.currentScript;
-  const beside = (name) => new URL(name, own.src).href;
+import { arrowOf, button, make } from './dom.js';
 
-  let module = null;
-  /** The compiled engines, loaded once for all figures. */
-  function engines() {
-    module ??= new Promise((resolve, reject) => {
-      globalThis.rasterproofEngines = resolve;
-      document.head.append(Object.assign(document.createElement('script'), { src: beside('engines.js'), onerror: reject }));
-    }).then(async (text) => {
-      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-      return WebAssembly.compile(bytes);
-    }).then((compiled) => WebAssembly.instantiate(compiled, {})).then(({ exports }) => exports);
-    return module;
+const WORDS = {
+  en: {
+    check: 'Check', show: 'Show the answer', again: 'Ask me again', open: 'The same in the playground', number: 'Your number',
+    mark: 'Mark the pixels, then check. ', drag: 'Drag the blue points, or move them by arrow keys: ', pixel: (x, y) => `column ${x}, row ${y}`,
+    right: 'Right.', missed: (n) => `not marked but right: ${n}`, wrong: (n) => `marked but wrong: ${n}`, no: (right) => `No: ${right}.`,
+    lost: 'The live figure could not be loaded; this is its picture.',
+  },
+  zh: {
+    check: '检查', show: '显示答案', again: '再问我一次', open: '在试验场中打开', number: '你的数',
+    mark: '标出像素，然后检查。', drag: '拖动蓝点，或用方向键移动：', pixel: (x, y) => `第 ${x} 列，第 ${y} 行`,
+    right: '对。', missed: (n) => `漏标：${n}`, wrong: (n) => `错标：${n}`, no: (right) => `不对，是 ${right}。`,
+    lost: '互动图无法载入，这里是它的静态图。',
+  },
+};
+const STYLE = `
+  :host { display: block; margin: 1.5em 0; color-scheme: light; }
+  .whole { margin: 0 auto; max-width: 34em; border: 1px solid #8885; border-radius: 8px; padding: 0.7em; box-sizing: border-box; }
+  p { margin: 0.4em 0; }
+  :is(.question, .verdict) { font-weight: 600; margin-top: 0; }
+  :host([data-dark]) { color-scheme: dark; }
+  rp-view { touch-action: manipulation; }
+  rp-view .frame { border-color: transparent; }
+  rp-view:not(.is-wide) { position: relative; }
+  rp-view:not(.is-wide) .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
+  rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
+  .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
+  rp-view .frame > button:hover { background: #0b57d033; }
+  rp-view .frame > button[aria-pressed=true] { background: #0b57d055; box-shadow: inset 0 0 0 3px #0b57d0; }
+  rp-view .mark { pointer-events: none; box-shadow: inset 0 0 0 3px #0b57d0; }
+  rp-view .mark.no { box-shadow: inset 0 0 0 3px #b3261e; }
+  .controls { display: flex; flex-wrap: wrap; gap: 0.4em; align-items: center; margin: 0.5em 2.5em 0.5em 0; min-height: 2.4em; }
+  .controls button { text-align: start; min-height: 2.4em; }
+  .controls input { width: 5.5em; box-sizing: border-box; }
+  .verdict:empty, .hint:empty, .answer:empty { display: none; }
+  .hint, .links { font-size: 0.9em; opacity: 0.85; }
+  a { color: inherit; }
+  @media print { .whole { display: none; } slot[hidden] { display: contents !important; } }
+`;
+const own = document.currentScript;
+const beside = (name) => new URL(name, own.src).href;
+
+let module = null;
+/** The compiled engines, loaded once for all figures. */
+const loaded = () => (module ??= new Promise((resolve, reject) => {
+  globalThis.rasterproofEngines = resolve;
+  document.head.append(make('script', { src: beside('engines.js'), onerror: reject }));
+}).then((text) => WebAssembly.compile(bytesOf(text))).then(instantiate));
+
+/** Whether the page around an element is dark, whatever made it so. */
+function isDark(element) {
+  for (let e = element; e; e = e.parentElement) {
+    const [r, g, b, a = 1] = getComputedStyle(e).backgroundColor.match(/[\d.]+/g)?.map(Number) ?? [0, 0, 0, 0];
+    if (a > 0.5) return 0.3 * r + 0.6 * g + 0.1 * b < 128;
+  }
+  return matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+// A screen before it is seen.
+const watching = new IntersectionObserver((entries) => {
+  for (const { isIntersecting, target } of entries) {
+    if (!isIntersecting) continue;
+    watching.unobserve(target);
+    target.begin();
+  }
+}, { rootMargin: '100% 0px' });
+const live = new Set();
+const redraw = () => { for (const figure of live) figure.draw(); };
+new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+
+class Figure extends HTMLElement {
+  connectedCallback() {
+    if (this.shadowRoot) return;
+    this.language = (this.closest('[lang]')?.lang ?? '').startsWith('zh') ? 'zh' : 'en';
+    this.words = WORDS[this.language];
+    this.question = make('p', { className: 'question', id: 'question', textContent: this.querySelector('strong')?.textContent ?? '' });
+    this.view = make('rp-view');
+    this.stage = make('div', { className: 'stage waits' }, this.view);
+    this.controls = make('div', { className: 'controls' });
+    this.verdict = make('p', { className: 'verdict', role: 'status' });
+    this.says = make('p', { className: 'answer', 'aria-live': 'polite' });
+    this.hint = make('p', { className: 'hint' });
+    this.link = make('a', { textContent: this.words.open });
+    this.links = make('p', { className: 'links', hidden: true }, this.link);
+    this.figure = make('figure', { className: 'whole', 'aria-labelledby': 'question' },
+      this.question, this.stage, this.controls, this.verdict, this.says, this.hint, this.links);
+    this.still = make('slot', { hidden: true });
+    this.attachShadow({ mode: 'open' }).append(make('style', { textContent: VIEW_STYLE + STYLE }), this.figure, this.still);
+    this.at = [];
+    this.covers = [];
+    this.isAnswered = this.hasAttribute('open');
+    watching.observe(this);
+    if (this.takeFirst() || document.readyState !== 'loading') return;
+    // The page is still being read, and what is inside the figure comes behind its beginning.
+    const reading = new MutationObserver(() => { if (this.takeFirst()) reading.disconnect(); });
+    reading.observe(this, { childList: true });
   }
 
-  /** Asks the engines: a question and its answer are JSON. */
-  function ask(exports, question) {
-    const text = new TextEncoder().encode(JSON.stringify(question));
-    const at = exports.room(text.length);
-    new Uint8Array(exports.memory.buffer, at, text.length).set(text);
-    const length = exports.answer();
-    return JSON.parse(new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), length)));
+  /** Shows the first answer that the page holds; whether it holds one. */
+  takeFirst() {
+    const first = this.querySelector('script[type="application/json"]');
+    // A page that is being read may hold only the beginning of it.
+    if (!first || (!first.nextSibling && document.readyState === 'loading')) return false;
+    this.first = JSON.parse(first.textContent);
+    live.add(this);
+    this.begun();
+    return true;
   }
 
-  function make(tag, properties = {}, ...children) {
-    const { attr = {}, ...rest } = properties;
-    const element = Object.assign(document.createElement(tag), rest);
-    for (const [name, value] of Object.entries(attr)) element.setAttribute(name, value);
-    element.append(...children);
-    return element;
-  }
-
-  /** Whether the page around an element is dark, whatever made it so. */
-  function isDark(element) {
-    for (let e = element; e; e = e.parentElement) {
-      const [r, g, b, a = 1] = getComputedStyle(e).backgroundColor.match(/[\d.]+/g)?.map(Number) ?? [0, 0, 0, 0];
-      if (a > 0.5) return 0.3 * r + 0.6 * g + 0.1 * b < 128;
-    }
-    return matchMedia('(prefers-color-scheme: dark)').matches;
-  }
-
-  // A screen before it is seen.
-  const watching = new IntersectionObserver((entries) => {
-    for (const { isIntersecting, target } of entries) {
-      if (!isIntersecting) continue;
-      watching.unobserve(target);
-      target.begin();
-    }
-  }, { rootMargin: '100% 0px' });
-  const live = new Set();
-  const redraw = () => { for (const figure of live) figure.draw(); };
-  new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
-
-  class Figure extends HTMLElement {
-    connectedCallback() {
-      if (this.shadowRoot) return;
-      this.language = (this.closest('[lang]')?.lang ?? '').startsWith('zh') ? 'zh' : 'en';
-      this.words = WORDS[this.language];
-      this.question = make('p', { className: 'question', id: 'question', textContent: this.querySelector('strong')?.textContent ?? '' });
-      this.stage = make('div', { className: 'stage waits' });
-      this.picture = make('div', { attr: { role: 'img', 'aria-hidden': 'true' } });
-      this.controls = make('div', { className: 'controls' });
-      this.verdict = make('p', { className: 'verdict', attr: { role: 'status' } });
-      this.says = make('p', { className: 'answer', attr: { 'aria-live': 'polite' } });
-      this.hint = make('p', { className: 'hint' });
-      this.link = make('a', { textContent: this.words.open });
-      this.links = make('p', { className: 'links', hidden: true }, this.link);
-      this.figure = make('figure', { attr: { 'aria-labelledby': 'question' } },
-        this.question, this.stage, this.controls, this.verdict, this.says, this.hint, this.links);
-      this.still = make('slot', { hidden: true });
-      this.attachShadow({ mode: 'open' }).append(make('style', { textContent: STYLE }), this.figure, this.still);
-      this.stage.append(this.picture);
-      this.at = [];
-      this.isAnswered = this.hasAttribute('open');
-      watching.observe(this);
-      if (this.takeFirst() || document.readyState !== 'loading') return;
-      // The page is still being read, and what is inside the figure comes behind its beginning.
-      const reading = new MutationObserver(() => { if (this.takeFirst()) reading.disconnect(); });
-      reading.observe(this, { childList: true });
-    }
-
-    /** Shows the first answer that the page holds; whether it holds one. */
-    takeFirst() {
-      const first = this.querySelector('script[type="application/json"]');
-      // A page that is being read may hold only the beginning of it.
-      if (!first || (!first.nextSibling && document.readyState === 'loading')) return false;
-      this.first = JSON.parse(first.textContent);
+  /** Loads the engines; whether they are there. */
+  async begin() {
+    try {
+      this.exports ??= await loaded();
       live.add(this);
-      this.begun();
+      if (this.first) this.draw();
+      else this.begun();
       return true;
-    }
-
-    /** Loads the engines; whether they are there. */
-    async begin() {
-      try {
-        this.exports ??= await engines();
-        live.add(this);
-        if (this.first) this.draw();
-        else this.begun();
-        return true;
-      } catch (error) {
-        live.delete(this);
-        console.warn(`rp-figure ${this.getAttribute('scene')}: ${error?.message ?? 'engines.js could not be loaded'}`);
-        this.figure.replaceChildren(make('p', { className: 'hint', textContent: this.words.lost }));
-        this.still.hidden = false;
-        return false;
-      }
-    }
-
-    /** Draws the beginning. */
-    begun() {
-      this.draw();
-      if (this.isAnswered) this.answered('');
-      else this.invite();
-    }
-
-    /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
-    answer(isDark) {
-      if (!this.exports) return this.first[isDark ? 'dark' : 'light'];
-      return ask(this.exports, {
-        ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: isDark,
-      });
-    }
-
-    /** Draws the figure for where its grips are. */
-    draw() {
-      const dark = isDark(this);
-      this.toggleAttribute('data-dark', dark);
-      const answer = this.answer(dark);
-      if (answer.error) throw new Error(answer.error);
-      this.now = answer;
-      this.at = answer.at;
-      // What is shown is for these positions: the test compares both.
-      this.dataset.at = JSON.stringify(answer.at);
-      this.stage.classList.remove('waits');
-      this.picture.innerHTML = answer.svg;
-      this.question.textContent = answer.question;
-      this.says.textContent = this.isAnswered ? answer.answer : '';
-      this.link.href = (own.dataset.playground ?? beside('playground.html')) + answer.link + (this.language === 'zh' ? '&lang=zh' : '');
-      answer.grips.forEach((grip, i) => this.placeGrip(grip, i));
-    }
-
-    over(element, x, y) {
-      const [, , width, height] = this.picture.firstChild.getAttribute('viewBox').split(' ').map(Number);
-      element.style.left = `${(100 * x) / width}%`;
-      element.style.top = `${(100 * y) / height}%`;
-      return { width, height };
-    }
-
-    /** Puts what covers a pixel of the picture over it. */
-    cover(element, [x, y, side]) {
-      const { width, height } = this.over(element, x, y);
-      element.style.width = `${(100 * side) / width}%`;
-      element.style.height = `${(100 * side) / height}%`;
-      return element;
-    }
-
-    clear() {
-      for (const element of this.stage.querySelectorAll('button, .mark')) element.remove();
-      this.controls.replaceChildren();
-      this.verdict.textContent = '';
-    }
-
-    button(label, act, attr = {}) {
-      const made = make('button', { type: 'button', textContent: label, attr });
-      made.addEventListener('click', act);
-      return made;
-    }
-
-    /** Asks for a prediction: nothing else can be done before. */
-    invite() {
-      const { predict } = this.now;
-      this.clear();
-      this.links.hidden = true;
-      this.hint.textContent = predict.kind === 'pixels' ? this.words.mark : '';
-      const show = this.button(this.words.show, () => this.reveal(''));
-      if (predict.kind === 'pixels') {
-        const cells = predict.cells.map((cell, i) => this.cover(make('button', {
-          type: 'button', tabIndex: i === 0 ? 0 : -1, attr: { 'aria-pressed': 'false', 'aria-label': this.words.pixel(cell[3], cell[4]) },
-        }), cell));
-        cells.forEach((button, i) => {
-          button.addEventListener('click', () => button.setAttribute('aria-pressed', String(button.getAttribute('aria-pressed') !== 'true')));
-          button.addEventListener('keydown', (event) => this.walk(event, cells, i));
-        });
-        this.stage.append(...cells);
-        this.controls.append(this.button(this.words.check, () => this.judgePixels(cells)), show);
-      } else if (predict.kind === 'choice') {
-        this.controls.append(...predict.options.map((option, i) => this.button(option, () => {
-          this.reveal(i === predict.right ? this.words.right : this.words.no(predict.options[predict.right]));
-        })), show);
-      } else {
-        const input = make('input', { type: 'number', step: 'any', inputMode: 'decimal', attr: { 'aria-label': this.words.number } });
-        const judge = () => {
-          if (input.value === '') { input.focus(); return; }
-          const right = Number(input.value).toFixed(predict.decimals) === predict.right;
-          this.reveal(right ? this.words.right : this.words.no(predict.right));
-        };
-        input.addEventListener('keydown', (event) => { if (event.key === 'Enter') judge(); });
-        this.controls.append(input, this.button(this.words.check, judge), show);
-      }
-    }
-
-    /** The direction of an arrow key, which the page around the figure then does not get: a book turns its pages by arrows. */
-    arrow(event) {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-      if (step) {
-        event.preventDefault();
-        event.stopPropagation();
-      }
-      return step;
-    }
-
-    /** Arrow keys go from pixel to pixel. */
-    walk(event, buttons, i) {
-      const step = this.arrow(event);
-      if (!step) return;
-      const { cells } = this.now.predict;
-      const next = cells.findIndex((cell) => cell[3] === cells[i][3] + step[0] && cell[4] === cells[i][4] + step[1]);
-      if (next < 0) return;
-      buttons[i].tabIndex = -1;
-      buttons[next].tabIndex = 0;
-      buttons[next].focus();
-    }
-
-    async judgePixels(buttons) {
-      const { right, cells } = this.now.predict;
-      const marked = buttons.map((button) => button.getAttribute('aria-pressed') === 'true');
-      const wrong = marked.filter((mark, i) => mark && !right[i]).length;
-      const missed = marked.filter((mark, i) => !mark && right[i]).length;
-      const says = [wrong && this.words.wrong(wrong), missed && this.words.missed(missed)].filter(Boolean).join(', ');
-      await this.reveal(says ? `${says}.` : this.words.right);
-      this.stage.append(...cells.flatMap((cell, i) => (marked[i] ? [this.cover(make('div', { className: right[i] ? 'mark' : 'mark no' }), cell)] : [])));
-    }
-
-    /** Shows the answer with what is said about the prediction; from now on the grips can be dragged. */
-    async reveal(verdict) {
-      if (!this.exports && !await this.begin()) return;
-      this.isAnswered = true;
-      this.draw();
-      this.answered(verdict);
-      this.controls.lastElementChild.focus({ preventScroll: true });
-    }
-
-    /** What stands below the answer. */
-    answered(verdict) {
-      this.clear();
-      this.verdict.textContent = verdict;
-      const names = this.now.grips.map((grip) => grip.name).join(this.language === 'zh' ? '、' : ', ');
-      this.hint.textContent = `${this.words.drag}${names}${this.language === 'zh' ? '。' : '.'}`;
-      this.links.hidden = false;
-      const again = this.button(this.words.again, () => {
-        this.isAnswered = false;
-        for (const grip of this.stage.querySelectorAll('[role=slider]')) grip.remove();
-        this.draw();
-        this.invite();
-        this.stage.querySelector('button')?.focus();
-      });
-      this.controls.append(again);
-    }
-
-    placeGrip(grip, i) {
-      if (!this.isAnswered) return;
-      let handle = this.stage.querySelectorAll('[role=slider]')[i];
-      if (!handle) {
-        handle = make('div', { tabIndex: 0, attr: { role: 'slider', 'aria-label': grip.name } });
-        this.listen(handle, i);
-        this.stage.append(handle);
-      }
-      this.over(handle, ...grip.spot);
-      const axis = grip.scale[0] ? 0 : 1;
-      const says = grip.scale.every(Boolean) ? grip.value.join(', ') : String(grip.value[axis]);
-      const attributes = { valuemin: grip.low[axis], valuemax: grip.high[axis], valuenow: grip.value[axis], valuetext: says };
-      for (const [name, value] of Object.entries(attributes)) handle.setAttribute(`aria-${name}`, value);
-    }
-
-    listen(handle, i) {
-      let from = null; // where the pointer and the grip were when it was taken
-      handle.addEventListener('pointerdown', (event) => {
-        handle.setPointerCapture(event.pointerId);
-        from = { x: event.clientX, y: event.clientY, value: [...this.at[i]] };
-      });
-      handle.addEventListener('pointermove', (event) => {
-        if (!from) return;
-        const zoom = Number(this.picture.firstChild.viewBox.baseVal.width) / this.picture.clientWidth;
-        const moved = [event.clientX - from.x, event.clientY - from.y];
-        const { scale } = this.now.grips[i];
-        this.move(i, from.value.map((value, axis) => (scale[axis] ? value + (moved[axis] * zoom) / scale[axis] : value)));
-      });
-      for (const ends of ['pointerup', 'pointercancel']) handle.addEventListener(ends, () => { from = null; });
-      handle.addEventListener('keydown', (event) => {
-        const step = this.arrow(event);
-        if (!step) return;
-        const { step: size, scale } = this.now.grips[i];
-        // Where it moves along one axis only, both pairs of arrows move it: up and right are one way, down and left the other.
-        const [sx, sy] = scale.map(Math.sign);
-        const along = sx && sy ? [step[0] * sx, step[1] * sy] : [(step[0] - step[1]) * sx, (step[1] - step[0]) * sy];
-        this.move(i, this.at[i].map((value, axis) => value + along[axis] * size));
-      });
-    }
-
-    move(i, value) {
-      if (!this.exports) return;
-      this.at = this.at.map((old, k) => (k === i ? value : old));
-      for (const mark of this.stage.querySelectorAll('.mark')) mark.remove();
-      this.verdict.textContent = '';
-      this.draw();
+    } catch (error) {
+      live.delete(this);
+      console.warn(`rp-figure ${this.getAttribute('scene')}: ${error?.message ?? 'engines.js could not be loaded'}`);
+      this.figure.replaceChildren(make('p', { className: 'hint', textContent: this.words.lost }));
+      this.still.hidden = false;
+      return false;
     }
   }
 
-  customElements.define('rp-figure', Figure);
-})();
+  /** Draws the beginning. */
+  begun() {
+    this.draw();
+    if (this.isAnswered) this.answered('');
+    else this.invite();
+  }
+
+  /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
+  answer(isDark) {
+    if (!this.exports) return this.first[isDark ? 'dark' : 'light'];
+    return ask({
+      ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: isDark,
+    });
+  }
+
+  /** Draws the figure for where its grips are. */
+  draw() {
+    const dark = isDark(this);
+    this.toggleAttribute('data-dark', dark);
+    const answer = this.answer(dark);
+    if (answer.error) throw new Error(answer.error);
+    this.now = answer;
+    this.at = answer.at;
+    // What is shown is for these positions: the test compares both.
+    this.dataset.at = JSON.stringify(answer.at);
+    this.stage.classList.remove('waits');
+    this.question.textContent = answer.question;
+    this.says.textContent = this.isAnswered ? answer.answer : '';
+    this.link.href = (own.dataset.playground ?? beside('playground.html')) + answer.link + (this.language === 'zh' ? '&lang=zh' : '');
+    this.show();
+  }
+
+  /** The picture with what lies on it; before the answer nothing can be dragged. */
+  show() {
+    const { svg, alt } = this.now;
+    const part = svg.match(/viewBox="([^"]*)"/)[1].split(' ').map(Number);
+    this.view.show({
+      part, bounds: part, high: 9, title: alt, isPicture: true, covers: this.covers,
+      panels: [{ key: 'sheet', label: alt, svg, view: 'sheet' }],
+      grips: () => (this.isAnswered ? figureGrips(this.now.grips, (i, value) => this.move(i, value)) : []),
+    });
+  }
+
+  /** Puts elements over pixels of the picture, each given by its corner and its side. */
+  cover(elements, cells) {
+    this.covers.push(...elements.map((element, i) => ({ element, x: cells[i][0], y: cells[i][1], width: cells[i][2], height: cells[i][2] })));
+    this.view.shown[0].frame.append(...elements);
+    this.show();
+  }
+
+  clear() {
+    for (const { element } of this.covers) element.remove();
+    this.covers = [];
+    this.controls.replaceChildren();
+    this.verdict.textContent = '';
+  }
+
+  /** Asks for a prediction: nothing else can be done before. */
+  invite() {
+    const { predict } = this.now;
+    this.clear();
+    this.links.hidden = true;
+    this.hint.textContent = predict.kind === 'pixels' ? this.words.mark : '';
+    const show = button(this.words.show, () => this.reveal(''));
+    if (predict.kind === 'pixels') {
+      const cells = predict.cells.map((cell, i) => make('button', {
+        type: 'button', tabIndex: i === 0 ? 0 : -1, 'aria-pressed': 'false', 'aria-label': this.words.pixel(cell[3], cell[4]),
+      }));
+      cells.forEach((cell, i) => {
+        cell.addEventListener('click', () => cell.setAttribute('aria-pressed', String(cell.getAttribute('aria-pressed') !== 'true')));
+        cell.addEventListener('keydown', (event) => this.walk(event, cells, i));
+      });
+      this.cover(cells, predict.cells);
+      this.controls.append(button(this.words.check, () => this.judgePixels(cells)), show);
+    } else if (predict.kind === 'choice') {
+      this.controls.append(...predict.options.map((option, i) => button(option, () => {
+        this.reveal(i === predict.right ? this.words.right : this.words.no(predict.options[predict.right]));
+      })), show);
+    } else {
+      const input = make('input', { type: 'number', step: 'any', inputMode: 'decimal', 'aria-label': this.words.number });
+      const judge = () => {
+        if (input.value === '') { input.focus(); return; }
+        const right = Number(input.value).toFixed(predict.decimals) === predict.right;
+        this.reveal(right ? this.words.right : this.words.no(predict.right));
+      };
+      input.addEventListener('keydown', (event) => { if (event.key === 'Enter') judge(); });
+      this.controls.append(input, button(this.words.check, judge), show);
+    }
+  }
+
+  /** Arrow keys go from pixel to pixel. */
+  walk(event, buttons, i) {
+    const step = arrowOf(event);
+    if (!step) return;
+    const { cells } = this.now.predict;
+    const next = cells.findIndex((cell) => cell[3] === cells[i][3] + step[0] && cell[4] === cells[i][4] + step[1]);
+    if (next < 0) return;
+    buttons[i].tabIndex = -1;
+    buttons[next].tabIndex = 0;
+    buttons[next].focus();
+  }
+
+  async judgePixels(buttons) {
+    const { right, cells } = this.now.predict;
+    const marked = buttons.map((button) => button.getAttribute('aria-pressed') === 'true');
+    const wrong = marked.filter((mark, i) => mark && !right[i]).length;
+    const missed = marked.filter((mark, i) => !mark && right[i]).length;
+    const says = [wrong && this.words.wrong(wrong), missed && this.words.missed(missed)].filter(Boolean).join(', ');
+    await this.reveal(says ? `${says}.` : this.words.right);
+    const is = cells.flatMap((cell, i) => (marked[i] ? [[cell, right[i]]] : []));
+    this.cover(is.map(([, isRight]) => make('div', { className: isRight ? 'mark' : 'mark no' })), is.map(([cell]) => cell));
+  }
+
+  /** Shows the answer with what is said about the prediction; from now on the grips can be dragged. */
+  async reveal(verdict) {
+    if (!this.exports && !await this.begin()) return;
+    this.isAnswered = true;
+    this.draw();
+    this.answered(verdict);
+    this.controls.lastElementChild.focus({ preventScroll: true });
+  }
+
+  /** What stands below the answer. */
+  answered(verdict) {
+    this.clear();
+    this.verdict.textContent = verdict;
+    const names = this.now.grips.map((grip) => grip.name).join(this.language === 'zh' ? '、' : ', ');
+    this.hint.textContent = `${this.words.drag}${names}${this.language === 'zh' ? '。' : '.'}`;
+    this.links.hidden = false;
+    const again = button(this.words.again, () => {
+      this.isAnswered = false;
+      this.draw();
+      this.invite();
+      this.stage.querySelector('.frame button')?.focus();
+    });
+    this.controls.append(again);
+  }
+
+  move(i, value) {
+    if (!this.exports) return;
+    this.at = this.at.map((old, k) => (k === i ? value : old));
+    for (const { element } of this.covers) element.remove();
+    this.covers = [];
+    this.verdict.textContent = '';
+    this.draw();
+  }
+}
+
+customElements.define('rp-figure', Figure);

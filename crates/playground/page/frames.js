@@ -19,20 +19,10 @@ function drawFrame() {
   trouble(answer.error ?? (state.refused && `${word('refusedAddress')} ${state.refused}`));
   if (!answer.error) {
     last.answer = answer;
-    const panels = scene().panels(answer);
-    while (shown.length > panels.length) shown.pop().figure.remove();
-    Object.assign($('panels').dataset, { count: panels.length, view: panels[0]?.view ?? '' });
-    panels.forEach((_, i) => { shown[i] ??= newPanel(i); });
-    // Read before anything is written, so that the page is laid out once.
-    for (const panel of shown) panel.width = panel.canvas.clientWidth;
-    panels.forEach((panel, i) => drawPanel(panel, i, answer));
+    view.show(shownOf(answer));
   }
   explain(answer);
-  drawCorners();
   pressTools();
-  const same = command();
-  if ($('command').textContent !== same) $('command').textContent = same;
-  $('as-command').hidden = same === '';
 }
 
 /** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
@@ -43,6 +33,10 @@ function explain(answer) {
   const wait = explained + 100 - performance.now();
   if (wait > 0) { explaining = setTimeout(() => { if (last.answer) explain(last.answer); }, wait); return; }
   explained = performance.now();
+  drawCorners();
+  const same = command();
+  if ($('command').textContent !== same) $('command').textContent = same;
+  $('as-command').hidden = same === '';
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
@@ -50,7 +44,7 @@ function explain(answer) {
   }
   fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
   const grip = grips()[state.chosen];
-  const outputs = shown.map((panel) => panel.canvas.getAttribute('aria-label'));
+  const outputs = view.shown.map((panel) => panel.canvas.getAttribute('aria-label'));
   // Of triangles the reason, which is short; elsewhere the numbers are what there is to say.
   const told = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
   const texts = [...told].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
@@ -61,11 +55,4 @@ function explain(answer) {
 function trouble(text) {
   $('trouble').hidden = !text;
   $('trouble').textContent = text ?? '';
-}
-
-/** New contents; what had the focus and is there again keeps it. */
-function fill(element, children) {
-  const focused = element.contains(document.activeElement) ? document.activeElement.id : '';
-  element.replaceChildren(...children.filter(Boolean));
-  if (focused) $(focused)?.focus();
 }

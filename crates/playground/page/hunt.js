@@ -32,7 +32,7 @@ const entry = (name) => Object.values(names).flat().find((one) => one.name === n
 
 /** A list to choose from, with a line below that says what the choice is about. */
 function choice(id, label, options, value) {
-  const select = make('select', { id, attr: { 'aria-describedby': `${id}-about` } }, ...options);
+  const select = make('select', { id, 'aria-describedby': `${id}-about` }, ...options);
   if (value) select.value = value;
   const says = make('p', { id: `${id}-about`, className: 'quiet' });
   const tell = () => { says.textContent = about(entry(select.value)); };
@@ -56,7 +56,7 @@ function drawBreak() {
   const by = choice('who', word('who'), who.map(([value, label]) => make('option', { value }, label)), defaults.by).select;
   const ofFamily = choice('family', word('family'), options(families), defaults.family);
   const family = ofFamily.select;
-  const says = make('p', { id: 'hunt', attr: { role: 'status' } });
+  const says = make('p', { id: 'hunt', role: 'status' });
   const show = (found, index) => {
     load(found, { generated: { family: family.value, seed: 1, index } });
     if (!state.by.includes(by.value)) { state.by[state.by.length - 1] = by.value; redraw(); }

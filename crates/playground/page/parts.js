@@ -3,7 +3,7 @@
 const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
 const corner = (i) => LETTERS[i % LETTERS.length];
 /** What may be wider than its place scrolls there, by the keyboard as well. */
-const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, attr: { role: 'group', 'aria-label': word('table') } }, ...children);
+const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': word('table') }, ...children);
 const table = (head, rows) => scrolling(make('table', {},
   make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', { scope: 'col' }, cell)))),
   make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
@@ -21,12 +21,9 @@ function painters() {
 
 /** A pixel by its hits and what they should be. */
 function judged(hits, right) {
-  const [is, should] = [Number(hits), Number(right)];
-  if (is === 0 && should === 0) return null;
-  if (is < should) return { colour: colours.missing, glyph: is ? String(is) : '−' };
-  const glyph = is > 1 || state.numbers ? String(is) : '';
-  if (is > should) return { colour: is > 1 ? colours.twice : colours.extra, glyph: glyph || '+' };
-  return { colour: colours.agrees, glyph };
+  const mark = judge(Number(hits), Number(right));
+  const isRightlyTwice = mark?.fill === 'overlap';
+  return mark && (state.numbers || isRightlyTwice) ? { fill: isRightlyTwice ? 'agrees' : mark.fill, glyph: hits } : mark;
 }
 
 function verdict(panel) {
@@ -55,7 +52,7 @@ const RULES = { 'exclusive-edges': 'strict', 'inclusive-edges': 'inclusive', 'ed
 function rules() {
   const choose = (name) => () => { state.by[1] = name; redraw(); };
   const buttons = Object.entries(RULES).map(([name, key]) => button(word(key), choose(name), { id: `rule-${key}`, 'data-by': name }));
-  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('ruleOf') } }, `${word('ruleOf')} `, ...buttons);
+  return make('span', { className: 'group', role: 'group', 'aria-label': word('ruleOf') }, `${word('ruleOf')} `, ...buttons);
 }
 
 const SQUARE = [[at(2.5, 2.5), at(10.5, 2.5), at(10.5, 10.5)], [at(2.5, 10.5), at(2.5, 2.5), at(10.5, 10.5)]];
@@ -68,7 +65,7 @@ const SHAPES = {
 function shapes() {
   const take = (name) => () => { load({ picture: { window: [0, 0, 14, 14], snap: true, triangles: structuredClone(SHAPES[name]) } }, {}); };
   const buttons = Object.keys(SHAPES).map((name) => button(word(name), take(name), { id: `shape-${name}` }));
-  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('shape') } }, `${word('shape')} `, ...buttons);
+  return make('span', { className: 'group', role: 'group', 'aria-label': word('shape') }, `${word('shape')} `, ...buttons);
 }
 
 /** Two panels, or four. */
@@ -146,26 +143,10 @@ function playSteps() {
 /** t against t', as a curve in a square, with the diagonal for comparison. */
 function plot(pairs) {
   const path = pairs.map(([screen, space], i) => `${i ? 'L' : 'M'}${(screen * 100).toFixed(2)} ${(100 - space * 100).toFixed(2)}`).join('');
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', '-4 -4 108 108');
-  svg.setAttribute('role', 'img');
-  svg.setAttribute('aria-label', word('tPlot'));
-  svg.style.maxWidth = '14rem';
-  const line = (d, colour, width) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-    for (const [name, value] of Object.entries({ d, fill: 'none', stroke: colour, 'stroke-width': width })) element.setAttribute(name, value);
-    svg.append(element);
-  };
-  line('M0 0V100H100', colours.cursor, 0.8);
-  line('M0 100L100 0', colours.grid, 1);
-  line(path, colours.edge, 2);
-  const name = (text, x, y) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', 'text');
-    for (const [key, value] of Object.entries({ x, y, fill: colours.sample, 'font-size': 7 })) element.setAttribute(key, value);
-    element.textContent = text;
-    svg.append(element);
-  };
-  name('t', 2, 5);
-  name('t′', 95, 97);
-  return svg;
+  const line = (d, colour, width) => `<path d="${d}" fill="none" stroke="${colour}" stroke-width="${width}"/>`;
+  const name = (text, x, y) => `<text x="${x}" y="${y}" fill="${colours.sample}" font-size="7">${text}</text>`;
+  const around = make('div');
+  around.innerHTML = `<svg viewBox="-4 -4 108 108" role="img" aria-label="${word('tPlot')}" style="max-width: 14rem">
+    ${line('M0 0V100H100', colours.cursor, 0.8)}${line('M0 100L100 0', colours.grid, 1)}${line(path, colours.edge, 2)}${name('t', 2, 5)}${name('t′', 95, 97)}</svg>`;
+  return around.firstChild;
 }

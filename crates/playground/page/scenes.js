@@ -14,38 +14,25 @@ function fromTheSide() {
   return {
     title: word('side'), says: `w ≥ ${state.near}`, view: 'side',
     outlines: [state.points.map((p) => aside(p[2], p[1]))],
-    over: (g, view) => {
+    over: (sheet) => {
       const [near] = aside(state.near);
-      const line = (from, to, colour) => drawOutline(g, view, [from, to], colour);
-      for (const way of [1, -1]) line(aside(0), aside(4, way), colours.grid);
-      line([aside(0)[0], 0], [aside(0)[0], side()], colours.grid);
-      line([near, 0], [near, side()], colours.missing);
+      for (const way of [1, -1]) paintOutline(sheet, [aside(0), aside(4, way)], colours.grid);
+      paintOutline(sheet, [[aside(0)[0], 0], [aside(0)[0], side()]], colours.grid);
+      paintOutline(sheet, [[near, 0], [near, side()]], colours.missing);
+      const { g } = sheet;
       g.globalAlpha = 0.15;
       g.fillStyle = colours.missing;
-      g.fillRect(0, 0, view.x(near), view.y(side()));
+      const [right, below] = placed(sheet, [near, side()]);
+      g.fillRect(0, 0, right, below);
       g.globalAlpha = 1;
       g.fillStyle = colours.sample;
       g.textAlign = 'left';
       g.textBaseline = 'middle';
-      g.font = `${12 * view.ratio}px system-ui, sans-serif`;
-      g.fillText(word('eye'), view.x(aside(0)[0]) + 4 * view.ratio, view.y(0.05 * side()));
+      g.font = '12px system-ui, sans-serif';
+      const [x, y] = placed(sheet, aside(0, 0));
+      g.fillText(word('eye'), x + 4, y - 0.4 * below);
     },
   };
-}
-
-/** The picture of a live figure on each panel; the one before stays until the next can be drawn. */
-const sheets = [];
-function drawSheet(i, svg, g) {
-  const sheet = (sheets[i] ??= {});
-  const [width, height] = [g.canvas.width, g.canvas.height];
-  const wanted = svg.replace('<svg', `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}"`);
-  if (sheet.wanted !== wanted) {
-    sheet.wanted = wanted;
-    const image = new Image();
-    image.onload = () => { Object.assign(sheet, { image, shows: wanted }); redraw(); };
-    image.src = `data:image/svg+xml,${encodeURIComponent(wanted)}`;
-  }
-  if (sheet.image) g.drawImage(sheet.image, 0, 0, width, height);
 }
 
 /** The scanline engine or the DDA, or who takes the place of either: rules too, but no specimens. */
@@ -92,8 +79,8 @@ const SCENES = {
           pixel: (i, x, y) => {
             const step = order.get(`${x},${y}`);
             const wanted = truth.has(`${x},${y}`);
-            if (step === undefined) return wanted && state.step >= drawn.length - 1 ? { colour: colours.missing, glyph: '−' } : null;
-            return { colour: wanted ? colours.agrees : colours.extra, glyph: step === state.step ? '●' : wanted ? '' : '+' };
+            if (step === undefined) return wanted && state.step >= drawn.length - 1 ? { fill: 'missing', glyph: '−' } : null;
+            return { fill: wanted ? 'agrees' : 'extra', glyph: step === state.step ? '●' : wanted ? '' : '+' };
           },
         };
       });
@@ -139,12 +126,12 @@ const SCENES = {
       bad: panel.refused || panel.worst[1] > 1e-9 ? true : undefined,
       pixel: (i) => {
         const value = panel.values?.[i];
-        return value ? { colour: `rgb(${mix(value[1])} ${mix(value[2])} ${mix(1 - value[1] - value[2])})` } : null;
+        return value ? { fill: `rgb(${mix(value[1])} ${mix(value[2])} ${mix(1 - value[1] - value[2])})` } : null;
       },
-      over: (g, view) => {
+      over: (sheet) => {
         if (!state.px) return;
         const middle = [state.px[0] + 0.5, state.px[1] + 0.5];
-        for (const [x, y] of answer.outlines[0]) drawOutline(g, view, [middle, [x, y]], colours.cursor);
+        for (const corner of answer.outlines[0]) paintOutline(sheet, [middle, corner], colours.cursor);
       },
     })),
     look: () => {
@@ -175,7 +162,7 @@ const SCENES = {
         const value = panel.values?.[i];
         if (!value) return null;
         const dark = (Math.floor(value[1] * 4 + 1e-9) + Math.floor(value[2] * 4 + 1e-9)) % 2 !== 0;
-        return { colour: dark ? colours.agrees : colours.extra };
+        return { fill: dark ? 'agrees' : 'extra' };
       },
     })),
     look: () => {
@@ -202,7 +189,7 @@ const SCENES = {
       const wrong = [...(drawn.nearest ?? '')].filter((letter, i) => letter !== drawn.last[i]).length;
       return {
         title: word(way), says: way === 'last' ? `${wrong} ${word('wrong')}` : '', bad: way === 'last' ? wrong > 0 : undefined,
-        pixel: (i) => (drawn[way]?.[i] === '.' ? null : { colour: colours[drawn[way]?.[i]] ?? colours.agrees }),
+        pixel: (i) => (drawn[way]?.[i] === '.' ? null : { fill: 'abcd'.includes(drawn[way]?.[i]) ? drawn[way][i] : 'agrees' }),
       };
     }),
     look: () => {
@@ -237,7 +224,7 @@ const SCENES = {
       says: panel.refused ? `${word('refused')}: ${panel.refused}` : `${panel.outline.length} ${word('polygon')}, ${panel.covered} ${word('covered')}`,
       bad: panel.refused ? true : undefined,
       outlines: panel.outline ? [panel.outline] : [],
-      pixel: (i) => (panel.hits?.[i] > 0 ? { colour: colours.agrees } : null),
+      pixel: (i) => (panel.hits?.[i] > 0 ? { fill: 'agrees' } : null),
     }))],
     tools: () => [
       slide(word('nearPlane'), () => state.near, RANGE_OF_NEAR, (value) => { state.near = value; }),
@@ -254,7 +241,7 @@ const SCENES = {
       pixel: (i) => {
         const count = panel.counts[i];
         if (!count) return null;
-        return { colour: `color-mix(in srgb, ${colours.edge} ${(100 * count) / panel.of}%, ${colours.empty})`, ring: count < panel.of, glyph: state.numbers ? String(count) : '' };
+        return { fill: `color-mix(in srgb, ${colours.edge} ${(100 * count) / panel.of}%, ${colours.empty})`, ring: count < panel.of, glyph: state.numbers ? String(count) : '' };
       },
     })),
     tools: () => [check(word('numbers'), 'numbers')],
@@ -266,7 +253,7 @@ const SCENES = {
     ask: () => ask({ ask: 'cull', picture: picture(), removes: state.removes }),
     panels: (answer) => [{
       title: `${word('cullWhat')}: ${word(state.removes)}`, says: `${answer.covered} ${word('covered')}`,
-      pixel: (i) => (answer.hits[i] > 0 ? { colour: colours.agrees } : null),
+      pixel: (i) => (answer.hits[i] > 0 ? { fill: 'agrees' } : null),
     }],
     tools: () => {
       const select = make('select', { id: 'removes' }, ...['none', 'clockwise', 'counter-clockwise'].map((value) => make('option', { value }, word(value))));
@@ -300,24 +287,12 @@ const SCENES = {
       select: state.by[i], view: 'sheet',
       says: i ? word(svg === panels[0].svg ? 'samePicture' : 'otherPicture') : '',
       bad: i ? svg !== panels[0].svg : undefined,
-      over: (g) => drawSheet(i, svg, g),
+      svg,
       outlines: [],
     })),
-    grips: () => (last.answer?.svg ? last.answer.grips : []).map((grip, i) => {
-      const { value, spot: [x, y], scale, step } = grip;
-      const to = (next) => { state.at = JSON.stringify(JSON.parse(state.at).map((old, k) => (k === i ? next : old))); redraw(); };
-      const isFree = scale[0] !== 0 && scale[1] !== 0;
-      const axis = scale[0] ? 0 : 1;
-      return {
-        view: 'sheet', name: grip.name, says: `${grip.name}: ${isFree ? value.join(', ') : value[axis]}`, x, y, isPainted: true,
-        place: (...place) => to(value.map((v, k) => (scale[k] ? v + (place[k] - grip.spot[k]) / scale[k] : v))),
-        // What moves one way only is moved by both pairs of arrows: up and right are one way.
-        nudge: (right, down) => {
-          const way = isFree ? [right * Math.sign(scale[0]), down * Math.sign(scale[1])]
-            : [(right - down) * Math.sign(scale[0]), (down - right) * Math.sign(scale[1])];
-          to(value.map((v, k) => v + way[k] * step));
-        },
-      };
+    grips: () => figureGrips(last.answer?.svg ? last.answer.grips : [], (i, value) => {
+      state.at = JSON.stringify(JSON.parse(state.at).map((old, k) => (k === i ? value : old)));
+      redraw();
     }),
     tools: () => {
       const select = make('select', { id: 'figure' }, ...names.figures.map((figure) => make('option', { value: figure.name }, state.lang === 'zh' ? figure.zh : figure.about)));

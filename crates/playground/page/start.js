@@ -7,9 +7,9 @@ function drawAll() {
   $('tools').setAttribute('aria-label', word('tools'));
   fill($('scenes'), Object.keys(SCENES).map((name) => button(word(name), () => { begin(name); drawAll(); }, { 'aria-pressed': name === state.scene, id: `scene-${name}` })));
   $('about').textContent = WORDS[state.lang].about[state.scene];
-  $('columns').classList.toggle('wide', !scene().look);
-  $('panels').replaceChildren();
-  shown = [];
+  $('look').hidden = !scene().look;
+  $('keys').textContent = viewWords().keys;
+  view.speak();
   cornersFor = '';
   clearTimeout(explaining);
   explained = 0;
@@ -20,22 +20,17 @@ function drawAll() {
 }
 
 function start() {
-  const text = $('module').textContent.trim();
-  compiled = new WebAssembly.Module(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
-  instantiate();
+  instantiate(new WebAssembly.Module(bytesOf($('module').textContent.trim())));
   names = ask({ ask: 'list' });
-  readColours();
   restore(location.hash);
   drawAll();
   $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });
   $('copy').addEventListener('click', () => copy($('command').textContent));
   $('copy-address').addEventListener('click', () => { history.replaceState(null, '', address()); copy(location.href); });
   $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
-  // Panels get other sizes with the window, and with a scroll bar.
-  new ResizeObserver(redraw).observe($('panels'));
   addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
   document.body.dataset.ready = '';
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(); redraw(); });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
 }
 
 start();

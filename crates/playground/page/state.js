@@ -4,14 +4,13 @@ const SUB = 256;
 const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ';
 const state = { lang: 'en', scene: 'triangle' };
 let names = null; // what there is to choose from
-let shown = []; // panels of the last frame: {canvas, view}
 let last = { answer: null, look: null };
 const frames = []; // milliseconds that each frame took
 
 function begin(scene, from = {}) {
   clearInterval(state.playing);
   for (const key of Object.keys(state)) if (key !== 'lang') delete state[key];
-  Object.assign(state, { scene, snap: true, four: false, numbers: false, chosen: 0, moves: 'corner', step: 0 });
+  Object.assign(state, { scene, snap: true, four: false, numbers: false, chosen: 0, step: 0 });
   Object.assign(state, structuredClone(SCENES[scene].start), from);
 }
 
@@ -40,13 +39,6 @@ function handles() {
 function grips() {
   const corners = handles().map((handle, i) => ({ ...handle, name: corner(i), place: (x, y) => place(handle, x, y) }));
   return [...corners, ...(scene().grips?.() ?? [])];
-}
-
-/** The first grip of a panel where the chosen one lies on another. */
-function chosenOn(i) {
-  const all = grips();
-  if (all[state.chosen] && all[state.chosen].view === shown[i].of) return state.chosen;
-  return all.findIndex((grip) => grip.view === shown[i].of);
 }
 
 /** Puts a handle somewhere, on the lattice where corners snap, on a whole pixel for lines. */

@@ -1,20 +1,14 @@
 // Tools and the table of corners.
 
-function button(label, act, attr = {}) {
-  const made = make('button', { type: 'button', attr }, label);
-  made.addEventListener('click', act);
-  return made;
-}
-
 function check(label, key, then = () => {}) {
-  const box = make('input', { type: 'checkbox', checked: state[key], attr: { 'data-state': key } });
+  const box = make('input', { type: 'checkbox', checked: state[key], 'data-state': key });
   box.addEventListener('change', () => { state[key] = box.checked; then(); redraw(); });
   return make('label', {}, box, ` ${label}`);
 }
 
 function slide(label, get, [low, high, step], set) {
   const range = make('input', { type: 'range', min: low, max: high, step, value: get() });
-  const says = make('output', { attr: { 'aria-live': 'off' } }, String(get()));
+  const says = make('output', { 'aria-live': 'off' }, String(get()));
   range.addEventListener('input', () => { set(Number(range.value)); redraw(); });
   sliding.push(() => {
     const text = String(get());
@@ -28,15 +22,8 @@ function slide(label, get, [low, high, step], set) {
 let sliding = [];
 
 function drawTools() {
-  const tools = [];
   sliding = [];
-  if (!scene().handles) {
-    tools.push(make('span', { className: 'group' },
-      button('−', () => zoom(1), { 'aria-label': word('zoomOut') }), button('+', () => zoom(-1), { 'aria-label': word('zoomIn') }),
-      button('←', () => pan(-1, 0), { 'aria-label': word('panLeft') }), button('→', () => pan(1, 0), { 'aria-label': word('panRight') }),
-      button('↑', () => pan(0, -1), { 'aria-label': word('panUp') }), button('↓', () => pan(0, 1), { 'aria-label': word('panDown') })));
-  }
-  fill($('tools'), [...tools, ...(scene().tools?.() ?? [])]);
+  fill($('tools'), scene().tools?.() ?? []);
 }
 
 /** Buttons and sliders show what is chosen, wherever it was chosen. */
@@ -73,7 +60,7 @@ function buildCorners(all, fields) {
   const rows = all.map((handle, i) => {
     const cells = columns.map((column) => {
       const step = state.lines ? 1 : column.step ?? (state.snap ? 1 / SUB : 'any');
-      const input = make('input', { type: 'number', attr: { step, 'data-corner': i, 'data-key': column.key, 'aria-label': `${LETTERS[i % 26]} ${column.key}` } });
+      const input = make('input', { type: 'number', step, 'data-corner': i, 'data-key': column.key, 'aria-label': `${LETTERS[i % 26]} ${column.key}` });
       input.addEventListener('input', () => {
         const value = Number(input.value);
         const now = handles()[i];

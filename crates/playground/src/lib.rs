@@ -19,14 +19,13 @@ pub const PLAYGROUND: Parts = Parts {
         include_str!("../page/words.js"),
         include_str!("../page/cases.js"),
         include_str!("../page/engines.js"),
-        include_str!("../page/dom.js"),
         include_str!("../page/state.js"),
         include_str!("../page/parts.js"),
         include_str!("../page/look.js"),
+        include_str!("../page/grips.js"),
         include_str!("../page/scenes.js"),
         include_str!("../page/frames.js"),
         include_str!("../page/panels.js"),
-        include_str!("../page/listen.js"),
         include_str!("../page/tools.js"),
         include_str!("../page/hunt.js"),
         include_str!("../page/address.js"),
@@ -42,7 +41,6 @@ pub const YOUR_GPU: Parts = Parts {
         include_str!("../page/gpu/words.js"),
         include_str!("../page/gpu/rules.js"),
         include_str!("../page/engines.js"),
-        include_str!("../page/dom.js"),
         include_str!("../page/gpu/pixels.js"),
         include_str!("../page/gpu/webgl2.js"),
         include_str!("../page/gpu/webgpu.js"),
@@ -50,6 +48,23 @@ pub const YOUR_GPU: Parts = Parts {
         include_str!("../page/gpu/show.js"),
     ],
 };
+
+/// The script of the live figures, which pages load that are not made here. No style of theirs reaches into a figure.
+#[must_use]
+pub fn figure_script() -> String {
+    let own = [
+        include_str!("../page/engines.js"),
+        include_str!("../page/grips.js"),
+        include_str!("../page/figure.js"),
+    ];
+    let style = (rasterproof_view::TOKENS.to_owned() + rasterproof_view::VIEW_STYLE)
+        .replace(":root", ":host");
+    format!(
+        "(() => {{\nconst VIEW_STYLE = {};\n{}}})();\n",
+        json!(style),
+        rasterproof_view::script(&own)
+    )
+}
 
 /// What a page may weigh, so that it can be sent and opened anywhere.
 pub const MOST_BYTES: usize = 3_000_000;
@@ -63,8 +78,8 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
         return Err("is no WebAssembly module: it does not begin with \\0asm".to_owned());
     }
     let filled = [
-        ("{{style}}", &parts.styles.concat()),
-        ("{{script}}", &parts.scripts.join("\n")),
+        ("{{style}}", &rasterproof_view::style(parts.styles)),
+        ("{{script}}", &rasterproof_view::script(parts.scripts)),
         ("{{clauses}}", &clauses()),
         ("{{module}}", &STANDARD.encode(module)),
     ];

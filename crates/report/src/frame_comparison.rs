@@ -46,6 +46,17 @@ const RED: Colour = [255, 40, 40, 255];
 const BROWN: Colour = [120, 84, 0, 255];
 const YELLOW: Colour = [255, 200, 0, 255];
 
+/// What the colours of [`Comparison::picture`] mark.
+#[must_use]
+pub fn marks() -> [(Rgb<u8>, &'static str); 3] {
+    let of = |[r, g, b, _]: Colour| Rgb([r, g, b]);
+    [
+        (of(RED), "the frames differ"),
+        (of(BROWN), "two surfaces tie"),
+        (of(YELLOW), "a tie that the frames show differently"),
+    ]
+}
+
 /// Compares two frames of the same size: colours to the bit; depths within the sum of the bounds
 /// that [`tolerance`] derives for the two rasterizers, with depths from 0 to 1, and one step of the
 /// format. Where ties are known, what they excuse is no difference; the targets then hold every

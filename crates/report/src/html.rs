@@ -8,10 +8,11 @@
 //! beyond [`limits::PAGE_BYTES`]: what does not fit is left out, and the page says what that is.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use base64::Engine as _;
-use image::RgbImage;
+use image::{Rgb, RgbImage};
 use rasterproof_host::limits::{self, PAGE_BYTES};
 use serde::Serialize;
 use similar::{ChangeTag, TextDiff as Lines};
@@ -27,8 +28,21 @@ const MOST_LEFT_OUT_NAMES: usize = 20;
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
-const STYLE: &str = include_str!("page/page.css");
-const SCRIPT: &str = include_str!("page/page.js");
+
+/// The style of all pages, and that of reports.
+static STYLE: LazyLock<String> =
+    LazyLock::new(|| rasterproof_view::style(&[include_str!("page/page.css")]));
+
+/// The viewer, and the modules of reports, each behind those that it uses.
+static SCRIPT: LazyLock<String> = LazyLock::new(|| {
+    rasterproof_view::script(&[
+        include_str!("page/exact.js"),
+        include_str!("page/items.js"),
+        include_str!("page/explain.js"),
+        include_str!("page/tables.js"),
+        include_str!("page/report.js"),
+    ])
+});
 
 /// What the page shows; sections that are empty are left out.
 #[must_use]
@@ -180,6 +194,9 @@ pub struct PictureLayer {
     png: String,
     /// Whether it marks pixels of another layer, so that its colours are not compared with those of others.
     is_map: bool,
+    /// What its colours mark, each with its name in HTML.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    legend: Vec<(String, &'static str)>,
 }
 
 impl PictureLayer {
@@ -191,12 +208,21 @@ impl PictureLayer {
     }
 
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false }
+        Self {
+            name: name.to_owned(),
+            png: data_address("image/png", bytes),
+            is_map: false,
+            legend: Vec::new(),
+        }
     }
 
-    /// A picture whose colours mark pixels of another layer.
-    pub fn map(name: &str, image: &RgbImage) -> Self {
-        Self { is_map: true, ..Self::new(name, image) }
+    /// A picture whose colours mark pixels of another layer, and what each of them marks.
+    pub fn map(name: &str, image: &RgbImage, marks: &[(Rgb<u8>, &'static str)]) -> Self {
+        let named = |(Rgb([r, g, b]), what): &(Rgb<u8>, &'static str)| {
+            (format!("#{r:02x}{g:02x}{b:02x}"), *what)
+        };
+        let legend = marks.iter().map(named).collect();
+        Self { is_map: true, legend, ..Self::new(name, image) }
     }
 }
 
@@ -271,8 +297,8 @@ pub fn page(report: &Report) -> String {
     let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&report.title),
-        "style" => STYLE.to_owned(),
-        "script" => SCRIPT.to_owned(),
+        "style" => STYLE.clone(),
+        "script" => SCRIPT.clone(),
         "head" => head.clone(),
         "about" => about(report),
         "jump" => jump.clone(),
@@ -381,12 +407,13 @@ pub fn index(pages: &[(String, String)]) -> String {
         ))
     };
     let rows: String = pages.iter().filter_map(row).collect();
+    let style = &*STYLE;
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
          style-src 'unsafe-inline'; img-src data:\">\n<title>Pages of rasterproof</title>\n\
-         <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\
+         <link rel=\"icon\" href=\"data:,\">\n<style>\n{style}</style>\n</head>\n<body>\n<header>\
          <h1>Pages of rasterproof</h1></header>\n<main>\n<ul class=\"pages\">\n{rows}</ul>\n</main>\n\
          </body>\n</html>\n"
     )
@@ -501,7 +528,8 @@ fn figure(figure: &Figure) -> String {
         format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
     });
     format!(
-        "<figure><picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture>\
+        "<figure class=\"plot\"><button type=\"button\" class=\"enlarge\" title=\"as large as the window, and back\">\
+         <picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
          <figcaption>{caption}</figcaption></figure>\n",
         address(&figure.svg)
     )

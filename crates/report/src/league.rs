@@ -26,8 +26,8 @@ struct Words {
 }
 
 const ENGLISH: Words = Words {
-    header: "| library | version | day | as is | by its convention | holes | doubles | order | lines as is | lines by \
-             theirs | from either end |",
+    header: "| library | as is | by its convention | holes | doubles | order | lines as is | lines by theirs | from either \
+             end | version | day |",
     as_declared: "the same",
     unexplained: "unexplained",
     by_mistake: "a mistake",
@@ -45,7 +45,7 @@ const ENGLISH: Words = Words {
 };
 
 const CHINESE: Words = Words {
-    header: "| 库 | 版本 | 日期 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
+    header: "| 库 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 | 版本 | 日期 |",
     as_declared: "相同",
     unexplained: "未能解释",
     by_mistake: "已知的错误",
@@ -61,9 +61,9 @@ const CHINESE: Words = Words {
 
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
-    let mut out = format!("{}\n\n{}\n|---|---|---|", (words.made)(league), words.header);
+    let mut out = format!("{}\n\n{}\n|---|", (words.made)(league), words.header);
     out += &"---:|".repeat(8);
-    out.push('\n');
+    out += "---|---|\n";
     for row in &league.rows {
         let [as_is, found] = scores(row.triangles.as_ref(), words);
         let [lines, lines_found] = scores(row.lines.as_ref(), words);
@@ -71,14 +71,14 @@ pub fn tables(league: &League, chinese: bool) -> String {
         let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
         let _ = writeln!(
             out,
-            "| {} | {} | {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
+            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} | {} | {} |",
             row.name,
-            row.version,
-            row.date,
             of(holes, meshes),
             of(doubles, meshes),
             percent(row.orders),
-            percent(row.directions)
+            percent(row.directions),
+            row.version,
+            row.date
         );
     }
     out.push('\n');

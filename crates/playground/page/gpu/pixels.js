@@ -34,7 +34,7 @@ function base64(bytes) {
   return new TextEncoder().encode(btoa(text));
 }
 
-const numbers = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+const numbers = (text) => new Float32Array(bytesOf(text).buffer);
 
 /** Faults of positions: each changes a vertex, given {v, at, px, step, kind, first, z}, as a wrong vertex stage would. */
 const PLANTS = {

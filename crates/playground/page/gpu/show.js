@@ -1,14 +1,5 @@
 // What the page shows: progress, verdicts, and a case drawn large.
 
-const fill = (element, ...children) => element.replaceChildren(...children.flat().filter((child) => child !== null && child !== undefined));
-const SVG = 'http://www.w3.org/2000/svg';
-const svg = (tag, attributes, ...children) => {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-};
-
 function drawProgress() {
   const { progress } = state;
   $('progress').hidden = !state.running;
@@ -47,8 +38,8 @@ function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
   const rule = ruleOf(result.name, check);
   const view = result.views[check];
-  const show = view && make('button', { type: 'button', onclick: () => showCase(index, check) }, word('show'));
-  return make('tr', { attr: { 'data-check': check } },
+  const show = view && button(word('show'), () => showCase(index, check));
+  return make('tr', { 'data-check': check },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
     make('td', {}, tally ? word('details')[check](tally, facts) : ''),
@@ -60,7 +51,7 @@ function resultOf(result, index) {
   const software = result.isSoftware ? make('p', { className: 'note' }, word('software')) : null;
   const { samples } = result.rows;
   const totals = result.seconds ? make('p', {}, word('totals')(result.triangles, samples?.tally?.subjects ?? 0, result.seconds.toFixed(1))) : null;
-  return make('section', { attr: { 'data-api': result.name } },
+  return make('section', { 'data-api': result.name },
     make('h2', {}, result.title ?? result.name),
     result.refused ? make('p', {}, said(result.refused)) : null,
     summary(result),
@@ -81,25 +72,46 @@ function crop({ cell, outlines, marks }) {
   return points.length ? [range(0), range(1)] : [[0, cell], [0, cell]];
 }
 
-/** A cell as a picture: pixels with their hits, marks, outlines and sample points. Row 0 is uppermost, as it is read. */
-function picture(view, planes, plane, isTheirs, label) {
+/** What the viewer shows of a case: what is expected and what is drawn, with the differences; of four samples those that differ. */
+function seenIn(view, heads) {
   const [[x0, x1], [y0, y1]] = crop(view);
-  const picture = svg('svg', { viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`, role: 'img', 'aria-label': label });
-  for (let y = y0; y < y1; y += 1) {
-    for (let x = x0; x < x1; x += 1) {
+  const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
+  const panels = (wanted.length ? wanted : [0]).flatMap((plane) => [view.ours, view.theirs].map((planes, i) => {
+    const label = heads[i] + (view.samples.length ? ` (${word('sample')(plane)})` : '');
+    const [dx, dy] = view.samples[plane] ?? [128, 128];
+    const mark = (x, y) => {
+      if (x < 0 || y < 0 || x >= view.cell || y >= view.cell) return null;
       const hits = planes[plane][y * view.cell + x];
-      const mark = isTheirs && view.marks.find((m) => m.plane === plane && m.x === x && m.y === y);
-      picture.append(svg('rect', { x, y, width: 1, height: 1, class: mark ? mark.word : hits === '0' ? 'empty' : 'hit' },
-        ...(mark?.note ? [svg('title', {}, mark.note)] : [])));
-      if (hits !== '0' || mark) picture.append(svg('text', { x: x + 0.76, y: y + 0.76 }, hits));
-    }
-  }
-  for (const outline of view.outlines) picture.append(svg('polygon', { points: outline.map((p) => p.join(',')).join(' ') }));
-  const [dx, dy] = view.samples[plane] ?? [128, 128];
-  if (x1 - x0 <= 20) {
-    for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) picture.append(svg('circle', { cx: x + dx / 256, cy: y + dy / 256, r: 0.06 }));
-  }
-  return picture;
+      const found = i === 1 && view.marks.find((m) => m.plane === plane && m.x === x && m.y === y);
+      if (hits === '0' && !found) return null;
+      return { fill: found ? { outside: 'missing', allowed: 'extra' }[found.word] : 'agrees', glyph: hits };
+    };
+    return { key: `${state.lang} ${label}`, label, layers: [{ mark }], outlines: view.outlines, samples: [dx / 256, dy / 256] };
+  }));
+  const part = [x0, y0, x1, y1];
+  const first = view.marks.find(({ plane }) => plane === (wanted[0] ?? 0));
+  let cursor = first ? [first.x, first.y] : null;
+  const source = {
+    part, bounds: [0, 0, view.cell, view.cell], numbers: true, high: 0.5, most: 64, panels, cursor,
+    legend: [['missing', '', word('outside')], ['extra', '', word('allowed')]],
+    onPoint: (x, y) => {
+      cursor = [x, y];
+      tellPixel(view, cursor);
+      pixels.show({ ...source, cursor });
+    },
+  };
+  return source;
+}
+
+/** The one viewer of the page, which is put where a case is shown. */
+const pixels = make('rp-view');
+
+/** What is said of the pixel that is looked at. */
+function tellPixel(view, [x, y]) {
+  const at = y * view.cell + x;
+  const notes = view.marks.filter((mark) => mark.x === x && mark.y === y).map(({ note }) => note).filter(Boolean);
+  const hits = [view.ours, view.theirs].map((planes) => planes.map((plane) => plane[at]).join(' '));
+  fill($('pixel'), `${word('pixelSays')(x, y, ...hits)} ${notes.join('; ')}`);
 }
 
 /** The rows of a plane as text, for a report. */
@@ -175,16 +187,12 @@ function report(result, check, view) {
 }
 
 function copying(text) {
-  const done = make('span', { attr: { role: 'status' } });
+  const done = make('span', { role: 'status' });
   const press = async () => {
-    try {
-      await navigator.clipboard.writeText(text);
-      done.textContent = ` ${word('copied')}`;
-    } catch {
-      done.textContent = '';
-    }
+    await copyText(text);
+    done.textContent = ` ${word('copied')}`;
   };
-  return [make('button', { type: 'button', onclick: press }, word('copy')), done];
+  return [button(word('copy'), press), done];
 }
 
 function drawFinding() {
@@ -197,23 +205,18 @@ function drawFinding() {
   const rule = ruleOf(result.name, check);
   const heads = (check === 'twice' ? ['drawnFirst', 'drawnAgain'] : ['ours', 'theirs']).map(word);
   const isBroken = result.rows[check]?.word === 'outside' || view.marks.some((mark) => mark.word === 'outside');
-  // Of four samples the ones that differ.
-  const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
-  const pairs = (wanted.length ? wanted : [0]).map((plane) => {
-    const label = view.samples.length ? ` (${word('sample')(plane)})` : '';
-    return make('div', { className: 'pair' }, ...[view.ours, view.theirs].map((planes, i) => (
-      make('figure', {}, make('figcaption', {}, heads[i] + label), picture(view, planes, plane, i === 1, heads[i] + label)))));
-  });
   const link = address(result.name, check, view.subject);
   const text = report(result, check, view);
   fill(section,
     make('h2', { tabIndex: -1 }, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : view.marks.length ? 'example' : 'alike')}`),
-    ...pairs, make('p', { className: 'quiet' }, word('legend')(check)),
-    ...view.marks.filter(({ note }) => note).slice(0, 4).map(({ x, y, note }) => make('p', {}, `${x}, ${y}: ${note}`)),
+    pixels, make('p', { id: 'pixel', role: 'status' }), make('p', { className: 'quiet' }, word('legend')(check)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
     make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', { tabIndex: 0 }, corners(view.subject)),
     make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),
     make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), ...copying(text)));
+  pixels.speak();
+  pixels.show(seenIn(view, heads));
+  if (pixels.source.cursor) tellPixel(view, pixels.source.cursor);
 }
 
 /** The checks, each with the address that makes it alone. */
@@ -264,8 +267,7 @@ function restore() {
 }
 
 function start() {
-  compiled = new WebAssembly.Module(Uint8Array.from(atob($('module').textContent.trim()), (c) => c.charCodeAt(0)));
-  instantiate();
+  instantiate(new WebAssembly.Module(bytesOf($('module').textContent.trim())));
   $('agent').textContent = navigator.userAgent;
   $('judge').addEventListener('click', () => { if (state.running) state.running = false; else judgeAll(); });
   $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });

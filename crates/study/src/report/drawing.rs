@@ -251,7 +251,10 @@ pub fn add_to_page(
 ) {
     let layer = |d: &Drawing| PictureLayer::new(d.name, &picture::of_frame(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
-    let marked = marked.map(|c| PictureLayer::map("what differs", &picture::of_frame(&c.picture)));
+    let marked = marked.map(|c| {
+        let picture = picture::of_frame(&c.picture);
+        PictureLayer::map("what differs", &picture, &frame_comparison::marks())
+    });
     report.title = format!("The scene {}", scene.name);
     report.command.clone_from(&command);
     let plan = drawings.first().map(|d| plan::table(&d.rendered.plan.decisions));

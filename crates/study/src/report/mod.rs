@@ -657,9 +657,16 @@ fn grids(prices: &[GridPrice]) -> Option<Table> {
 /// Pixels of a mark around a pixel that stands alone, which would not be seen otherwise.
 const MARK_PX: i32 = 5;
 
+/// The colours of the two maps, which the page explains in a legend.
+const HARD: Rgb<u8> = Rgb([230, 60, 40]);
+const RING: Rgb<u8> = Rgb([250, 220, 60]);
+const DECIDED: Rgb<u8> = Rgb([120, 130, 140]);
+const BY_ORDER: Rgb<u8> = Rgb([40, 140, 220]);
+const BY_ROUNDING: Rgb<u8> = Rgb([240, 150, 40]);
+const EQUAL: Rgb<u8> = Rgb([190, 80, 220]);
+
 /// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
 fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
-    const RED: Rgb<u8> = Rgb([230, 60, 40]);
     let mut marked = picture.clone();
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
@@ -669,7 +676,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
         if !hard.touches(x_px, y_px) {
             continue;
         }
-        marked.put_pixel(x, y, RED);
+        marked.put_pixel(x, y, HARD);
         let around =
             (-MARK_PX..=MARK_PX).flat_map(|dy| (-MARK_PX..=MARK_PX).map(move |dx| (dx, dy)));
         let near = around.clone().filter(|(dx, dy)| hard.touches(x_px + dx, y_px + dy)).count();
@@ -681,7 +688,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
             if let [Ok(x), Ok(y)] = at
                 && let Some(pixel) = marked.get_pixel_mut_checked(x, y)
             {
-                *pixel = Rgb([250, 220, 60]);
+                *pixel = RING;
             }
         }
     }
@@ -716,10 +723,10 @@ pub fn report(
     let decided = picture::painted(picture.width(), picture.height(), |x, y| {
         match classes.map.get(x as i32, y as i32).unwrap_or_default() {
             Class::Empty => Rgb([18, 18, 24]),
-            Class::Decided => Rgb([120, 130, 140]),
-            Class::ByOrder => Rgb([40, 140, 220]),
-            Class::ByRounding => Rgb([240, 150, 40]),
-            Class::Equal => Rgb([190, 80, 220]),
+            Class::Decided => DECIDED,
+            Class::ByOrder => BY_ORDER,
+            Class::ByRounding => BY_ROUNDING,
+            Class::Equal => EQUAL,
         }
     });
     Report {
@@ -733,17 +740,27 @@ pub fn report(
         figures: figures(found),
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
-            about:
-                "The picture; pixels in which hard cases are seen, in red; where rounding alone decides \
-                    which surface is seen, in orange, where it does between equal depths, in violet, \
-                    and where the order of faces drawn twice does, in blue."
-                    .to_owned(),
+            about: "The picture, where hard cases are seen in it, and what decides which surface is seen."
+                .to_owned(),
             command,
             chapter: Chapter { title: "a study of your own model", path: "study.md" },
             layers: vec![
                 PictureLayer::new("picture", &picture),
-                PictureLayer::map("hard cases", &marked),
-                PictureLayer::map("decided", &decided),
+                PictureLayer::map(
+                    "hard cases",
+                    &marked,
+                    &[(HARD, "a hard case is seen here"), (RING, "around one that stands alone")],
+                ),
+                PictureLayer::map(
+                    "decided",
+                    &decided,
+                    &[
+                        (DECIDED, "the depths decide"),
+                        (BY_ROUNDING, "rounding alone decides"),
+                        (EQUAL, "rounding decides between equal depths"),
+                        (BY_ORDER, "the order of faces drawn twice decides"),
+                    ],
+                ),
             ],
         }],
         ..Report::default()

@@ -384,17 +384,24 @@ fn differs(a: Rgb<u8>, b: Rgb<u8>) -> bool {
     a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VISIBLE)
 }
 
+/// The colours of a picture of differences, and what each means to the student.
+const DIFFERENCES: [(Rgb<u8>, &str); 3] = [
+    (Rgb([214, 60, 60]), "your program drew nothing here"),
+    (Rgb([240, 160, 40]), "only your program drew here"),
+    (Rgb([170, 90, 210]), "the colours differ"),
+];
+
 impl ProgramPicture {
-    /// Dark where both agree; red where the program drew nothing, orange where it alone drew, violet where colours differ.
+    /// Dark where both agree; else one of [`DIFFERENCES`].
     pub fn difference(&self) -> RgbImage {
         let ground = |image: &RgbImage, x, y| *image.get_pixel(x, y) == BACKGROUND;
         picture::painted(self.right.width(), self.right.height(), |x, y| {
             let (yours, right) = (*self.yours.get_pixel(x, y), *self.right.get_pixel(x, y));
             match (ground(&self.yours, x, y), ground(&self.right, x, y)) {
                 _ if !differs(yours, right) => Rgb(right.0.map(|channel| 20 + channel / 5)),
-                (true, _) => Rgb([214, 60, 60]),
-                (_, true) => Rgb([240, 160, 40]),
-                _ => Rgb([170, 90, 210]),
+                (true, _) => DIFFERENCES[0].0,
+                (_, true) => DIFFERENCES[1].0,
+                _ => DIFFERENCES[2].0,
             }
         })
     }
@@ -434,7 +441,7 @@ pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
         let layers = vec![
             PictureLayer::new("yours", &picture.yours),
             PictureLayer::new("right", &picture.right),
-            PictureLayer::map("difference", &picture.difference()),
+            PictureLayer::map("difference", &picture.difference(), &DIFFERENCES),
         ];
         let view = PictureView { name, about, layers, ..PictureView::default() };
         on_page.push((picture.differing, view));

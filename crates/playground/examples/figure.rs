@@ -1,0 +1,5 @@
+//! Prints the script of the live figures, for `docs/build`.
+
+fn main() {
+    print!("{}", rasterproof_playground::figure_script());
+}
