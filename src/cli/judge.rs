@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Over};
 use rasterproof_host::text::printable_path;
 
 use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{InputError, Status, Streams, exit, league, usage};
+use super::{InputError, Status, Streams, exit, judge_checkpoint, league, usage};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
@@ -74,6 +74,9 @@ pub struct JudgeArguments {
     /// Write what fails now into the file of --baseline
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Keep the answers in this file, and go on from there where an earlier judgement was broken off
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["league", "against", "seconds"])]
+    checkpoint: Option<PathBuf>,
     /// Compare with another program, on all that both can answer: its command and arguments in one word
     #[arg(long, value_name = "CMD", value_parser = command_line, conflicts_with_all = ["league", "baseline"])]
     against: Option<CommandLine>,
@@ -118,7 +121,7 @@ impl JudgeArguments {
 
 /// The commands that judge everything, and one case, again.
 fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u64) -> String) {
-    let again = typed.clone().without_output().without(&["update-baseline"]);
+    let again = typed.clone().without_output().without(&["update-baseline", "checkpoint"]);
     let again = again.set("seed", arguments.seed);
     let repeat_all = again.clone().first("cases", arguments.cases).line();
     let repeat_case = move |family: &str, index: u64| {
@@ -157,7 +160,7 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["baseline", "against", "report"]) {
+    if let Some(option) = typed.given(&["baseline", "against", "checkpoint", "report"]) {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
@@ -190,7 +193,12 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
     let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit))?;
+    let kept = arguments.checkpoint.as_deref();
+    let checkpoint = kept.map(|path| ("--checkpoint", path, Use::Writes(Over::Updated)));
+    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(checkpoint))?;
+    if kept.is_some() && arguments.jobs > 1 {
+        return Err(usage("--checkpoint keeps the answers of one copy; leave --jobs out"));
+    }
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
@@ -232,6 +240,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let options = arguments.options(baseline.as_ref());
     if declared.partition {
         return tessellator(arguments, &mut *askers[0], &options, typed, streams);
+    }
+    if let Some(path) = kept {
+        let program = askers.remove(0);
+        askers.push(judge_checkpoint::resume(program, path, &arguments.command, &options)?);
     }
     let total = cases_of(&options, &declared);
     let progress = Progress::new(streams.progress, "cases judged", Some(total));
@@ -287,6 +299,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             }
             Ok(_) => {}
         }
+    }
+    // What was judged to its end is not gone on with.
+    if let Some(Err(error)) = kept.map(output::remove) {
+        writeln!(streams.errors, "warning: {error}")?;
     }
     Ok(exit::of(agrees))
 }

@@ -7,7 +7,7 @@
 //! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, `after` makes failing cases smaller and asks why they fail, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
-//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
+//! [`polygons`] judges tessellators. [`record`] keeps answers, so that a judgement that was broken off goes on. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
 mod after;
@@ -33,6 +33,7 @@ pub mod pixels;
 pub mod polygons;
 mod reach;
 pub mod recognise;
+pub mod record;
 pub mod run;
 pub mod server;
 pub mod shrink;
@@ -222,5 +223,9 @@ impl Subject for WatchedSubject<'_> {
             }
         }
         answers
+    }
+
+    fn took(&self) -> Option<Duration> {
+        self.asked.took()
     }
 }
