@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Over};
 use rasterproof_host::text::{printable, printable_path};
 
 use super::files::{self, Output, Use};
@@ -12,7 +12,7 @@ use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::watch::Files;
-use super::{InputError, Status, Streams, exit, league, usage, watch};
+use super::{InputError, Status, Streams, exit, judge_checkpoint, league, usage, watch};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
@@ -84,6 +84,9 @@ pub struct JudgeArguments {
     /// Write what fails now into the file of --baseline
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Keep the answers in this file, and go on from there where an earlier judgement was broken off
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["league", "watch", "against", "seconds"])]
+    checkpoint: Option<PathBuf>,
     /// Compare with another program, on all that both can answer: its command and arguments in one word
     #[arg(long, value_name = "CMD", value_parser = command_line, conflicts_with_all = ["league", "baseline"])]
     against: Option<CommandLine>,
@@ -142,7 +145,7 @@ fn again(
     arguments: &JudgeArguments,
     typed: &Typed,
 ) -> (String, impl Fn(&str, u64) -> String + use<>) {
-    let again = typed.clone().without_output().without(&["update-baseline", "watch"]);
+    let again = typed.clone().without_output().without(&["update-baseline", "checkpoint", "watch"]);
     let again = again.set("seed", arguments.seed);
     let repeat_all = again.clone().first("cases", arguments.cases).line();
     let repeat_case = move |family: &str, index: u64| {
@@ -218,7 +221,7 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["baseline", "against", "report", "write-test"]) {
+    if let Some(option) = typed.given(&["baseline", "against", "checkpoint", "report", "write-test"]) {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
@@ -362,7 +365,13 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
     }
     let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit).chain(test))?;
+    let kept = arguments.checkpoint.as_deref();
+    let checkpoint = kept.map(|path| ("--checkpoint", path, Use::Writes(Over::Updated)));
+    let written = junit.into_iter().chain(test).chain(checkpoint);
+    files::check(known.into_iter().chain(as_file(&page)).chain(written))?;
+    if kept.is_some() && arguments.jobs > 1 {
+        return Err(usage("--checkpoint keeps the answers of one copy; leave --jobs out"));
+    }
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
@@ -379,6 +388,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let options = arguments.options(baseline.as_ref());
     if declared.partition {
         return tessellator(arguments, &mut *askers[0], &options, typed, streams);
+    }
+    if let Some(path) = kept {
+        let program = askers.remove(0);
+        askers.push(judge_checkpoint::resume(program, path, &arguments.command, &options)?);
     }
     let progress = progress_of(&options, &declared, streams);
     let step = |step| progress.step(step);
@@ -434,6 +447,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             }
             Ok(_) => {}
         }
+    }
+    // What was judged to its end is not gone on with.
+    if let Some(Err(error)) = kept.map(output::remove) {
+        writeln!(streams.errors, "warning: {error}")?;
     }
     Ok(exit::of(agrees))
 }

@@ -14,6 +14,7 @@ mod inspect;
 mod inspect_case;
 mod invariant;
 mod judge;
+mod judge_checkpoint;
 mod league;
 mod page;
 mod plan;

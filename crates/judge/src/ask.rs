@@ -6,7 +6,7 @@
 use std::fmt;
 use std::io::Write as _;
 use std::iter;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
@@ -212,6 +212,11 @@ pub trait Subject: Send {
     /// is over. Never fails: what goes wrong is an answer too.
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer>;
 
+    /// How long the last answers took, where they were recorded before.
+    fn took(&self) -> Option<Duration> {
+        None
+    }
+
     /// No question is sent after `end`, and answers are awaited only a short while longer; `None` is no end. An
     /// entry that answers at once can ignore it.
     fn end_at(&mut self, _end: Option<Instant>) {}
@@ -394,9 +399,14 @@ fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
 
 /// The answer as a line of the protocol, cut where it gets long.
 pub fn show(answer: &Answer, id: u64) -> String {
+    printable(line(answer, id).as_bytes(), 400)
+}
+
+/// The answer as a line of the protocol, without its end.
+pub fn line(answer: &Answer, id: u64) -> String {
     let list = |letter: char, items: Vec<String>| {
         let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));
-        printable(text.trim_end().as_bytes(), 400)
+        text.trim_end().to_owned()
     };
     let run = |s: &Span| format!("{} {} {}", s.y_px, s.x0_px, s.x1_px);
     match answer {
@@ -435,7 +445,7 @@ pub fn show(answer: &Answer, id: u64) -> String {
             list('F', fragments.iter().map(one).collect())
         }
         Answer::Refused(reason) => format!("E {id} {reason}"),
-        Answer::Two(both) => show(&both[0], id),
+        Answer::Two(both) => line(&both[0], id),
         Answer::Died(misbehaviour) => format!("({misbehaviour})"),
     }
 }

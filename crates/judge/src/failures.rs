@@ -1,6 +1,5 @@
 //! Failing cases made small while the program is asked, and what was said about them.
 
-use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use super::Options;
@@ -12,10 +11,11 @@ use super::difference;
 use super::judged::CaseJudgement;
 use super::pictured::{Pictured, pictured};
 use super::run::{Changing, Failing, Row, RunFindings};
-use super::shrink::smaller;
+use super::shrink::ProgramSteps;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::shrink::SmallerSearch;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
 use rasterproof_verify::judge::ascii;
 
@@ -166,8 +166,12 @@ impl Subject for Spending<'_> {
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let start = Instant::now();
         let answers = self.asked.ask(questions, most_deaths);
-        self.spent += start.elapsed();
+        self.spent += self.asked.took().unwrap_or_else(|| start.elapsed());
         answers
+    }
+
+    fn took(&self) -> Option<Duration> {
+        self.asked.took()
     }
 }
 
@@ -305,42 +309,38 @@ impl Search<'_> {
         first: AskedCase,
     ) -> Failure {
         let &Self { check, truth, seed, patience, may_be } = self;
-        let program = RefCell::new(Spending { asked: program, spent: Duration::ZERO });
-        let ask = |case: &Case| AskedCase::of(&mut *program.borrow_mut(), check, case, truth);
-        let is_over = || program.borrow().spent >= patience;
+        let mut program = Spending { asked: program, spent: Duration::ZERO };
         let (was_wrong, was_late, is_slow) =
             (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
-        let kept = RefCell::new(first);
-        let case = if !was_wrong || is_slow {
-            original.clone()
-        } else {
-            smaller(check, original.clone(), |smaller| {
-                let is_asked =
-                    adapt_case::holds(smaller, &truth.declared) && may_be(smaller) && !is_over();
-                let smaller = adapt_case::put(smaller.clone(), &truth.declared);
-                if !is_asked || !check.fits(&smaller) {
-                    return false;
-                }
-                let asked = ask(&smaller);
-                let is_wrong = asked.judged.is_wrong();
-                if is_wrong {
-                    *kept.borrow_mut() = asked;
-                }
-                is_wrong
-            })
+        let mut kept = first;
+        let put = |case: &Case| adapt_case::put(case.clone(), &truth.declared);
+        let is_asked = |case: &Case| {
+            adapt_case::holds(case, &truth.declared) && may_be(case) && check.fits(&put(case))
         };
-        let was_cut = is_over();
-        let is_asked_again = !was_late && !is_slow;
-        let again =
-            if is_asked_again { Some(ask(&case)).filter(|again| !again.is_late()) } else { None };
+        let steps = ProgramSteps::new(check, &original, &is_asked);
+        let mut search = SmallerSearch::new(original.clone(), &steps);
+        while was_wrong && !is_slow && program.spent < patience {
+            let Some(smaller) = search.next(&steps, 1).pop() else { break };
+            let asked = AskedCase::of(&mut program, check, &put(&smaller), truth);
+            let is_wrong = asked.judged.is_wrong();
+            search.answer(&steps, &[is_wrong]);
+            kept = if is_wrong { asked } else { kept };
+        }
+        let case = search.smallest;
+        let was_cut = program.spent >= patience;
+        let again = if was_late || is_slow {
+            None
+        } else {
+            Some(AskedCase::of(&mut program, check, &case, truth)).filter(|again| !again.is_late())
+        };
         let shrunk = match (is_slow, was_cut || again.is_none()) {
             (true, _) => HowFar::TakesLong,
             (_, true) if case == original => HowFar::NotAtAll,
             (_, true) => HowFar::UntilTheEnd,
             (_, false) => HowFar::Shrunk,
         };
-        let AskedCase { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
+        let AskedCase { questions, answers, judged } = again.unwrap_or(kept);
         // Asked again, it was right: the program does not repeat itself.
         let what = match was_wrong && judged.is_wrong() {
             true => judged.describe(check),

@@ -7,7 +7,8 @@
 //! wrong with a case ([`judged`]), [`checkable`] says it so that a test without this judge can, `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, `after` makes failing cases smaller and asks why they fail, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
-//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known, and [`changes`] what one judgement finds and another does not. [`server`] is the other side: it answers as an engine.
+//! [`polygons`] judges tessellators. [`record`] keeps answers, so that a judgement that was broken off goes on. [`baseline`] knows failures that are
+//! known, and [`changes`] what one judgement finds and another does not. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
 mod after;
@@ -35,6 +36,7 @@ pub mod pixels;
 pub mod polygons;
 mod reach;
 pub mod recognise;
+pub mod record;
 pub mod run;
 pub mod server;
 pub mod shrink;
@@ -224,5 +226,9 @@ impl Subject for WatchedSubject<'_> {
             }
         }
         answers
+    }
+
+    fn took(&self) -> Option<Duration> {
+        self.asked.took()
     }
 }

@@ -1,13 +1,12 @@
-//! Asks every case, block by block, on as many copies of the program as there are.
+//! Asks every case, on as many copies of the program as there are: what [`machine`](rasterproof_verify::judge::machine) is to know of
+//! programs.
 //!
-//! Families take turns, so that a limited time is shared. Cases that leave the window come last.
-//! A family stops at the third time the program had to be started again.
+//! Cases that leave the window come last. A family stops at the third time the program had to be started again.
 
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Instant;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
@@ -18,6 +17,9 @@ use super::judged::CaseJudgement;
 use super::timed::Timed;
 use rasterproof_verify::cases::{Case, Family};
 use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::judge::machine::{
+    AnsweredBatch, Batch, Driver, Judge, JudgeKind, Place, Plan, Work, keep_first,
+};
 
 /// A family stops when the program has had to be started again this often.
 pub const MOST_DEATHS: u64 = 3;
@@ -27,10 +29,10 @@ pub const MOST_DEATHS_IN_ALL: u64 = 30;
 pub const MOST_HANGS_IN_ALL: u64 = 10;
 /// Failing cases that are remembered for a baseline.
 pub const MOST_REMEMBERED: usize = 1 << 20;
-/// Failing cases of a property that are remembered without one, by each copy.
+/// Failing cases of a property that are remembered without one.
 const KEPT: usize = 4;
 pub const MOST_INCIDENTS: usize = 24;
-/// Failing cases of a property that are asked a second time, by each copy. A program whose answers change seldom has few failing
+/// Failing cases of a property that are asked a second time. A program whose answers change seldom has few failing
 /// cases, and of one whose answers change often one of these will do.
 const MOST_ASKED_AGAIN: u64 = 64;
 /// Cases of each family among which one is looked up beside those that are judged.
@@ -142,27 +144,6 @@ impl Row {
     }
 }
 
-impl AddAssign<&Row> for Row {
-    fn add_assign(&mut self, other: &Row) {
-        self.cases += other.cases;
-        self.shapes += other.shapes;
-        self.pixels += other.pixels;
-        self.wrong_cases += other.wrong_cases;
-        self.tally += other.tally;
-        self.recognised += other.recognised;
-        self.recognised_pixels += other.recognised_pixels;
-        self.unscored += other.unscored;
-        self.unscored_wrong += other.unscored_wrong;
-        self.refused += other.refused;
-        self.values += other.values;
-        self.wrong_values += other.wrong_values;
-        self.worst = self.worst.max(other.worst);
-        self.deaths += other.deaths;
-        self.stopped |= other.stopped;
-        self.add_sides(other.sides);
-    }
-}
-
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
     pub property: &'static str,
@@ -240,12 +221,6 @@ impl RunFindings {
         &mut self.rows[at]
     }
 
-    fn change(&mut self, changing: Changing) {
-        if self.changing.iter().all(|first| first.failing.property != changing.failing.property) {
-            self.changing.push(changing);
-        }
-    }
-
     /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
     pub fn unexplained(&self) -> Vec<Check> {
@@ -257,22 +232,6 @@ impl RunFindings {
             _ => row.tally.total() > 0 && !is_explained(row),
         };
         checks_of(self.rows.iter().filter(is_wrong))
-    }
-
-    fn merge(&mut self, other: Self) {
-        for row in &other.rows {
-            *self.row(row.name, row.check) += row;
-        }
-        self.failing.extend(other.failing);
-        other.changing.into_iter().for_each(|changing| self.change(changing));
-        self.described.extend(other.described);
-        self.out_of_time |= other.out_of_time;
-        self.judged.extend(other.judged);
-        self.forgot |= other.forgot;
-        self.incidents.extend(other.incidents);
-        self.strays.extend(other.strays);
-        self.answered += other.answered;
-        self.cases += other.cases;
     }
 }
 
@@ -287,38 +246,198 @@ pub(super) fn checks_of<'a>(rows: impl Iterator<Item = &'a Row>) -> Vec<Check> {
     checks
 }
 
-/// Two passes: cases within their windows, then those that leave it.
-const PASSES: [bool; 2] = [false, true];
+/// Passes: cases within their windows, then those that leave it.
+const PASSES: usize = 2;
 
-struct Shared<'a> {
+/// A program that is judged, and by what.
+struct JudgedProgram<'a> {
     families: Vec<&'static Family>,
     options: &'a Options,
     truth: &'a Truth,
-    start: Instant,
     /// When the time of each pass is over; the first one leaves a quarter.
-    ends: [Option<Instant>; 2],
-    copies: u64,
-    deaths: Vec<AtomicU64>,
-    deaths_in_all: AtomicU64,
-    /// Those among them that had to be waited for.
-    hangs: AtomicU64,
-    answered: AtomicU64,
+    ends: [Option<Duration>; PASSES],
 }
 
-impl Shared<'_> {
+/// A case and one of its checks.
+struct Job {
+    index: u64,
+    check: Check,
+    case: Arc<Case>,
+    /// Whether no other check of the case comes after it.
+    is_last: bool,
+}
+
+impl Job {
+    fn questions(&self, truth: &Truth) -> Vec<Question> {
+        let mut questions = Vec::new();
+        self.check.questions(&self.case, truth, &mut questions);
+        questions
+    }
+}
+
+/// What was found about a job, and the answers where anything is wrong.
+struct JobFound {
+    judged: CaseJudgement,
+    answers: Vec<Answer>,
+}
+
+/// What came of the jobs so far.
+struct Counts {
+    found: RunFindings,
+    /// The first case of each property whose answers changed, after the number of its batch.
+    changing: Vec<(u64, Changing)>,
+    /// How often the program had to be started again, in each family of each pass.
+    deaths: Vec<[u64; PASSES]>,
+    /// Those among them that had to be waited for.
+    hangs: u64,
+}
+
+impl Counts {
     fn gave_up(&self) -> bool {
-        let deaths = self.deaths_in_all.load(Ordering::Relaxed);
         // One that has never answered is given up sooner.
-        let most = match self.answered.load(Ordering::Relaxed) {
+        let most = match self.found.answered {
             0 => 2 * MOST_DEATHS,
             _ => MOST_DEATHS_IN_ALL,
         };
-        deaths >= most || self.hangs.load(Ordering::Relaxed) >= MOST_HANGS_IN_ALL
+        self.deaths.as_flattened().iter().sum::<u64>() >= most || self.hangs >= MOST_HANGS_IN_ALL
+    }
+}
+
+impl JudgeKind for JudgedProgram<'_> {
+    type Job = Job;
+    type Judgement = JobFound;
+    type Tally = Counts;
+
+    fn jobs(&self, place: Place, index: u64, jobs: &mut Vec<Job>) {
+        let (family, truth) = (self.families[place.family], self.truth);
+        let case = adapt_case::case(family, self.options.seed, index, &truth.declared);
+        if adapt_case::leaves_window(&case) != (place.pass > 0) {
+            return;
+        }
+        let case = Arc::new(case);
+        let mut checks = Check::of_truth(family.name, &case, index, truth).into_iter().peekable();
+        while let Some(check) = checks.next() {
+            let is_last = checks.peek().is_none();
+            jobs.push(Job { index, check, case: Arc::clone(&case), is_last });
+        }
     }
 
-    /// Whether the time of a pass is over.
-    fn expired(&self, pass: bool) -> bool {
-        self.ends[usize::from(pass)].is_some_and(|end| Instant::now() >= end)
+    fn count(
+        &self,
+        Counts { found, deaths, hangs, .. }: &mut Counts,
+        place: Place,
+        (job, of): (Job, JobFound),
+    ) -> Option<(Job, JobFound)> {
+        let (family, judged) = (self.families[place.family], &of.judged);
+        found.cases += u64::from(job.is_last);
+        deaths[place.family][place.pass] += judged.died.len() as u64;
+        *hangs += judged.died.iter().filter(|(_, what)| what.is_slow()).count() as u64;
+        self.note(found, family, &job, judged);
+        let wrong = found.row(job.check.name(family.name), Some(job.check)).wrong_cases;
+        let is_asked_again =
+            judged.is_wrong() && judged.died.is_empty() && wrong <= MOST_ASKED_AGAIN;
+        is_asked_again.then_some((job, of))
+    }
+
+    fn compare(
+        &self,
+        tally: &mut Counts,
+        (batch, place): (u64, Place),
+        (job, first): &(Job, JobFound),
+        again: JobFound,
+    ) {
+        if first.answers.iter().zip(&again.answers).all(|(first, again)| first.is_same(again)) {
+            return;
+        }
+        let family = self.families[place.family];
+        let changing = Changing {
+            failing: Failing::new(family, job.index, job.check, &first.judged),
+            check: job.check,
+            questions: job.questions(self.truth),
+            answers: [first.answers.clone(), again.answers],
+        };
+        keep_first(&mut tally.changing, batch, changing, |a, b| {
+            a.failing.property == b.failing.property
+        });
+    }
+
+    fn cases(&self, tally: &Counts) -> u64 {
+        tally.found.cases
+    }
+
+    fn end(&self, _: &Counts, pass: usize) -> Option<Duration> {
+        self.ends[pass]
+    }
+
+    fn most_deaths(&self, tally: &Counts, place: Place) -> u64 {
+        let deaths = tally.deaths[place.family][place.pass];
+        if tally.gave_up() { 0 } else { MOST_DEATHS.saturating_sub(deaths) }
+    }
+}
+
+impl JudgedProgram<'_> {
+    /// Asks the jobs of a batch, and judges the answers.
+    fn ask(&self, asker: &mut dyn Subject, batch: Batch<Self>) -> AnsweredBatch<Self> {
+        let (most_deaths, is_again) = (batch.most_deaths, batch.is_again());
+        batch.ask(self, |jobs| {
+            let mut questions = Vec::new();
+            let mut ends = Vec::new();
+            for job in jobs {
+                job.check.questions(&job.case, self.truth, &mut questions);
+                ends.push(questions.len());
+            }
+            let answers = asker.ask(&questions, most_deaths);
+            let (mut found, mut first) = (Vec::new(), 0);
+            for (job, end) in jobs.iter().zip(ends) {
+                // Where the program was given up, the rest of the answers is not there.
+                let here = &answers[first.min(answers.len())..end.min(answers.len())];
+                let is_whole = here.len() == end - first;
+                first = end;
+                let judged = match (is_whole, here.iter().any(Answer::is_death)) {
+                    (true, _) if is_again => CaseJudgement::default(),
+                    (true, _) => job.check.judge(&job.case, here, self.truth),
+                    (false, true) if !is_again => Check::judge_deaths(here),
+                    (false, _) => break,
+                };
+                let is_kept = is_again || judged.is_wrong();
+                let answers = if is_kept { here.to_vec() } else { Vec::new() };
+                found.push(JobFound { judged, answers });
+            }
+            found
+        })
+    }
+
+    fn note(&self, found: &mut RunFindings, family: &Family, job: &Job, judged: &CaseJudgement) {
+        let &Job { index, check, .. } = job;
+        let (property, remember) = (check.name(family.name), self.options.terms.remember);
+        found.answered += judged.answered;
+        found.row(property, Some(check)).count(judged);
+        if remember {
+            found.judged.push((property, family.name, index));
+        }
+        for (at, what) in &judged.died {
+            if found.incidents.len() < MOST_INCIDENTS {
+                let asked = job.questions(self.truth);
+                let request = asked.get(*at).map_or_else(String::new, |q| q.text(1));
+                let what = what.clone();
+                found.incidents.push(Incident { family: family.name, index, what, request });
+            }
+        }
+        if judged.is_wrong() {
+            let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
+            if !remember && of_it >= KEPT {
+                return;
+            }
+            if found.failing.len() < MOST_REMEMBERED {
+                let failing = Failing::new(family, index, check, judged);
+                if of_it < KEPT {
+                    found.described.insert(failing.name(), judged.describe(check));
+                }
+                found.failing.push(failing);
+            } else {
+                found.forgot = true;
+            }
+        }
     }
 }
 
@@ -343,109 +462,70 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
     families.iter().map(of_family).fold(0, u64::saturating_add)
 }
 
-pub fn run(
+/// Judges a program with all of its copies; each asks whatever is next.
+pub fn run<'a>(
     askers: &mut [&mut dyn Subject],
-    options: &Options,
-    truth: &Truth,
+    options: &'a Options,
+    truth: &'a Truth,
     progress: &(dyn Fn(u64) + Sync),
 ) -> RunFindings {
-    let families = adapt_case::families(&options.families);
     let start = Instant::now();
-    let end = |share: f64| options.time_limit.map(|limit| start + limit.mul_f64(share));
-    let shared = Shared {
-        ends: [end(0.75), end(1.0)],
-        deaths: families.iter().chain(&families).map(|_| AtomicU64::new(0)).collect(),
-        families,
-        options,
-        truth,
-        start,
-        copies: askers.len() as u64,
-        deaths_in_all: AtomicU64::new(0),
-        hangs: AtomicU64::new(0),
-        answered: AtomicU64::new(0),
+    let families = adapt_case::families(&options.families);
+    let end = |share: f64| options.time_limit.map(|limit| limit.mul_f64(share));
+    let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
+    let families = judged.families.len();
+    let at_once = askers.iter().map(|asker| asker.cases_at_once()).min().unwrap_or(1);
+    let plan = Plan::new(options, [PASSES, families], at_once, at_once);
+    let counts = Counts {
+        found: RunFindings::default(),
+        changing: Vec::new(),
+        deaths: vec![[0; PASSES]; families],
+        hangs: 0,
     };
-    let all = Mutex::new(Vec::new());
-    let waiting = Mutex::new((0..).zip(askers.iter_mut()));
-    let next = || waiting.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-    let work = || {
-        while let Some((part, asker)) = next() {
-            let found = copy(&mut **asker, part, &shared, progress);
-            all.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((part, found));
-        }
-    };
-    std::thread::scope(|scope| {
-        // This thread is one of them; where the system refuses others, it works off all copies.
-        for _ in 1..shared.copies {
-            if std::thread::Builder::new().spawn_scoped(scope, work).is_err() {
-                break;
+    let copies: Vec<Mutex<Timed<'_>>> =
+        askers.iter_mut().map(|asker| Mutex::new(Timed::new(&mut **asker, None))).collect();
+    let workers = |work: &Work<'_>| {
+        std::thread::scope(|scope| {
+            // This thread is one of them; where the system refuses others, it works alone.
+            for copy in 1..copies.len() {
+                let work = move || work(copy);
+                if std::thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                    break;
+                }
             }
-        }
-        work();
-    });
-    let mut parts = all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    parts.sort_by_key(|(part, _)| *part);
-    let mut whole = RunFindings::default();
-    parts.into_iter().for_each(|(_, found)| whole.merge(found));
+            work(0);
+        });
+    };
+    let ask = |copy: usize, batch: Batch<JudgedProgram<'a>>| {
+        let mut asker = copies[copy].lock().unwrap_or_else(PoisonError::into_inner);
+        asker.end = judged.ends[batch.place.pass].map(|end| start + end);
+        judged.ask(&mut *asker, batch)
+    };
+    let driver = Driver { now: &|| start.elapsed(), workers: &workers, ask: &ask, progress };
+    let done = driver.drive(&judged, Judge::new(plan, counts));
+    let (is_late, gave_up) = (done.is_late, done.tally.gave_up());
+    let Counts { found: mut whole, changing, deaths, .. } = done.tally;
+    whole.out_of_time = is_late;
+    for copy in copies {
+        let mut asker = copy.into_inner().unwrap_or_else(PoisonError::into_inner);
+        whole.out_of_time |= asker.is_late;
+        whole.strays.extend(asker.strays());
+    }
     whole.failing.sort_by_key(|f| {
-        let family = shared.families.iter().position(|family| family.name == f.family);
+        let family = judged.families.iter().position(|family| family.name == f.family);
         (family, f.index, f.property)
     });
-    whole.gave_up = shared.gave_up();
+    whole.changing = changing.into_iter().map(|(_, changing)| changing).collect();
+    whole.gave_up = gave_up;
     whole.of_cases = cases_of(options, &truth.declared);
     whole.out_of_time &= whole.cases < whole.of_cases;
-    whole.seconds = shared.start.elapsed().as_secs_f64();
-    for (family, deaths) in shared.families.iter().cycle().zip(&shared.deaths) {
-        if deaths.load(Ordering::Relaxed) >= MOST_DEATHS {
+    whole.seconds = start.elapsed().as_secs_f64();
+    for (family, deaths) in judged.families.iter().zip(deaths) {
+        if deaths.iter().any(|deaths| *deaths >= MOST_DEATHS) {
             whole.row(family.name, None).stopped = true;
         }
     }
     whole
-}
-
-/// Judges with one copy of the program: it takes the blocks whose number, modulo the copies, is `part`. `progress`
-/// hears how many cases were judged.
-fn copy(
-    asker: &mut dyn Subject,
-    part: u64,
-    shared: &Shared<'_>,
-    progress: &(dyn Fn(u64) + Sync),
-) -> RunFindings {
-    let mut found = RunFindings::default();
-    let cases = shared.options.numbers();
-    let mut asker = Timed::new(asker, None);
-    for pass in PASSES {
-        asker.end = shared.ends[usize::from(pass)];
-        let mut first = cases.start;
-        let mut number = 0;
-        'rounds: while first < cases.end {
-            // Where the time is limited, blocks begin small: of a slow program each family is asked.
-            let most = match shared.options.time_limit {
-                Some(_) => asker.cases_at_once().min(1 << number.min(32)),
-                None => asker.cases_at_once(),
-            };
-            let end = cases.end.min(first.saturating_add(most));
-            for (at, family) in shared.families.iter().enumerate() {
-                if shared.expired(pass) {
-                    found.out_of_time = true;
-                    break 'rounds;
-                }
-                let deaths = &shared.deaths[at + usize::from(pass) * shared.families.len()];
-                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS || shared.gave_up();
-                // Families are dealt out like cards, so that one copy is not left with the slow ones.
-                if (number + at as u64) % shared.copies == part && !stop {
-                    let judged =
-                        block(&mut asker, family, first..end, pass, shared, deaths, &mut found);
-                    found.cases += judged;
-                    progress(judged);
-                }
-            }
-            number += 1;
-            first = end;
-        }
-    }
-    found.out_of_time |= asker.is_late;
-    found.strays.extend(asker.strays());
-    found
 }
 
 /// The family and the number of the first generated case that asks this, written with the id 1; nothing for a case that was
@@ -480,139 +560,60 @@ pub fn case_that_asks(
     None
 }
 
-/// Asks the checks of some cases of a family, and judges the answers: of how many cases all of them.
-fn block(
-    asker: &mut dyn Subject,
-    family: &'static Family,
-    indices: std::ops::Range<u64>,
-    pass: bool,
-    shared: &Shared<'_>,
-    deaths: &AtomicU64,
-    found: &mut RunFindings,
-) -> u64 {
-    let truth = shared.truth;
-    let mut jobs: Vec<(u64, usize, Check, usize)> = Vec::new();
-    let mut cases: Vec<Case> = Vec::new();
-    let mut questions: Vec<Question> = Vec::new();
-    for index in indices {
-        let case = adapt_case::case(family, shared.options.seed, index, &truth.declared);
-        if adapt_case::leaves_window(&case) != pass {
-            continue;
-        }
-        for check in Check::of_truth(family.name, &case, index, truth) {
-            let start = questions.len();
-            check.questions(&case, truth, &mut questions);
-            jobs.push((index, start, check, cases.len()));
-        }
-        cases.push(case);
-    }
-    let left = MOST_DEATHS.saturating_sub(deaths.load(Ordering::Relaxed));
-    let answers = asker.ask(&questions, left.max(1));
-    let mut whole = 0;
-    let mut wrong = Vec::new();
-    for (at, (index, first, check, case)) in jobs.iter().enumerate() {
-        let next = jobs.get(at + 1).map_or(questions.len(), |(_, next, ..)| *next);
-        // Where the program was given up, the rest of the answers is not there.
-        let here = &answers[*first.min(&answers.len())..next.min(answers.len())];
-        let is_whole = here.len() == next - first;
-        let judged = match (is_whole, here.iter().any(Answer::is_death)) {
-            (false, false) => break,
-            (true, _) => check.judge(&cases[*case], here, truth),
-            (false, true) => Check::judge_deaths(here),
-        };
-        let died = judged.died.len() as u64;
-        deaths.fetch_add(died, Ordering::Relaxed);
-        shared.deaths_in_all.fetch_add(died, Ordering::Relaxed);
-        let slow = judged.died.iter().filter(|(_, what)| what.is_slow()).count();
-        shared.hangs.fetch_add(slow as u64, Ordering::Relaxed);
-        shared.answered.fetch_add(judged.answered, Ordering::Relaxed);
-        let asked = &questions[*first..next];
-        note(found, family, *index, *check, &judged, (asked, shared.options.terms.remember));
-        let property = check.name(family.name);
-        if judged.is_wrong()
-            && died == 0
-            && found.row(property, Some(*check)).wrong_cases <= MOST_ASKED_AGAIN
-        {
-            wrong.push((Failing::new(family, *index, *check, &judged), *check, *first..next));
-        }
-        let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
-        whole += u64::from(is_last);
-    }
-    let mut asked_again = Vec::new();
-    for (.., range) in &wrong {
-        asked_again.extend_from_slice(&questions[range.clone()]);
-    }
-    if !asked_again.is_empty() {
-        let again = asker.ask(&asked_again, left.max(1));
-        shared.answered.fetch_add(again.len() as u64, Ordering::Relaxed);
-        ask_again(&wrong, &questions, &answers, &again, found);
-    }
-    whole
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ask::Breach;
+    use crate::in_process::Inside;
+    use rasterproof_registry::engines;
 
-/// Notes which of the failing cases are answered otherwise `again`. Where answers are missing, the time is up or the program was
-/// given up.
-fn ask_again(
-    wrong: &[(Failing, Check, std::ops::Range<usize>)],
-    questions: &[Question],
-    answers: &[Answer],
-    again: &[Answer],
-    found: &mut RunFindings,
-) {
-    let mut rest = again;
-    for (failing, check, range) in wrong {
-        let Some((again, after)) = rest.split_at_checked(range.len()) else { return };
-        rest = after;
-        let first = &answers[range.clone()];
-        if !first.iter().zip(again).all(|(first, again)| first.is_same(again)) {
-            found.change(Changing {
-                failing: failing.clone(),
-                check: *check,
-                questions: questions[range.clone()].to_vec(),
-                answers: [first.to_vec(), again.to_vec()],
-            });
-        }
-    }
-}
+    /// A strict fill that dies of some requests, and takes its time for others.
+    struct Uneven(Inside);
 
-fn note(
-    found: &mut RunFindings,
-    family: &'static Family,
-    index: u64,
-    check: Check,
-    judged: &CaseJudgement,
-    (asked, remember): (&[Question], bool),
-) {
-    let property = check.name(family.name);
-    found.answered += judged.answered;
-    found.row(property, Some(check)).count(judged);
-    if remember {
-        found.judged.push((property, family.name, index));
-    }
-    for (at, what) in &judged.died {
-        if found.incidents.len() < MOST_INCIDENTS {
-            let request = asked.get(*at).map_or_else(String::new, |q| q.text(1));
-            found.incidents.push(Incident {
-                family: family.name,
-                index,
-                what: what.clone(),
-                request,
-            });
+    impl Subject for Uneven {
+        fn declared(&self) -> &Declared {
+            self.0.declared()
         }
-    }
-    if judged.is_wrong() {
-        let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
-        if !remember && of_it >= KEPT {
-            return;
-        }
-        if found.failing.len() < MOST_REMEMBERED {
-            let failing = Failing::new(family, index, check, judged);
-            if of_it < KEPT {
-                found.described.insert(failing.name(), judged.describe(check));
+
+        fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+            let mut answers = self.0.ask(questions, most_deaths);
+            let mut deaths = 0;
+            for (at, answer) in answers.iter_mut().enumerate() {
+                match answer {
+                    Answer::Coverage(runs) if runs.len() == 7 => {
+                        *answer = Answer::Died(Breach::Exits.by("seven rows"));
+                        deaths += 1;
+                    }
+                    Answer::Coverage(runs) if runs.len() % 5 == 1 => std::thread::yield_now(),
+                    _ => {}
+                }
+                if deaths == most_deaths {
+                    answers.truncate(at + 1);
+                    break;
+                }
             }
-            found.failing.push(failing);
-        } else {
-            found.forgot = true;
+            answers
+        }
+    }
+
+    /// What is found does not depend on how many copies there are, nor on which of them answers first.
+    #[test]
+    fn copies_find_what_one_finds() {
+        let mut options = Options::default().cases(150);
+        options.families = ["half-integer", "fan", "tiny", "uniform"].map(str::to_owned).into();
+        let found = |copies: usize| {
+            let engine = engines::find("games101-strict").unwrap();
+            let mut all: Vec<Uneven> = (0..copies).map(|_| Uneven(Inside::new(engine))).collect();
+            let truth = Truth::of(&Declared { name: String::new(), ..engine.into() });
+            let mut askers: Vec<&mut dyn Subject> =
+                all.iter_mut().map(|one| one as &mut dyn Subject).collect();
+            let found = run(&mut askers, &options, &truth, &|_| ());
+            format!("{:?} {:?} {:?}", found.rows, found.failing, found.incidents)
+        };
+        let one = found(1);
+        assert!(one.contains("stopped: true") && one.contains("stopped: false"), "{one}");
+        for copies in [2, 5, 8, 8, 8] {
+            assert_eq!(found(copies), one, "{copies}");
         }
     }
 }

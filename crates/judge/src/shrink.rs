@@ -9,20 +9,54 @@ use glam::DVec2;
 use super::check::Check;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_verify::cases::shrink::{greedy, shrink};
+use rasterproof_verify::cases::shrink::{CaseSteps, Steps, smallest};
 use rasterproof_verify::cases::{Case, Shape, Triangle};
+
+/// The steps of cases that a program is asked.
+pub struct ProgramSteps<'a> {
+    check: Check,
+    /// Triangles without an area, at most: of what has depths a picture is shown, and such a triangle has none.
+    most_flat: usize,
+    /// Whether a smaller case is one to ask.
+    may_be: &'a dyn Fn(&Case) -> bool,
+}
+
+impl<'a> ProgramSteps<'a> {
+    pub fn new(check: Check, case: &Case, may_be: &'a dyn Fn(&Case) -> bool) -> Self {
+        let most_flat = if has_depth(check) { flat(case) } else { usize::MAX };
+        Self { check, most_flat, may_be }
+    }
+}
+
+impl Steps for ProgramSteps<'_> {
+    type Case = Case;
+    const STAGES: usize = CaseSteps::STAGES + 1;
+
+    fn candidates(&self, stage: usize, case: &Case) -> Vec<Case> {
+        match stage {
+            0..CaseSteps::STAGES => CaseSteps.candidates(stage, case),
+            _ if !has_depth(self.check) && triangles(case).len() < 2 => Vec::new(),
+            _ => candidates(case, self.check),
+        }
+    }
+
+    fn is_step(&self, stage: usize, from: &Case, to: &Case) -> bool {
+        let is_smaller = match stage {
+            0..CaseSteps::STAGES => CaseSteps.is_step(stage, from, to),
+            _ => size(to) < size(from),
+        };
+        is_smaller && flat(to) <= self.most_flat && (self.may_be)(to)
+    }
+}
 
 /// The smallest case reached from `case` that still fails; `case` itself does.
 pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
-    let has_depth = matches!(check, Check::Depth | Check::Near | Check::Carried);
-    // Of these a picture is shown, and what has no area has none.
-    let most_flat = if has_depth { flat(&case) } else { usize::MAX };
-    let fails = |case: &Case| flat(case) <= most_flat && fails(case);
-    let case = shrink(case, fails);
-    if !has_depth && triangles(&case).len() < 2 {
-        return case;
-    }
-    greedy(case, size, |case| candidates(case, check), fails)
+    let steps = ProgramSteps::new(check, &case, &|_| true);
+    smallest(case, &steps, fails)
+}
+
+fn has_depth(check: Check) -> bool {
+    matches!(check, Check::Depth | Check::Near | Check::Carried)
 }
 
 fn flat(case: &Case) -> usize {

@@ -79,7 +79,7 @@ impl Subject for Timed<'_> {
             deaths += answered.iter().filter(|answer| answer.is_death()).count() as u64;
             let (count, is_whole) = (answered.len(), answered.len() == some.len());
             answers.extend(answered);
-            let took = start.elapsed();
+            let took = self.asked.took().unwrap_or_else(|| start.elapsed());
             self.answered += count as u32;
             self.took += took;
             self.left = self.left.map(|left| left.saturating_sub(took));
@@ -93,6 +93,10 @@ impl Subject for Timed<'_> {
             self.batch = (fit as usize).clamp(1, MOST_AT_ONCE.min(2 * self.batch));
         }
         answers
+    }
+
+    fn took(&self) -> Option<Duration> {
+        self.asked.took()
     }
 
     fn cases_at_once(&self) -> u64 {

@@ -4,6 +4,8 @@
 //! again; stop when none does. Values that tell the corners apart come first, then corners on multiples
 //! of half a pixel, then short ones. The number of trials is bounded, so a slow engine costs little.
 
+use std::vec;
+
 use num_traits::Float as _;
 
 use super::named::{plain_line, plain_triangle};
@@ -12,39 +14,136 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 
+/// Candidates that a stage looks at.
 const MOST_TRIALS: u32 = 3000;
 
-/// The smallest case reached from `case`, which fails, through `candidates` that are smaller and
-/// fail too; at most `MOST_TRIALS` are looked at.
-pub fn greedy<C, S: PartialOrd>(
+/// By which steps the failing cases of a kind get smaller.
+pub trait Steps {
+    type Case: Clone;
+    /// Stages that come one after the other.
+    const STAGES: usize = 1;
+
+    /// The cases that a stage makes of one, those to look at first in front.
+    fn candidates(&self, stage: usize, case: &Self::Case) -> Vec<Self::Case>;
+
+    /// Whether a candidate is smaller than the case that it was made of, and one to ask.
+    fn is_step(&self, stage: usize, from: &Self::Case, to: &Self::Case) -> bool;
+}
+
+/// A search for a smaller case, as a value: it returns which cases to try next, and is given which of them fail. It calls nobody.
+#[derive(Clone, Debug)]
+pub struct SmallerSearch<C> {
+    /// The smallest case so far that fails.
+    pub smallest: C,
+    stage: usize,
+    candidates: vec::IntoIter<C>,
+    /// Candidates that this stage has looked at.
+    trials: u32,
+    /// Cases that wait for an answer, with the number of trials when they were looked at.
+    asked: Vec<(u32, C)>,
+}
+
+impl<C: Clone> SmallerSearch<C> {
+    /// The case fails.
+    pub fn new(case: C, steps: &impl Steps<Case = C>) -> Self {
+        let candidates = steps.candidates(0, &case).into_iter();
+        Self { smallest: case, stage: 0, candidates, trials: 0, asked: Vec::new() }
+    }
+
+    /// The cases to ask next, at most so many; none at the end. The result does not depend on how many are asked at once.
+    pub fn next<S: Steps<Case = C>>(&mut self, steps: &S, most: usize) -> Vec<C> {
+        self.asked.clear();
+        while self.asked.len() < most && self.stage < S::STAGES {
+            let candidate = self.candidates.next().filter(|_| self.trials < MOST_TRIALS);
+            let Some(candidate) = candidate else {
+                if !self.asked.is_empty() {
+                    break;
+                }
+                // No step of this stage fails.
+                (self.stage, self.trials) = (self.stage + 1, 0);
+                self.begin_step(steps);
+                continue;
+            };
+            self.trials += 1;
+            if steps.is_step(self.stage, &self.smallest, &candidate) {
+                self.asked.push((self.trials, candidate));
+            }
+        }
+        self.asked.iter().map(|(_, case)| case.clone()).collect()
+    }
+
+    /// Goes on from the first of the cases that fails.
+    pub fn answer<S: Steps<Case = C>>(&mut self, steps: &S, fails: &[bool]) {
+        let Some(at) = fails.iter().position(|fails| *fails) else { return };
+        (self.trials, self.smallest) = self.asked.swap_remove(at);
+        self.begin_step(steps);
+    }
+
+    fn begin_step<S: Steps<Case = C>>(&mut self, steps: &S) {
+        let is_over = self.stage >= S::STAGES;
+        let candidates =
+            if is_over { Vec::new() } else { steps.candidates(self.stage, &self.smallest) };
+        self.candidates = candidates.into_iter();
+    }
+}
+
+/// The smallest case reached from `case`, which fails, while `fails` holds.
+pub fn smallest<S: Steps>(case: S::Case, steps: &S, fails: impl Fn(&S::Case) -> bool) -> S::Case {
+    let mut search = SmallerSearch::new(case, steps);
+    while let Some(case) = search.next(steps, 1).pop() {
+        search.answer(steps, &[fails(&case)]);
+    }
+    search.smallest
+}
+
+/// Steps by which a size gets smaller.
+struct BySize<'a, C, S> {
+    size: &'a dyn Fn(&C) -> S,
+    candidates: &'a dyn Fn(&C) -> Vec<C>,
+}
+
+impl<C: Clone, S: PartialOrd> Steps for BySize<'_, C, S> {
+    type Case = C;
+
+    fn candidates(&self, _: usize, case: &C) -> Vec<C> {
+        (self.candidates)(case)
+    }
+
+    fn is_step(&self, _: usize, from: &C, to: &C) -> bool {
+        (self.size)(to) < (self.size)(from)
+    }
+}
+
+/// The smallest case reached from `case`, which fails, through `candidates` that are smaller and fail too.
+pub fn greedy<C: Clone, S: PartialOrd>(
     case: C,
     size: impl Fn(&C) -> S,
     candidates: impl Fn(&C) -> Vec<C>,
     fails: impl Fn(&C) -> bool,
 ) -> C {
-    let mut smallest = case;
-    let mut trials = 0;
-    loop {
-        let current = size(&smallest);
-        let better = candidates(&smallest).into_iter().find(|candidate| {
-            trials += 1;
-            trials <= MOST_TRIALS && size(candidate) < current && fails(candidate)
-        });
-        match better {
-            Some(better) => smallest = better,
-            None => return smallest,
-        }
+    smallest(case, &BySize { size: &size, candidates: &candidates }, fails)
+}
+
+/// The steps of the cases of the comparison.
+pub struct CaseSteps;
+
+impl Steps for CaseSteps {
+    type Case = Case;
+    const STAGES: usize = 2;
+
+    /// In the end, all of it is shown where it fails in the larger window too.
+    fn candidates(&self, stage: usize, case: &Case) -> Vec<Case> {
+        if stage == 0 { candidates(case) } else { around(case).into_iter().collect() }
+    }
+
+    fn is_step(&self, stage: usize, from: &Case, to: &Case) -> bool {
+        if stage == 0 { size(to) < size(from) } else { to != from }
     }
 }
 
 /// The smallest case reached from `case` for which `fails` holds; `case` itself fails.
 pub fn shrink(case: Case, fails: impl Fn(&Case) -> bool) -> Case {
-    let smallest = greedy(case, size, candidates, &fails);
-    // Show all of it, where it fails in the larger window too.
-    match around(&smallest).filter(|whole| fails(whole)) {
-        Some(whole) => whole,
-        None => smallest,
-    }
+    smallest(case, &CaseSteps, fails)
 }
 
 type Point = [i32; 2];
@@ -374,4 +473,47 @@ pub fn describe(case: &Case) -> String {
         }
     };
     shapes.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::{lines, triangles, unsnapped};
+
+    /// The smallest case, with so many asked at once, and the way to it.
+    fn found(case: &Case, most: usize, fails: &dyn Fn(&Case) -> bool) -> Vec<Case> {
+        let mut search = SmallerSearch::new(case.clone(), &CaseSteps);
+        let mut way = vec![case.clone()];
+        loop {
+            let asked = search.next(&CaseSteps, most);
+            if asked.is_empty() {
+                return way;
+            }
+            assert!(asked.len() <= most);
+            search.answer(&CaseSteps, &asked.iter().map(fails).collect::<Vec<_>>());
+            if way.last() != Some(&search.smallest) {
+                way.push(search.smallest.clone());
+            }
+        }
+    }
+
+    /// Whoever answers one case at a time is led the same way as whoever answers 512, and so is who answers not all of them.
+    #[test]
+    fn the_smallest_case_does_not_depend_on_how_many_are_asked_at_once() {
+        let mut steps = 0;
+        for family in [triangles::FAMILIES, lines::FAMILIES, unsnapped::FAMILIES].concat() {
+            for index in 0..6 {
+                let case = family.case(2, index);
+                // Fails where it needs many bits, so that the way is long.
+                let fails = |case: &Case| size(case).4 % 3 != 1 && size(case).5 > 4;
+                let way = found(&case, 1, &fails);
+                for most in [2, 7, 512] {
+                    assert_eq!(found(&case, most, &fails), way, "{} {index} {most}", family.name);
+                }
+                assert_eq!(shrink(case, fails), *way.last().unwrap());
+                steps += way.len();
+            }
+        }
+        assert!(steps > 2000, "{steps}");
+    }
 }

@@ -78,7 +78,7 @@ pub(super) fn failures(
 ) -> Vec<Failure> {
     let mut failures = Vec::new();
     for (partial, of) in partials.iter().zip(chosen) {
-        failures.extend(partial.changing.iter().map(|changing| changing.failure(of, options)));
+        failures.extend(partial.changing.iter().map(|(_, changing)| changing.failure(of, options)));
     }
     let is_by_oracle = |failure: &Failure| failure.evidence.pair[1] == ORACLE;
     if failures.iter().any(is_by_oracle) {

@@ -28,8 +28,10 @@ mod truth;
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::AddAssign;
+use std::time::Duration;
 
 use crate::cases::{Case, Family, FamilyName, Kind, Shape};
+use crate::judge::machine::{JudgeKind, Place, keep_first};
 use crate::judge::{self, Clock};
 use changed::Changing;
 use compare::{
@@ -513,29 +515,107 @@ struct Chosen<'a> {
     pairs: Vec<[String; 2]>,
 }
 
-/// What some cases of one family came to.
-struct Partial {
-    report: FamilyReport,
-    /// Pair and number of failing cases, lowest numbers first.
-    failing: Vec<(usize, u64)>,
-    /// The first case of each pair that was not drawn the same twice.
-    changing: Vec<Changing>,
+/// A generated case, and what was known of each pair when it was judged the first time.
+struct EngineJob {
+    index: u64,
+    case: Case,
+    known: Option<Vec<Finding>>,
 }
 
-impl Partial {
-    fn merge(mut self, other: Self) -> Self {
-        self.report += other.report;
-        self.failing.extend(other.failing);
-        self.failing.sort_unstable();
-        let pairs = self.failing.chunk_by(|a, b| a.0 == b.0);
-        self.failing = pairs.flat_map(|pair| pair.iter().take(KEPT)).copied().collect();
-        // The lower numbers are in front.
-        for changing in other.changing {
-            if self.changing.iter().all(|first| first.pair != changing.pair) {
-                self.changing.push(changing);
+/// What was found about a case; `known` is what was known before of each pair, empty where nothing is wrong.
+struct EngineFound {
+    facts: compare::CaseFacts,
+    findings: Vec<Finding>,
+    known: Vec<Finding>,
+}
+
+/// What the cases of one family came to.
+struct Partial {
+    report: FamilyReport,
+    /// Pair and number of the first failing cases.
+    failing: Vec<(usize, u64)>,
+    /// The first case of each pair that was not drawn the same twice, after the number of its batch.
+    changing: Vec<(u64, Changing)>,
+}
+
+/// Engines that are judged.
+struct JudgedEngines<'a> {
+    chosen: Vec<Chosen<'a>>,
+    options: &'a Options,
+    clock: &'a Clock,
+}
+
+impl JudgedEngines<'_> {
+    /// Judges some cases of a family. What an earlier one reached need not be looked into again.
+    fn find(&self, jobs: &[&EngineJob], comparer: &dyn CompareCases) -> Vec<EngineFound> {
+        let mut known = vec![Finding::default(); comparer.pairs().len()];
+        let mut found = Vec::new();
+        for job in jobs {
+            let before = job.known.as_ref().unwrap_or(&known);
+            let (facts, findings) = comparer.judge(&job.case, before.clone());
+            let is_wrong = findings.iter().any(Finding::is_wrong);
+            let before = if is_wrong { before.clone() } else { Vec::new() };
+            for (known, finding) in known.iter_mut().zip(&findings) {
+                *known = Finding::known(finding.attribute, finding.depth);
+            }
+            found.push(EngineFound { facts, findings, known: before });
+        }
+        found
+    }
+}
+
+impl JudgeKind for JudgedEngines<'_> {
+    type Job = EngineJob;
+    type Judgement = EngineFound;
+    type Tally = Vec<Partial>;
+
+    fn jobs(&self, place: Place, index: u64, jobs: &mut Vec<EngineJob>) {
+        let family = self.chosen[place.family].family;
+        let case = self.options.terms.case(family, self.options.seed, index);
+        jobs.push(EngineJob { index, case, known: None });
+    }
+
+    fn count(
+        &self,
+        tally: &mut Vec<Partial>,
+        place: Place,
+        (job, found): (EngineJob, EngineFound),
+    ) -> Option<(EngineJob, EngineFound)> {
+        let Partial { report, failing, .. } = &mut tally[place.family];
+        report.count(&found.facts);
+        for (pair, finding) in found.findings.iter().enumerate() {
+            report.pairs[pair].count(job.index, finding);
+            if finding.is_wrong() && failing.iter().filter(|(p, _)| *p == pair).count() < KEPT {
+                failing.push((pair, job.index));
             }
         }
-        self
+        if found.known.is_empty() {
+            return None;
+        }
+        let keep = |known: &Finding| Finding { keeps_pixels: true, ..known.clone() };
+        let known = Some(found.known.iter().map(keep).collect());
+        Some((EngineJob { known, ..job }, found))
+    }
+
+    fn compare(
+        &self,
+        tally: &mut Vec<Partial>,
+        (batch, place): (u64, Place),
+        (job, found): &(EngineJob, EngineFound),
+        again: EngineFound,
+    ) {
+        let kept = &mut tally[place.family].changing;
+        for changing in Changing::between(job.index, &found.findings, again.findings) {
+            keep_first(kept, batch, changing, |a, b| a.pair == b.pair);
+        }
+    }
+
+    fn cases(&self, tally: &Vec<Partial>) -> u64 {
+        tally.iter().map(|partial| partial.report.cases).sum()
+    }
+
+    fn end(&self, tally: &Vec<Partial>, _: usize) -> Option<Duration> {
+        self.clock.end_of_cases(tally.iter().any(|partial| !partial.failing.is_empty()))
     }
 }
 
@@ -560,17 +640,25 @@ fn drive(
             }));
         }
     }
-    let block = |family: usize, numbers: &[u64]| {
-        let partial = watch.during(|| judge_block(&chosen[family], numbers, options));
-        if !partial.failing.is_empty() {
-            clock.has_failed();
-        }
-        partial
+    let partial = |of: &Chosen<'_>| Partial {
+        report: FamilyReport::new(of),
+        failing: Vec::new(),
+        changing: Vec::new(),
     };
-    let partials = judge::in_blocks(chosen.len(), options, clock, progress, &block, Partial::merge);
+    let partials = chosen.iter().map(partial).collect();
+    let judged = JudgedEngines { chosen, options, clock };
+    let find = |place: Place, jobs: &[&EngineJob]| {
+        watch.during(|| judged.find(jobs, judged.chosen[place.family].comparer))
+    };
+    let families = judged.chosen.len();
+    let mut partials =
+        judge::in_process(&judged, partials, families, (options, clock), progress, &find);
+    // Of a limited time, the last families may not have been reached.
+    partials.retain(|partial| partial.report.cases > 0);
+    let chosen = &judged.chosen;
     let of_cases = options.count().saturating_mul(chosen.len() as u64);
     clock.limit(watch, true);
-    let failures = shrink_failures(&partials, &chosen, options, watch);
+    let failures = shrink_failures(&partials, chosen, options, watch);
     let more = LeftOut {
         cases: of_cases - partials.iter().map(|partial| partial.report.cases).sum::<u64>(),
         shrinking: !failures.is_empty() && watch.is_over(),
@@ -581,36 +669,6 @@ fn drive(
     };
     let families = partials.into_iter().map(|partial| partial.report).collect();
     Verdict { options: options.clone(), families, failures, cause: None, more }
-}
-
-fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Partial {
-    let mut report = FamilyReport::new(chosen);
-    let mut failing = Vec::new();
-    let mut changing: Vec<Changing> = Vec::new();
-    for &index in indices {
-        // What an earlier case reached need not be looked into again.
-        let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
-        let known: Vec<_> = report.pairs.iter().map(known).collect();
-        let case = options.terms.case(chosen.family, options.seed, index);
-        let (facts, findings) = chosen.comparer.judge(&case, known.clone());
-        report.count(&facts);
-        if findings.iter().any(Finding::is_wrong) {
-            let keep = |known| Finding { keeps_pixels: true, ..known };
-            let again = chosen.comparer.judge(&case, known.into_iter().map(keep).collect()).1;
-            for found in Changing::between(index, &findings, again) {
-                if changing.iter().all(|first| first.pair != found.pair) {
-                    changing.push(found);
-                }
-            }
-        }
-        for (pair, finding) in findings.iter().enumerate() {
-            report.pairs[pair].count(index, finding);
-            if finding.is_wrong() && failing.iter().filter(|(p, _)| *p == pair).count() < KEPT {
-                failing.push((pair, index));
-            }
-        }
-    }
-    Partial { report, failing, changing }
 }
 
 impl AddAssign for FamilyReport {

@@ -5,14 +5,16 @@
 
 #[doc(hidden)]
 pub mod ascii;
+#[doc(hidden)]
+pub mod machine;
 mod nothing;
 mod panics;
 
 use std::fmt;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use machine::{Batch, Driver, Find, Judge, JudgeKind, Plan};
 pub use nothing::{NoSuchShard, NothingJudged};
 pub use panics::EnginePanic;
 #[doc(hidden)]
@@ -246,23 +248,16 @@ impl fmt::Display for LeftOut {
 pub(crate) struct Clock {
     start: Instant,
     limit: Option<Duration>,
-    has_failed: AtomicBool,
 }
 
 impl Clock {
     pub(crate) fn new(limit: Option<Duration>) -> Self {
-        Self { start: Instant::now(), limit, has_failed: AtomicBool::new(false) }
+        Self { start: Instant::now(), limit }
     }
 
-    /// Something is wrong: from now on half of a limited time is for what comes after the cases.
-    pub(crate) fn has_failed(&self) {
-        self.has_failed.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether no more cases are begun.
-    fn is_expired(&self) -> bool {
-        let share = if self.has_failed.load(Ordering::Relaxed) { 2 } else { 1 };
-        self.limit.is_some_and(|limit| self.start.elapsed() >= limit / share)
+    /// When no more cases are begun: where something is wrong, half of a limited time is for what comes after them.
+    pub(crate) fn end_of_cases(&self, has_failed: bool) -> Option<Duration> {
+        self.limit.map(|limit| limit / if has_failed { 2 } else { 1 })
     }
 
     /// Limits what comes after the cases: shrinking to half of what is left, or to all of it what comes after that.
@@ -326,51 +321,30 @@ pub struct Verdict<O, R, F, W, M = ()> {
 
 /// Cases that a thread judges in one go.
 const BLOCK: u64 = 64;
-/// Cases of a family judged before the next family's turn: bounds the list of blocks.
-const MOST_PER_ROUND: u64 = 1 << 20;
+/// Cases of a family before the next family's turn. Of a limited time a few blocks.
+const MOST_PER_ROUND: [u64; 2] = [1 << 20, BLOCK * 8];
+/// More than most machines have threads.
+const WORKERS: usize = 64;
 
-/// Judges the cases of so many families, by number, within the limits and the shard of `options`; in blocks, on all threads. `block`
-/// judges some numbers of a family, and `merge` makes one of what two blocks found, the lower numbers first. `progress` hears how many
-/// were judged.
-///
-/// Of a limited time, rounds begin small: of a slow engine each family is judged. The first case of all is judged whatever the limit.
-pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
+/// Judges so many families, where who is asked is in this process, on all threads. `find` says what is found about some jobs of a family.
+pub(crate) fn in_process<K: JudgeKind, F, T>(
+    kind: &K,
+    tally: K::Tally,
     families: usize,
-    options: &Options<F, T>,
-    clock: &Clock,
+    (options, clock): (&Options<F, T>, &Clock),
     progress: &(dyn Fn(u64) + Sync),
-    block: &(dyn Fn(usize, &[u64]) -> P + Sync),
-    merge: fn(P, P) -> P,
-) -> Vec<P> {
-    let mut found: Vec<Option<P>> = (0..families).map(|_| None).collect();
-    // With a time limit, families advance together, one case at first, and a few blocks at a time in the end.
-    let (mut round, most) = match options.time_limit {
-        Some(_) => (1, BLOCK * 8),
-        None => (MOST_PER_ROUND, MOST_PER_ROUND),
+    find: &Find<'_, K>,
+) -> K::Tally {
+    let most = MOST_PER_ROUND[usize::from(options.time_limit.is_some())];
+    let judge = Judge::new(Plan::new(options, [1, families], BLOCK, most), tally);
+    let driver = Driver {
+        now: &|| clock.start.elapsed(),
+        workers: &|work| parallel::each(WORKERS, work),
+        ask: &|_, batch: Batch<K>| {
+            let place = batch.place;
+            batch.ask(kind, |jobs| find(place, jobs))
+        },
+        progress,
     };
-    let all = options.numbers();
-    let Shard { part, parts } = options.shard;
-    let mut done = all.start;
-    let mut is_first = true;
-    'rounds: while done < all.end {
-        let end = all.end.min(done.saturating_add(round));
-        for (family, slot) in found.iter_mut().enumerate() {
-            if !is_first && clock.is_expired() {
-                break 'rounds;
-            }
-            is_first = false;
-            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
-                let first = done + number as u64 * BLOCK;
-                let numbers = first..end.min(first.saturating_add(BLOCK));
-                let numbers: Vec<u64> = numbers.filter(|index| index % parts == part).collect();
-                let judged = block(family, &numbers);
-                progress(numbers.len() as u64);
-                judged
-            });
-            *slot = slot.take().into_iter().chain(blocks).reduce(merge);
-        }
-        done = end;
-        round = most.min(2 * round);
-    }
-    found.into_iter().flatten().collect()
+    driver.drive(kind, judge).tally
 }

@@ -1,17 +1,17 @@
 //! A tessellator judged over the families, and what is said about it.
 
-use std::cell::RefCell;
 use std::error::Error;
 use std::fmt;
-use std::slice;
+use std::time::Duration;
 
 use super::cause::{self, Made};
-use super::families::is_as_generated;
-use super::shrink::shrink;
+use super::shrink::PolygonSteps;
 use super::{
     Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
     Triangle, judge_partition,
 };
+use crate::cases::shrink::SmallerSearch;
+use crate::judge::machine::{JudgeKind, Place};
 use crate::judge::{self, Clock, LeftOut, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
@@ -355,14 +355,21 @@ fn judge(
     options.check()?;
     let wanted = wanted(options);
     let clock = Clock::new(options.time_limit);
-    let block = |family: usize, numbers: &[u64]| {
-        let part = judge_block(tessellator, options, wanted[family], numbers);
-        if part.polygons.wrong > 0 {
-            clock.has_failed();
-        }
-        part
+    let part = |family: &Family| Part {
+        polygons: Polygons::new(*family),
+        smallest: Default::default(),
+        changing: None,
     };
-    let parts = judge::in_blocks(wanted.len(), options, &clock, &|_| (), &block, Part::merge);
+    let parts = wanted.iter().map(part).collect();
+    let find = |_: Place, jobs: &[&PolygonJob]| {
+        let polygons: Vec<Polygon> = jobs.iter().map(|job| job.polygon.clone()).collect();
+        ask(tessellator, &polygons, options)
+    };
+    let judged = JudgedTessellator { families: &wanted, options, clock: &clock };
+    let of = (options, &clock);
+    let mut parts = judge::in_process(&judged, parts, wanted.len(), of, &|_| (), &find);
+    // Of a limited time, the last families may not have been reached.
+    parts.retain(|part| part.polygons.polygons + part.polygons.left_out > 0);
     let (mut families, mut changing) = (Vec::new(), Vec::new());
     let mut failing: Vec<(FaultKind, Family, Failing)> = Vec::new();
     for part in parts {
@@ -377,7 +384,7 @@ fn judge(
                 Some(_) => {}
             }
         }
-        changing.extend(part.changing.map(|(_, failure)| failure));
+        changing.extend(part.changing.map(|(.., failure)| failure));
         families.push(part.polygons);
     }
     failing.sort_by_key(|(kind, ..)| *kind);
@@ -420,7 +427,8 @@ fn wanted(options: &Options) -> Vec<Family> {
 fn some(tessellator: &FindFaults, options: &Options) -> Vec<Made> {
     let mut made = Vec::new();
     for family in wanted(options) {
-        let polygons = polygons(family, 0..OF_A_FAMILY, options);
+        let polygon = |index| polygon(family, index, options);
+        let polygons: Vec<Polygon> = (0..OF_A_FAMILY).map(polygon).collect();
         let answers = ask(tessellator, &polygons, options);
         made.extend(polygons.into_iter().zip(answers).filter_map(|(polygon, answer)| {
             answer.map(|(triangles, finding)| Made { polygon, triangles, finding })
@@ -429,8 +437,8 @@ fn some(tessellator: &FindFaults, options: &Options) -> Vec<Made> {
     made
 }
 
-fn polygons(family: Family, numbers: impl Iterator<Item = u64>, options: &Options) -> Vec<Polygon> {
-    numbers.map(|index| family.polygon(options.seed, index, options.terms.coordinates)).collect()
+fn polygon(family: Family, index: u64, options: &Options) -> Polygon {
+    family.polygon(options.seed, index, options.terms.coordinates)
 }
 
 /// Polygons of each family by which a cause is looked for.
@@ -441,8 +449,21 @@ struct Part {
     polygons: Polygons,
     /// Of each kind of fault the polygon with the fewest vertices.
     smallest: [Option<Failing>; FaultKind::ALL.len()],
-    /// The polygon with the fewest vertices of which other triangles were made the second time: how many, and both answers.
-    changing: Option<(usize, Failure)>,
+    /// The polygon with the fewest vertices of which other triangles were made the second time: how many, in which batch, and both
+    /// answers.
+    changing: Option<(usize, u64, Failure)>,
+}
+
+/// A generated polygon.
+struct PolygonJob {
+    index: u64,
+    polygon: Polygon,
+}
+
+impl PolygonJob {
+    fn vertices(&self) -> usize {
+        self.polygon.contours.iter().map(Vec::len).sum()
+    }
 }
 
 /// A polygon with a fault, as it was generated, and what became of it.
@@ -453,37 +474,37 @@ struct Failing {
     faults: Faults,
 }
 
-impl Part {
-    fn merge(mut self, other: Self) -> Self {
-        self.polygons.add(&other.polygons);
-        for (best, found) in self.smallest.iter_mut().zip(other.smallest) {
-            *best = best.take().into_iter().chain(found).min_by_key(|failing| failing.vertices);
-        }
-        let both = self.changing.into_iter().chain(other.changing);
-        self.changing = both.min_by_key(|(vertices, _)| *vertices);
-        self
-    }
+/// A tessellator that is judged.
+struct JudgedTessellator<'a> {
+    families: &'a [Family],
+    options: &'a Options,
+    clock: &'a Clock,
 }
 
-fn judge_block(
-    tessellator: &FindFaults,
-    options: &Options,
-    family: Family,
-    numbers: &[u64],
-) -> Part {
-    let polygons_of = Polygons::new(family);
-    let mut part = Part { polygons: polygons_of, smallest: Default::default(), changing: None };
-    let mut failing = Vec::new();
-    let polygons = polygons(family, numbers.iter().copied(), options);
-    let answers = ask(tessellator, &polygons, options);
-    for ((&index, polygon), answer) in numbers.iter().zip(&polygons).zip(answers) {
+impl JudgeKind for JudgedTessellator<'_> {
+    type Job = PolygonJob;
+    type Judgement = Option<(Vec<Triangle>, Faults)>;
+    type Tally = Vec<Part>;
+
+    fn jobs(&self, place: Place, index: u64, jobs: &mut Vec<PolygonJob>) {
+        let polygon = polygon(self.families[place.family], index, self.options);
+        jobs.push(PolygonJob { index, polygon });
+    }
+
+    fn count(
+        &self,
+        tally: &mut Vec<Part>,
+        place: Place,
+        (job, found): (PolygonJob, Self::Judgement),
+    ) -> Option<(PolygonJob, Self::Judgement)> {
+        let part = &mut tally[place.family];
         // Families draw until a polygon is valid.
-        let Some((triangles, faults)) = answer else {
+        let Some((triangles, faults)) = &found else {
             part.polygons.left_out += 1;
-            continue;
+            return None;
         };
-        part.polygons.count(&faults, triangles.len());
-        let vertices = polygon.contours.iter().map(Vec::len).sum();
+        part.polygons.count(faults, triangles.len());
+        let (vertices, index) = (job.vertices(), job.index);
         for (best, kind) in part.smallest.iter_mut().zip(FaultKind::ALL) {
             if faults.has(kind) && best.as_ref().is_none_or(|best| vertices < best.vertices) {
                 let (triangles, faults) = (triangles.clone(), faults.clone());
@@ -491,29 +512,39 @@ fn judge_block(
             }
         }
         // Who has no answer to a polygon is not asked for it again: that may take long.
-        if !faults.faults.is_empty() && faults.is_of_an_answer() {
-            failing.push((index, polygon.clone(), triangles, faults));
+        let is_asked_again = !faults.faults.is_empty() && faults.is_of_an_answer();
+        is_asked_again.then_some((job, found))
+    }
+
+    fn compare(
+        &self,
+        tally: &mut Vec<Part>,
+        (batch, place): (u64, Place),
+        (job, first): &(PolygonJob, Self::Judgement),
+        again: Self::Judgement,
+    ) {
+        let (Some((triangles, faults)), Some(again)) = (first.clone(), again) else { return };
+        if !again.1.is_of_an_answer() || is_same(&again.0, &triangles) {
+            return;
         }
-    }
-    let of_failing: Vec<Polygon> = failing.iter().map(|(_, polygon, ..)| polygon.clone()).collect();
-    if of_failing.is_empty() {
-        return part;
-    }
-    let again = ask(tessellator, &of_failing, options);
-    for ((index, case, triangles, faults), again) in failing.into_iter().zip(again) {
-        let is_other = |(other, of): &(Vec<Triangle>, Faults)| {
-            of.is_of_an_answer() && !is_same(other, &triangles)
-        };
-        let Some(again) = again.filter(is_other) else { continue };
-        let vertices = case.contours.iter().map(Vec::len).sum();
-        if part.changing.as_ref().is_none_or(|(fewest, _)| vertices < *fewest) {
-            let (seed, what, kind) = (options.seed, faults.to_string(), faults.faults[0].kind);
+        let Part { polygons, changing, .. } = &mut tally[place.family];
+        let vertices = job.vertices();
+        if changing.as_ref().is_none_or(|(fewest, of, _)| (vertices, batch) < (*fewest, *of)) {
+            let (seed, what, kind) = (self.options.seed, faults.to_string(), faults.faults[0].kind);
             let evidence = Triangulated { kind, triangles, faults, again: Some(again) };
-            let failure = Failure { family: family.name(), index, seed, what, case, evidence };
-            part.changing = Some((vertices, failure));
+            let (family, case) = (polygons.family.name(), job.polygon.clone());
+            let failure = Failure { family, index: job.index, seed, what, case, evidence };
+            *changing = Some((vertices, batch, failure));
         }
     }
-    part
+
+    fn cases(&self, tally: &Vec<Part>) -> u64 {
+        tally.iter().map(|part| part.polygons.polygons + part.polygons.left_out).sum()
+    }
+
+    fn end(&self, tally: &Vec<Part>, _: usize) -> Option<Duration> {
+        self.clock.end_of_cases(tally.iter().any(|part| part.polygons.wrong > 0))
+    }
 }
 
 /// Whether the corners are the same, also where they are no numbers.
@@ -535,18 +566,20 @@ fn smallest(
     let (seed, coordinates) = (options.seed, options.terms.coordinates);
     let index = found.index;
     // What became of the smallest polygon so far: once the time is up, nobody answers.
-    let last = RefCell::new((found.triangles.clone(), found.faults.clone()));
-    let fails = |polygon: &Polygon| {
-        let asked = || ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
-        let is_asked = !watch.is_over() && is_as_generated(polygon, family);
-        let made = is_asked.then(asked).flatten();
+    let (mut triangles, mut faults) = (found.triangles.clone(), found.faults.clone());
+    let steps = PolygonSteps { coordinates, family };
+    let mut search = SmallerSearch::new(polygon(family, index, options), &steps);
+    while !watch.is_over() {
+        let smaller = search.next(&steps, 1);
+        if smaller.is_empty() {
+            break;
+        }
+        let made = ask(tessellator, &smaller, options).pop().flatten();
         let made = made.filter(|(_, faults)| faults.has(kind));
-        let fails = made.is_some();
-        made.into_iter().for_each(|made| *last.borrow_mut() = made);
-        fails
-    };
-    let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
-    let (triangles, faults) = last.into_inner();
+        search.answer(&steps, &[made.is_some()]);
+        (triangles, faults) = made.unwrap_or((triangles, faults));
+    }
+    let case = search.smallest;
     let (family, what) = (family.name(), faults.to_string());
     let evidence = Triangulated { kind, triangles, faults, again: None };
     Failure { family, index, seed, what, case, evidence }

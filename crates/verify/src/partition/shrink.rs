@@ -1,17 +1,26 @@
 //! Makes a failing polygon small enough to read, while it goes on failing.
 
-use super::families::Coordinates;
+use super::families::{Coordinates, Family, is_as_generated};
 use super::{Point, Polygon, key};
 use crate::cases::facts::exponent;
-use crate::cases::shrink::greedy;
+use crate::cases::shrink::Steps;
 
-/// The smallest polygon reached from `polygon` for which `fails` holds, by removing contours, runs of vertices and digits.
-pub(super) fn shrink(
-    polygon: Polygon,
-    coordinates: Coordinates,
-    fails: &dyn Fn(&Polygon) -> bool,
-) -> Polygon {
-    greedy(polygon, size, |polygon| candidates(polygon, coordinates), fails)
+/// Contours, runs of vertices and digits are removed, as long as the polygon is one that its family may hold.
+pub(super) struct PolygonSteps {
+    pub coordinates: Coordinates,
+    pub family: Family,
+}
+
+impl Steps for PolygonSteps {
+    type Case = Polygon;
+
+    fn candidates(&self, _: usize, polygon: &Polygon) -> Vec<Polygon> {
+        candidates(polygon, self.coordinates)
+    }
+
+    fn is_step(&self, _: usize, from: &Polygon, to: &Polygon) -> bool {
+        size(to) < size(from) && is_as_generated(to, self.family)
+    }
 }
 
 /// Vertices, then what a reader has to read: the digits of all coordinates.
@@ -90,6 +99,7 @@ fn cut(value: f64, bits: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::shrink::smallest;
 
     /// What fails for three vertices comes out as three vertices with one digit each.
     #[test]
@@ -97,7 +107,8 @@ mod tests {
         let polygon = super::super::Family::Touching.polygon(1, 3, Coordinates::F64);
         assert!(size(&polygon).0 > 6, "{polygon:?}");
         let fails = |p: &Polygon| p.contours.iter().any(|contour| contour.len() >= 3);
-        let smallest = shrink(polygon, Coordinates::F64, &fails);
+        let steps = PolygonSteps { coordinates: Coordinates::F64, family: Family::Touching };
+        let smallest = smallest(polygon, &steps, fails);
         assert_eq!(size(&smallest), (3, 6 * "0.0".len()), "{smallest:?}");
     }
 }
