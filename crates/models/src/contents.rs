@@ -50,6 +50,13 @@ pub(crate) struct Contents {
 pub(crate) type Kind = (Option<usize>, [bool; 3]);
 
 impl Contents {
+    /// Counts what is not drawn, by a key in the singular.
+    pub(crate) fn count(&mut self, key: &str, count: u64) {
+        if count > 0 {
+            *self.not_drawn.entry(key.to_owned()).or_default() += count;
+        }
+    }
+
     /// Adds a part; many parts become few. An error in words where that cannot be.
     pub(crate) fn add(&mut self, mut part: FilePart) -> Result<(), String> {
         if self.parts.len() < MOST_SINGLE_PARTS {
@@ -432,7 +439,7 @@ pub(crate) fn retain(
 }
 
 /// What a file says about a surface, as far as it is drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Surface {
     pub name: String,
     /// Diffuse colour, each channel in [0, 1].
@@ -456,11 +463,12 @@ impl Surface {
 }
 
 /// What is seen of the backs of faces, those that are clockwise as the eye sees them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Sides {
     /// Nothing: they are culled.
     Front,
     /// They are lit as the front is, by the same normals.
+    #[default]
     Alike,
     /// They are lit by the reversed normals.
     Both,

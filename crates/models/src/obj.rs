@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
-use rasterproof_host::error::FileError;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
@@ -19,7 +18,7 @@ use crate::contents::{
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
-use crate::text::{self, Text, without_mark};
+use crate::records::{self, Records, is_wide, short, without_mark};
 use crate::textures::{Decoded, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
@@ -124,9 +123,9 @@ struct State {
     is_new: bool,
 }
 
-pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
+pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> {
     let mut warnings = Warnings::default();
-    let mut lines = lines(path, text, &mut warnings)?;
+    let mut lines = lines(path, file, &mut warnings)?;
     check_faces(path, &mut lines, &mut warnings)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let (described, all_read) = read_libraries(path, &lines.libraries, &mut warnings);
@@ -390,15 +389,14 @@ fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
     bad(path, Some(line), format!("{cause}: repair the line, or export the model again"))
 }
 
-fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, BadFile> {
-    let unread = |error: FileError| bad(path, None, error.cause);
+fn lines(path: &Path, mut file: Records<'_>, warnings: &mut Warnings) -> Result<Lines, BadFile> {
+    let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
     let mut state = State { is_new: true, ..State::default() };
     let mut joined = Vec::new();
-    let mut number = 0;
-    while let Some(line) = text.next_line().map_err(unread)? {
-        number += 1;
-        let first = number;
+    loop {
+        let first = file.line + 1;
+        let Some(line) = file.next_line()? else { break };
         let mut line = line.trim_ascii();
         // A comment may end with the name of a folder.
         if line.ends_with(b"\\") && !line.starts_with(b"#") {
@@ -406,8 +404,7 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
             while let Some(begun) = line.strip_suffix(b"\\") {
                 joined.extend_from_slice(begun);
                 joined.push(b' ');
-                number += 1;
-                line = text.next_line().map_err(unread)?.unwrap_or_default().trim_ascii();
+                line = file.next_line()?.unwrap_or_default().trim_ascii();
             }
             joined.extend_from_slice(line);
             line = &joined;
@@ -418,7 +415,7 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
         }
     }
     if read.runs.is_empty() && read.not_drawn.is_empty() {
-        let hint = if text.is_wide {
+        let hint = if is_wide {
             "it begins like text in UTF-16: save it as UTF-8"
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
@@ -457,7 +454,7 @@ fn read_line(
     let mut with_comma = words.clone().filter(|word| memchr::memchr(b',', word).is_some());
     match kind {
         b"v" => match position(words, read) {
-            Ok(None) => return Ok(with_comma.next().map(text::comma)),
+            Ok(None) => return Ok(with_comma.next().map(records::comma)),
             Ok(Some(word)) => {
                 let (what, why) = ("the faces that use it are left out", not_finite(&word));
                 return Ok(Some(format!("{why}; {what}")));
@@ -475,7 +472,7 @@ fn read_line(
             if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
                 return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(text::comma));
+            return Ok(with_comma.next().map(records::comma));
         }
         b"vn" => {
             let values = numbers::<3>(words, 3)
@@ -485,16 +482,16 @@ fn read_line(
                 let what = "the normal of the face takes its place";
                 return Ok(Some(format!("{}; {what}", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(text::comma));
+            return Ok(with_comma.next().map(records::comma));
         }
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
-            state.object = text::name(&rest(line, kind)).into();
+            state.object = records::name(&rest(line, kind)).into();
             state.group = Arc::default();
             state.is_new = true;
         }
         b"g" => {
-            state.group = text::name(&rest(line, kind)).into();
+            state.group = records::name(&rest(line, kind)).into();
             state.is_new = true;
         }
         b"s" => {
@@ -504,7 +501,7 @@ fn read_line(
             state.smoothing = if is_off { 0 } else { index(word).map_or(1, |group| group as u32) };
         }
         b"usemtl" => {
-            let name: Arc<str> = text::name(&rest(line, kind)).into();
+            let name: Arc<str> = records::name(&rest(line, kind)).into();
             if state.material.as_ref().map(|(name, _)| name) != Some(&name) {
                 state.material = Some((name, number));
                 state.is_new = true;
@@ -562,7 +559,7 @@ fn position<'a>(
 }
 
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
-    let end = memchr::memchr_iter(b'#', line).find(|&at| !text::is_of_number(line, at));
+    let end = memchr::memchr_iter(b'#', line).find(|&at| !records::is_of_number(line, at));
     line[..end.unwrap_or(line.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
@@ -592,9 +589,7 @@ fn numbers<'a, const N: usize>(
 ) -> Result<Values<N>, String> {
     let mut values = Values { all: [0.0; N], count: 0, not_finite: None };
     for word in words {
-        let Some(value) = text::number(word) else {
-            return Err(format!("'{}' is not a number", short(word)));
-        };
+        let value = records::expected_number(word)?;
         if !value.is_finite() && values.not_finite.is_none() {
             values.not_finite = Some(short(word));
         }
@@ -607,10 +602,6 @@ fn numbers<'a, const N: usize>(
         return Err(format!("{} numbers where {least} are needed", values.count));
     }
     Ok(values)
-}
-
-fn short(word: &[u8]) -> String {
-    printable_short(&String::from_utf8_lossy(word), 40)
 }
 
 /// A whole number of at most ten digits, without a sign.
