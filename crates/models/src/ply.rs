@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
 use crate::records::{Kind, Records, expected_number, without_mark};
 use crate::textures::{Textures, opacity};
-use crate::{BadFile, Warnings, bad, outside};
+use crate::{BadFile, bad, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
@@ -296,7 +296,7 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
             body.bad(&format!("{name} {} of {}: {cause}", body.element + 1, element.count))
         })?;
     }
-    let mut warnings = Warnings::default();
+    let warnings = &mut contents.warnings;
     for (line, shown) in &header.unknown {
         let text = format!("'{shown}' is no line of a header; it is left out");
         warnings.add(path, Some(*line), "lines of the header", &text);
@@ -317,11 +317,11 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         warnings.add(path, Some(line), "commas", text);
     }
     check(path, &part)?;
-    if part.normals.len() == part.positions.len() {
-        part.normal_numbers = Numbers::OfPositions;
+    if part.normals.values.len() == part.positions.len() {
+        part.normals.numbers = Numbers::OfPositions;
     }
-    if part.uv_numbers == Numbers::Nothing && part.uvs.len() == part.positions.len() {
-        part.uv_numbers = Numbers::OfPositions;
+    if part.uvs.numbers == Numbers::Nothing && part.uvs.values.len() == part.positions.len() {
+        part.uvs.numbers = Numbers::OfPositions;
     }
     if !part.face_colours.is_empty() {
         part.face_colours.resize(part.polygons.len(), DVec3::ONE);
@@ -329,8 +329,7 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
     if part.polygons.len() == 0 {
         contents.count("point", part.positions.len() as u64);
     }
-    surface(path, &header, &mut part, &mut contents, &mut warnings);
-    contents.warnings = warnings.finish();
+    surface(path, &header, &mut part, &mut contents);
     contents.parts.push(part);
     Ok(contents)
 }
@@ -390,10 +389,10 @@ fn vertices(
     let mut push = |[x, y, z, nx, ny, nz, u, v, r, g, b, a]: Vertex| {
         part.positions.push(DVec3::new(x, y, z));
         if has_normals {
-            part.normals.push(DVec3::new(nx, ny, nz));
+            part.normals.values.push(DVec3::new(nx, ny, nz));
         }
         if has_uvs {
-            part.uvs.push(DVec2::new(u, v));
+            part.uvs.values.push(DVec2::new(u, v));
         }
         if has_colours {
             part.colours.push(clamped(DVec3::new(r, g, b)));
@@ -495,8 +494,8 @@ fn faces(
         }
     }
     if element.properties.iter().any(is_uvs) {
-        part.uvs.clear();
-        part.uv_numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
+        part.uvs.values.clear();
+        part.uvs.numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
     }
     if body.form == Form::Text {
         let most = element.count.min(body.file.left_bytes()) as usize;
@@ -533,27 +532,25 @@ fn faces(
             }
         }
         body.element += 1;
-        let count = part.corners.len() - start;
-        if count < 3 {
-            part.corners.truncate(start);
+        if !part.end_polygon(start, body.file.line, 0) {
             small += 1;
             continue;
         }
-        if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+        if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
+            let count = part.corners.len() - start;
             let (pairs, _) = uvs.as_chunks::<2>();
-            let first = part.uvs.len() as u32;
+            let first = part.uvs.values.len() as u32;
             let is_whole = pairs.len() == count;
             numbers.extend((first..).take(count).map(|at| if is_whole { at } else { NONE }));
             if is_whole {
-                part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
+                part.uvs.values.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
             }
         }
         if channels.is_some() {
             // Triangles of strips before them have none.
-            part.face_colours.resize(part.polygons.len(), DVec3::ONE);
+            part.face_colours.resize(part.polygons.len() - 1, DVec3::ONE);
             part.face_colours.push(clamped(colour));
         }
-        part.polygons.push(count, body.file.line as u32, 0);
     }
     contents.count(INCOMPLETE_FACE, small);
     Ok(())
@@ -611,7 +608,7 @@ fn triangles(
     } else {
         part.corners.extend_from_slice(read.as_flattened());
     }
-    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+    if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
         numbers.resize(part.corners.len(), NONE);
     }
     part.polygons.push_triangles(count as usize);
@@ -645,14 +642,11 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result
                 let [a, b] = before;
                 // Triangles of two equal corners lead from one part of a strip to the next.
                 if count >= 2 && a != b && b != value && a != value {
-                    let turned = if count % 2 == 0 { [a, b, value] } else { [b, a, value] };
-                    for value in turned {
-                        part.corners.push(corner(part.positions.len(), value)?);
+                    let start = part.corners.len();
+                    for value in if count % 2 == 0 { [a, b, value] } else { [b, a, value] } {
+                        part.push(corner(part.positions.len(), value)?, NONE, NONE);
                     }
-                    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
-                        numbers.extend([NONE; 3]);
-                    }
-                    part.polygons.push(3, body.file.line as u32, 0);
+                    part.end_polygon(start, body.file.line, 0);
                 }
                 before = [b, value];
                 count += 1;
@@ -676,16 +670,10 @@ fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
 }
 
 /// The texture that a comment names.
-fn surface(
-    path: &Path,
-    header: &Header,
-    part: &mut FilePart,
-    contents: &mut Contents,
-    warnings: &mut Warnings,
-) {
+fn surface(path: &Path, header: &Header, part: &mut FilePart, contents: &mut Contents) {
     let Some((name, others)) = header.textures.split_first() else { return };
     contents.count("other texture", others.len() as u64);
-    if part.uvs.is_empty() {
+    if part.uvs.values.is_empty() {
         contents.count("texture without coordinates", 1);
         return;
     }
@@ -703,7 +691,7 @@ fn surface(
         Err(error) => {
             let error = outside::of_picture(folder, error);
             let text = format!("{error}; the model is drawn without it");
-            warnings.add_as_it_is(path, "textures", &text);
+            contents.warnings.add_as_it_is(path, "textures", &text);
         }
     }
 }

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::contents::{Contents, Coordinate, FilePart, Polygons};
 use crate::records::{self, Records, is_wide, without_mark};
-use crate::{BadFile, Warnings, bad};
+use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -177,7 +177,8 @@ pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, Bad
     };
     file.at = HEADER;
     let there = file.left_bytes() / RECORD as u64;
-    let mut warnings = Warnings::default();
+    let mut contents = Contents::default();
+    let warnings = &mut contents.warnings;
     // Programs that write before they know the number leave one of these.
     let count = match announced {
         0 | UNKNOWN if there > 0 => {
@@ -213,7 +214,6 @@ pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, Bad
         return Err(bad(path, None, cause));
     }
     drop(file);
-    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
     contents.count("attribute of triangle", with_attribute);
     let (positions, corners) = merged(&all);
     let polygons = Polygons::triangles(count as usize);
@@ -243,7 +243,8 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
 
 /// Reads triangles in text, of which each `solid` becomes a part.
 pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
-    let mut warnings = Warnings::default();
+    let mut contents = Contents::default();
+    let warnings = &mut contents.warnings;
     let mut parts: Vec<FilePart> = Vec::new();
     // Those of the last part.
     let mut corners = Corners::with_capacity(0);
@@ -352,7 +353,6 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         warnings.add(path, None, "ends", &text);
     }
     end(parts.last_mut(), &mut corners);
-    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
     for part in parts {
         contents.add(part).map_err(|cause| bad(path, None, cause))?;
     }

@@ -1,6 +1,6 @@
 //! What is drawn of the materials of a glTF, and what is not.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,8 +16,7 @@ use super::document::{
     CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
     Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform,
 };
-use crate::Warnings;
-use crate::contents::{Sides, Surface};
+use crate::contents::{Contents, Sides, Surface};
 use crate::outside;
 use crate::records;
 use crate::textures::{Decoded, Pictures};
@@ -88,8 +87,7 @@ pub(super) fn describe(
     data: &Data<'_>,
     number: Option<usize>,
     images: &mut Images<'_>,
-    not_drawn: &mut BTreeMap<String, u64>,
-    warnings: &mut Warnings,
+    contents: &mut Contents,
 ) -> Option<Described> {
     let mut missing = Material::default();
     missing.pbr_metallic_roughness.metallic_factor = Some(0.0);
@@ -97,6 +95,7 @@ pub(super) fn describe(
         Some(number) => data.root.materials.get(number)?,
         None => &missing,
     };
+    let Contents { not_drawn, warnings, .. } = contents;
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
     let pbr = &material.pbr_metallic_roughness;
     let other = material.extensions.glossiness.as_ref();

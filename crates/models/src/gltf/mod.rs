@@ -28,9 +28,9 @@ use serde::Deserialize as _;
 use serde_json::Value;
 
 use crate::cameras::{Camera, Lens};
-use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface, of_normals};
+use crate::contents::{Contents, FilePart, Polygons, Surface, Vectors, of_normals};
 use crate::records::{self, without_mark};
-use crate::{BadFile, Pose, Warnings, bad};
+use crate::{BadFile, Pose, bad};
 use data::Data;
 use document::{
     Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
@@ -134,7 +134,6 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
         path,
         data: &data,
         contents,
-        warnings: Warnings::default(),
         images: Images::new(path),
         described: HashMap::new(),
         see_through: HashMap::new(),
@@ -148,8 +147,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
     }
     reader.scene().map_err(failed)?;
     reader.count_the_rest();
-    let Reader { mut contents, warnings, .. } = reader;
-    contents.warnings = warnings.finish();
+    let mut contents = reader.contents;
     contents.other_bytes = data.len();
     Ok(contents)
 }
@@ -220,7 +218,6 @@ struct Reader<'a> {
     path: &'a Path,
     data: &'a Data<'a>,
     contents: Contents,
-    warnings: Warnings,
     images: Images<'a>,
     /// By the numbers of the materials that are used; nothing is that of primitives that name none.
     described: HashMap<Option<usize>, Option<UsedMaterial>>,
@@ -237,9 +234,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn count(&mut self, key: &str, count: u64) {
-        if count > 0 {
-            *self.contents.not_drawn.entry(key.to_owned()).or_default() += count;
-        }
+        self.contents.count(key, count);
     }
 
     fn has_outside_buffer(&self) -> bool {
@@ -247,7 +242,7 @@ impl Reader<'_> {
     }
 
     fn warn(&mut self, kind: &str, text: &str) {
-        self.warnings.add(self.path, None, kind, text);
+        self.contents.warnings.add(self.path, None, kind, text);
     }
 
     /// Reads the meshes of all nodes of the scene.
@@ -579,9 +574,6 @@ impl Reader<'_> {
             let used = (*number, first.is_some());
             *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
-        let numbers = |is_empty: bool| {
-            if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
-        };
         let name = records::name(node.name.as_deref().unwrap_or(""));
         let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
@@ -589,11 +581,9 @@ impl Reader<'_> {
             to_file,
             polygons: Polygons::triangles(triangles.len() / 3),
             corners: triangles,
-            normal_numbers: numbers(normals.is_empty()),
-            uv_numbers: numbers(uvs.is_empty()),
             positions,
-            normals,
-            uvs,
+            normals: Vectors::of_positions(normals),
+            uvs: Vectors::of_positions(uvs),
             second_uvs,
             colours,
             tangents,
@@ -725,13 +715,8 @@ impl Reader<'_> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
-        let described = materials::describe(
-            self.data,
-            number,
-            &mut self.images,
-            &mut self.contents.not_drawn,
-            &mut self.warnings,
-        );
+        let (images, contents) = (&mut self.images, &mut self.contents);
+        let described = materials::describe(self.data, number, images, contents);
         let known = described.map(|Described { surface, uvs }| {
             self.contents.materials.push(surface);
             (self.contents.materials.len() - 1, uvs)
