@@ -11,10 +11,9 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use std::rc::Rc;
 
-use rasterproof_host::output::{self, Over};
+use rasterproof_host::output::{self, Output, Over, STANDARD_OUTPUT};
 use rasterproof_host::text::printable_lines;
 
-use super::files::{Output, STANDARD_OUTPUT};
 use super::{Streams, exit};
 
 /// Whether all that a command wrote was delivered.

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Output, Over, Use};
 use rasterproof_host::text::printable_path;
 
-use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -190,7 +189,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
     let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    files::check(known.into_iter().chain(as_file(&page)).chain(junit))?;
+    output::check_all(known.into_iter().chain(as_file(&page)).chain(junit))?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,

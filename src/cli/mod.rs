@@ -7,7 +7,6 @@ mod delivery;
 mod digest;
 mod engine;
 mod exhaust;
-mod files;
 mod fixtures;
 mod guard;
 mod inspect;
@@ -47,10 +46,10 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
-use files::Output;
 use guard::{Escape, Guarded};
+use rasterproof_host::output::{self, Output};
 use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
-use rasterproof_host::{output, read_files, shell};
+use rasterproof_host::{identity, shell};
 use typed::Typed;
 use wrap::Folded;
 
@@ -280,7 +279,7 @@ fn examples(words: &[OsString]) -> String {
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
-    read_files::forget();
+    identity::forget_read_files();
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
     let Streams { progress, colour, columns, error_columns, .. } = *streams;

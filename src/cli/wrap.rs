@@ -2,6 +2,9 @@
 
 use std::io::{self, Write};
 
+use textwrap::core::display_width;
+use textwrap::{Options, WordSplitter, fill};
+
 /// Where there is no terminal.
 pub const USUAL: usize = 100;
 /// On narrower terminals most words would stand alone.
@@ -56,17 +59,6 @@ impl Write for Folded<'_> {
     }
 }
 
-/// Columns of a text; what colours it takes none.
-fn width(text: &str) -> usize {
-    let mut escaped = false;
-    let shown = |c: char| {
-        let is_shown = !escaped && c != '\x1b';
-        escaped = if escaped { c != 'm' } else { c == '\x1b' };
-        is_shown
-    };
-    text.chars().map(shown).filter(|&is_shown| is_shown).count()
-}
-
 /// Where the cell begins that may be broken: behind the first gap of two blanks, or in a row of a table
 /// behind the last; nothing where that row does not end in words.
 fn last_cell(text: &str) -> Option<usize> {
@@ -82,33 +74,26 @@ fn last_cell(text: &str) -> Option<usize> {
 /// in than the line.
 fn fold(line: &str, columns: usize) -> String {
     let text = line.trim_end();
-    if width(text) <= columns {
+    if display_width(text) <= columns {
         return line.to_owned();
     }
     let indent = text.len() - text.trim_start().len();
     let Some(cell) = last_cell(&text[indent..]) else { return line.to_owned() };
-    let below = width(&text[..indent + cell]);
-    let hang = if cell > 0 && below <= columns * 2 / 3 { below } else { indent + 2 };
     let (head, words) = text.split_at(indent + cell);
-    let (mut out, mut used) = (head.to_owned(), below);
-    // Whether a word comes first in its line, and so begins no other one; but a cell of several words may begin in the next line.
-    let (mut is_first, mut may_break) = (true, cell > 0 && words.contains(' '));
-    for word in words.split(' ') {
-        let gap = usize::from(!is_first);
-        if (!is_first || may_break) && used + gap + width(word) > columns {
-            out = format!("{}\n{}", out.trim_end(), " ".repeat(hang));
-            (used, is_first) = (hang, true);
-        }
-        if !is_first {
-            out.push(' ');
-            used += 1;
-        }
-        out += word;
-        used += width(word);
-        is_first &= word.is_empty();
-        may_break = false;
-    }
-    if line.ends_with('\n') { out + "\n" } else { out }
+    let below = display_width(head);
+    let hang = " ".repeat(if cell > 0 && below <= columns * 2 / 3 { below } else { indent + 2 });
+    // A cell of several words may begin in the next line.
+    let first = words.split_once(' ').filter(|_| cell > 0);
+    let is_moved = first.is_some_and(|(first, _)| below + display_width(first) > columns);
+    let (out, begin) =
+        if is_moved { (format!("{}\n", head.trim_end()), &*hang) } else { (String::new(), head) };
+    let options = Options::new(columns)
+        .initial_indent(begin)
+        .subsequent_indent(&hang)
+        .break_words(false)
+        .word_splitter(WordSplitter::NoHyphenation);
+    let end = if line.ends_with('\n') { "\n" } else { "" };
+    out + &fill(words, options) + end
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Writing files: whole or not at all.
+//! Writing files: whole or not at all, and over no file that the user would miss.
 //!
 //! A regular file is written under a random name in the same folder and then renamed, so that no
 //! reader sees half of it and a failed write leaves the old file as it was. A link is followed: the
@@ -10,15 +10,17 @@
 
 use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
-use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use tempfile::{Builder, NamedTempFile};
+
 use crate::error::{FileError, refused};
+use crate::identity::{self, Identity};
 use crate::limits::STALLED_WRITE_SECONDS;
+use crate::mark;
 use crate::text::printable_path;
-use crate::{mark, read_files};
 
 /// Which existing files a write may replace; any other is kept, and the write ends with an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +33,83 @@ pub enum Over {
     Updated,
 }
 
+/// A file that a command writes, and which file it may replace.
+#[derive(Clone, Debug)]
+pub struct Output {
+    pub path: PathBuf,
+    pub over: Over,
+}
+
+impl Output {
+    /// A file whose name was typed, which replaces any that is not read.
+    #[must_use]
+    pub fn typed(path: &Path) -> Self {
+        Self { path: path.to_owned(), over: Over::Any }
+    }
+
+    /// It as a file of a command line.
+    #[must_use]
+    pub fn named<'a>(&'a self, option: &'a str) -> Named<'a> {
+        (option, &self.path, Use::Writes(self.over))
+    }
+}
+
+/// What a command does with a file that it was given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    Reads,
+    Writes(Over),
+}
+
+/// A file of a command line: the option that names it, its path, and what the command does with it.
+pub type Named<'a> = (&'a str, &'a Path, Use);
+
+/// What standard output is, as a file; a system without it has no file of this name.
+pub const STANDARD_OUTPUT: &str = "/dev/stdout";
+
+/// Refuses a command that would write over a file which it also reads or writes by another option, by
+/// whatever names; or over one that it has read already, such as a texture of a model; or, where the
+/// program chose the name, over a file that it did not make.
+///
+/// # Errors
+/// In words, with the option.
+pub fn check_all<'a>(files: impl IntoIterator<Item = Named<'a>>) -> Result<(), String> {
+    // Where standard output is a file, it is one more that is written.
+    let standard_output = ("standard output", Path::new(STANDARD_OUTPUT), Use::Writes(Over::Any));
+    let all = files.into_iter().chain(cfg!(unix).then_some(standard_output));
+    let mut before: Vec<(Named<'_>, Identity)> = Vec::new();
+    for (option, path, of) in all {
+        let Some(identity) = Identity::of(path) else { continue };
+        let is_other = |((_, _, use_of_it), other): &&(Named<'_>, Identity)| {
+            (of != Use::Reads || *use_of_it != Use::Reads) && identity.is(other)
+        };
+        if let Some(((other, its_path, its_use), _)) = before.iter().find(is_other) {
+            // What is written is named first.
+            let [(first, path), (second, _)] = match its_use {
+                Use::Reads => [(option, path), (*other, *its_path)],
+                Use::Writes(_) => [(*other, *its_path), (option, path)],
+            };
+            let path = printable_path(path);
+            return Err(format!(
+                "{path}: {first} and {second} name this file; give each a file of its own"
+            ));
+        }
+        before.push(((option, path, of), identity));
+    }
+    for ((option, path, of), _) in before {
+        if let Use::Writes(over) = of {
+            check(path, over).map_err(|error| format!("{option}: {error}"))?;
+        }
+    }
+    Ok(())
+}
+
 /// Refuses a file that may not be replaced.
 ///
 /// # Errors
 /// [`FileError`] where there is such a file.
 pub fn check(path: &Path, over: Over) -> Result<(), FileError> {
-    if over != Over::Updated && read_files::hold(path) {
+    if over != Over::Updated && identity::was_read(path) {
         return Err(refused(path, "is read by this command; give the output another name"));
     }
     // What is written to a pipe or a device replaces nothing.
@@ -119,60 +192,54 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// A file that is removed when it goes out of scope, unless it was renamed before.
-struct Temporary(Option<PathBuf>);
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        if let Some(path) = self.0.take() {
-            let _ = remove(&path);
-        }
-    }
-}
-
-#[allow(clippy::disallowed_methods, reason = "this is the one function that writes a file")]
-fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::Result<()> {
-    remove_left_parts(folder_of(target));
-    let mut tries = 0;
-    loop {
-        let (mut file, path) = create_beside(target)?;
-        let mut temporary = Temporary(Some(path.clone()));
-        if let Some(old) = old {
-            keep_owner(&file, old);
-            file.set_permissions(old.permissions())?;
-        }
-        file.write_all(bytes)?;
-        tries += 1;
-        // Open, and so locked, until it has its name.
-        match std::fs::rename(&path, target) {
-            // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
-            Err(error) if error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
-            Err(error) => return Err(error),
-            Ok(()) => {
-                temporary.0 = None;
-                return Ok(());
-            }
-        }
-    }
-}
-
-fn folder_of(target: &Path) -> &Path {
-    let folder = target.parent().unwrap_or(Path::new(""));
-    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
-}
-
-/// The name of a file that is being written.
-fn part_name() -> String {
-    format!(".rasterproof-{:016x}.part", random())
-}
+/// What the name of a file begins and ends with while it is written, around so many letters and digits.
+const PART: (&str, &str, usize) = (".rasterproof-", ".part", 16);
 
 fn is_part_name(name: &OsStr) -> bool {
-    let number = name.to_str().and_then(|name| {
-        let name = name.strip_prefix(".rasterproof-")?;
-        name.strip_suffix(".part")
-    });
-    let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
-    number.is_some_and(|number| number.len() == 16 && number.chars().all(is_digit))
+    let random = name.to_str().and_then(|name| name.strip_prefix(PART.0)?.strip_suffix(PART.1));
+    random.is_some_and(|random| {
+        random.len() == PART.2 && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    })
+}
+
+fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::Result<()> {
+    let folder = target.parent().unwrap_or(Path::new(""));
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    remove_left_parts(folder);
+    let mut tries = 0;
+    loop {
+        let mut part = new_part(folder)?;
+        if let Some(old) = old {
+            keep_owner(part.as_file(), old);
+            part.as_file().set_permissions(old.permissions())?;
+        }
+        part.write_all(bytes)?;
+        tries += 1;
+        // Open, and so locked, until it has its name.
+        match part.persist(target) {
+            // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
+            Err(left) if left.error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
+            Err(left) => return Err(left.error),
+            Ok(_) => return Ok(()),
+        }
+    }
+}
+
+/// A new file in a folder, locked where the file system has locks, which is removed unless it gets another name. `create_new`
+/// refuses whatever has its name already, links included, so that nothing of other people is written over.
+#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
+fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
+    let (before, after, random) = PART;
+    loop {
+        let mut parts = Builder::new();
+        let part = parts.prefix(before).suffix(after).rand_bytes(random);
+        let create = |path: &Path| OpenOptions::new().write(true).create_new(true).open(path);
+        let part = part.make_in(folder, create)?;
+        // Another process may have removed it before it was locked.
+        if part.as_file().lock().is_err() || part.path().exists() {
+            return Ok(part);
+        }
+    }
 }
 
 /// Removes the parts in a folder that no process writes. What cannot be looked at is left.
@@ -203,27 +270,6 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     }
     #[cfg(not(unix))]
     let _ = (file, old);
-}
-
-/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
-/// its name already, links included, so that nothing of other people is written over.
-#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
-fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
-    loop {
-        let path = folder_of(target).join(part_name());
-        match OpenOptions::new().write(true).create_new(true).open(&path) {
-            // Another process may have removed it before it was locked.
-            Ok(file) if file.lock().is_ok() && !path.exists() => {}
-            Ok(file) => return Ok((file, path)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
-        }
-    }
-}
-
-/// A number that nobody can foresee: the standard library seeds its hash maps from the system.
-fn random() -> u64 {
-    RandomState::new().build_hasher().finish()
 }
 
 /// Writes to a pipe or a device, which may take its time but not for ever.
@@ -316,8 +362,8 @@ mod tests {
         let folder = Folder::new("parts");
         let kept = [
             ".rasterproof-0123456789abcdef.part",
-            ".rasterproof-0123456789abcdeg.part",
-            ".rasterproof-0123456789ABCDEF.part",
+            ".rasterproof-0123456789abcde_.part",
+            ".rasterproof-0123456789abcdef.parts",
             ".rasterproof-0123.part",
             "rasterproof-0123456789abcdef.part",
         ];
