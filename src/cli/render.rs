@@ -264,7 +264,7 @@ fn read_plan(path: &Path) -> Result<Plan, InputError> {
     // Before anything else: the words of another version are not misspelt.
     let version = plan.get("version").and_then(serde_json::Value::as_u64);
     if version != Some(VERSION.into()) {
-        return Err(refused(&PlanError::Version(version)));
+        return Err(refused(&PlanError::of_version(version)));
     }
     serde_path_to_error::deserialize(plan).map_err(|error| refused(&error))
 }
