@@ -383,3 +383,37 @@ fn affine(transform: &Transform) -> DAffine2 {
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     DAffine2::from_cols(DVec2::new(cos, -sin) * scale.x, DVec2::new(sin, cos) * scale.y, offset)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::read;
+    use super::*;
+
+    #[test]
+    fn what_a_material_leaves_out_is_as_in_the_specification() {
+        let json = br#"{"asset": {"version": "2.0"}, "nodes": [{"children": null}], "materials": [
+            {"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {}}},
+            {"extensions": {"KHR_materials_pbrSpecularGlossiness": {}}},
+            {"extensions": {"KHR_materials_ior": {}}},
+            {"extensions": {"KHR_materials_specular": {}}}
+        ]}"#;
+        let root = read(json).unwrap();
+        assert!(root.nodes[0].children.is_empty());
+        let data = Data::new(root, Path::new(""), None).unwrap();
+        let mut images = Images::new(Path::new("a.gltf"));
+        let mut described = |number| {
+            describe(&data, Some(number), &mut images, &mut Contents::default()).unwrap().surface
+        };
+        let physical = |surface: &Surface| surface.physical.clone().unwrap();
+        let (colour, metal) = physical(&described(0));
+        assert_eq!((colour, metal.metal, metal.roughness), (DVec3::ONE, 1.0, 1.0));
+        assert_eq!((metal.emission, metal.straight), (DVec3::ONE, DVec3::splat(0.04)));
+        let glossy = described(1);
+        assert_eq!((glossy.colour, glossy.specular.colour), (DVec3::ONE, DVec3::ONE));
+        assert_eq!(glossy.specular.shininess, f64::MAX);
+        let straight = [2, 3].map(|number| physical(&described(number)).1);
+        let reflected = straight.map(|of| (of.straight, of.grazing));
+        assert_eq!(reflected, [(DVec3::splat(0.04), 1.0); 2]);
+        assert_eq!(affine(&Transform::default()), DAffine2::IDENTITY);
+    }
+}
