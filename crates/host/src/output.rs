@@ -10,11 +10,10 @@
 
 use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-use tempfile::{Builder, NamedTempFile};
 
 use crate::error::{FileError, refused};
 use crate::identity::{self, Identity};
@@ -192,54 +191,60 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// What the name of a file begins and ends with while it is written, around so many letters and digits.
-const PART: (&str, &str, usize) = (".rasterproof-", ".part", 16);
+/// A file that is removed when it goes out of scope, unless it was renamed before.
+struct Temporary(Option<PathBuf>);
 
-fn is_part_name(name: &OsStr) -> bool {
-    let random = name.to_str().and_then(|name| name.strip_prefix(PART.0)?.strip_suffix(PART.1));
-    random.is_some_and(|random| {
-        random.len() == PART.2 && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
-    })
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if let Some(path) = self.0.take() {
+            let _ = remove(&path);
+        }
+    }
 }
 
+#[allow(clippy::disallowed_methods, reason = "this is the one function that writes a file")]
 fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::Result<()> {
-    let folder = target.parent().unwrap_or(Path::new(""));
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    remove_left_parts(folder);
+    remove_left_parts(folder_of(target));
     let mut tries = 0;
     loop {
-        let mut part = new_part(folder)?;
+        let (mut file, path) = create_beside(target)?;
+        let mut temporary = Temporary(Some(path.clone()));
         if let Some(old) = old {
-            keep_owner(part.as_file(), old);
-            part.as_file().set_permissions(old.permissions())?;
+            keep_owner(&file, old);
+            file.set_permissions(old.permissions())?;
         }
-        part.write_all(bytes)?;
+        file.write_all(bytes)?;
         tries += 1;
         // Open, and so locked, until it has its name.
-        match part.persist(target) {
+        match std::fs::rename(&path, target) {
             // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
-            Err(left) if left.error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
-            Err(left) => return Err(left.error),
-            Ok(_) => return Ok(()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
+            Err(error) => return Err(error),
+            Ok(()) => {
+                temporary.0 = None;
+                return Ok(());
+            }
         }
     }
 }
 
-/// A new file in a folder, locked where the file system has locks, which is removed unless it gets another name. `create_new`
-/// refuses whatever has its name already, links included, so that nothing of other people is written over.
-#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
-fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
-    let (before, after, random) = PART;
-    loop {
-        let mut parts = Builder::new();
-        let part = parts.prefix(before).suffix(after).rand_bytes(random);
-        let create = |path: &Path| OpenOptions::new().write(true).create_new(true).open(path);
-        let part = part.make_in(folder, create)?;
-        // Another process may have removed it before it was locked.
-        if part.as_file().lock().is_err() || part.path().exists() {
-            return Ok(part);
-        }
-    }
+fn folder_of(target: &Path) -> &Path {
+    let folder = target.parent().unwrap_or(Path::new(""));
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
+}
+
+/// The name of a file that is being written.
+fn part_name() -> String {
+    format!(".rasterproof-{:016x}.part", random())
+}
+
+fn is_part_name(name: &OsStr) -> bool {
+    let number = name.to_str().and_then(|name| {
+        let name = name.strip_prefix(".rasterproof-")?;
+        name.strip_suffix(".part")
+    });
+    let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+    number.is_some_and(|number| number.len() == 16 && number.chars().all(is_digit))
 }
 
 /// Removes the parts in a folder that no process writes. What cannot be looked at is left.
@@ -270,6 +275,27 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     }
     #[cfg(not(unix))]
     let _ = (file, old);
+}
+
+/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
+/// its name already, links included, so that nothing of other people is written over.
+#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
+fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
+    loop {
+        let path = folder_of(target).join(part_name());
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            // Another process may have removed it before it was locked.
+            Ok(file) if file.lock().is_ok() && !path.exists() => {}
+            Ok(file) => return Ok((file, path)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// A number that nobody can foresee: the standard library seeds its hash maps from the system.
+fn random() -> u64 {
+    RandomState::new().build_hasher().finish()
 }
 
 /// Writes to a pipe or a device, which may take its time but not for ever.
@@ -362,8 +388,8 @@ mod tests {
         let folder = Folder::new("parts");
         let kept = [
             ".rasterproof-0123456789abcdef.part",
-            ".rasterproof-0123456789abcde_.part",
-            ".rasterproof-0123456789abcdef.parts",
+            ".rasterproof-0123456789abcdeg.part",
+            ".rasterproof-0123456789ABCDEF.part",
             ".rasterproof-0123.part",
             "rasterproof-0123456789abcdef.part",
         ];

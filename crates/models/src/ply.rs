@@ -166,9 +166,13 @@ impl Body<'_> {
     /// The length of a list, which cannot be longer than what is left of the file.
     fn length(&mut self, kind: Kind) -> Result<usize, String> {
         let length = self.number(kind)?;
-        let left = self.file.left_bytes() + self.words.len() as u64;
-        if length < 0.0 || length > left as f64 || length.fract() != 0.0 {
-            return Err(format!("a list of {length} numbers, and {left} bytes are left"));
+        let is_whole = length >= 0.0 && length.fract() == 0.0;
+        // Most lists end in what was read already, and then nobody has to ask for the length of the file.
+        if !is_whole || length > self.file.left().len() as f64 {
+            let left = self.file.left_bytes() + self.words.len() as u64;
+            if !is_whole || length > left as f64 {
+                return Err(format!("a list of {length} numbers, and {left} bytes are left"));
+            }
         }
         Ok(length as usize)
     }
