@@ -5,7 +5,7 @@ use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rasterproof::cli::wrap::USUAL;
+use rasterproof::cli::outlet::USUAL;
 use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_program::group::end_strays;
 use terminal_size::{Height, Width, terminal_size_of};

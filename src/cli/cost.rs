@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
+use rasterproof_host::output::{self, Use};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{self, Use, written};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -88,8 +88,8 @@ impl CostArguments {
         let plots = names.map(|name| self.page.place.output(format!("{name}.svg")));
         let plots: Vec<_> = plots.collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
-        let plots = plots.iter().map(|output| written("a plot in --out", output));
-        files::check(from.into_iter().chain(plots).chain(as_file(&page)))
+        let plots = plots.iter().map(|output| output.named("a plot in --out"));
+        Ok(output::check_all(from.into_iter().chain(plots).chain(as_file(&page)))?)
     }
 
     /// The devices that are measured beside the choices.

@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
-use super::files::{self, Output, written};
 use super::page::{self, Place, Shown, print};
 use super::progress::Progress as Bar;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, usage, write_file};
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Output, Over};
 use rasterproof_host::shell::{self, quote};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
@@ -209,7 +208,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     };
     let sheet = arguments.place.output(format!("course-{name}.png"));
     let page = arguments.place.output(format!("course-{name}.html"));
-    files::check([written("the picture", &sheet), written("the page", &page)])?;
+    output::check_all([sheet.named("the picture"), page.named("the page")])?;
     let bar = Bar::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let mut pictures = Vec::new();

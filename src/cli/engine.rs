@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use clap::builder::PossibleValue;
-use rasterproof_host::output::{self, Over};
-use rasterproof_host::read_files;
+use rasterproof_host::identity;
+use rasterproof_host::output::{self, Over, STANDARD_OUTPUT};
 
-use super::files::STANDARD_OUTPUT;
 use super::{InputError, Status, Streams, exit};
 use rasterproof_faults::planted::Mutant;
 use rasterproof_faults::planted::exact::ExactMutant;
@@ -21,7 +20,7 @@ pub(super) fn find(name: &str) -> Result<Entry, InputError> {
 }
 
 pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
-    read_files::note_standard_input();
+    identity::note_standard_input();
     output::check(Path::new(STANDARD_OUTPUT), Over::Any).map_err(super::usage)?;
     server::serve(&find(name)?, &mut *streams.input, streams.output)?;
     Ok(exit::AGREES)

@@ -6,11 +6,10 @@ use std::time::Duration;
 
 use clap::Subcommand;
 use rasterproof_host::lock::Lock;
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Output, Over, Use};
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_host::{input, limits, output};
+use rasterproof_host::{input, limits};
 
-use super::files::{self, Output, Use, written};
 use super::progress::Progress;
 use super::{InputError, Status, Streams, exit, usage, write_file};
 use rasterproof_exhaustive::Plan;
@@ -152,9 +151,9 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let state = Output { path: arguments.checkpoint(&plan), over: Over::Updated };
     let path = &state.path;
     let lock = Lock::file_of(path);
-    let kept = [written("--checkpoint", &state), ("its lock", &lock, Use::Writes(Over::Updated))];
-    let output = certificate_file.map(|output| written("--output", output));
-    files::check(kept.into_iter().chain(output))?;
+    let kept = [state.named("--checkpoint"), ("its lock", &lock, Use::Writes(Over::Updated))];
+    let output = certificate_file.map(|output| output.named("--output"));
+    output::check_all(kept.into_iter().chain(output))?;
     let cases = Counts::of(&plan, shard.chunks(&plan)).cases;
     if cases == 0 {
         let all = plan.enumeration().expected_cases();
@@ -263,8 +262,8 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
 pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
     let output = arguments.output.as_deref().map(Output::typed);
-    let written = output.as_ref().map(|output| written("--output", output));
-    files::check(read.chain(written))?;
+    let written = output.as_ref().map(|output| output.named("--output"));
+    output::check_all(read.chain(written))?;
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);

@@ -1,10 +1,10 @@
 //! `rasterproof inspect`: one case, every engine, pixel by pixel.
 
+use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::files::{self, Output, written};
 use super::inspect_case::{
     CaseArguments, InspectedCase, all_around, face_of_file, find, off_lattice, parse_pixel,
     recorded, words,
@@ -96,9 +96,9 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
     let asked = arguments.output.as_deref().map(Output::typed);
     let page = arguments.page.page("inspect.html");
-    let output = asked.as_ref().map(|output| written("--output", output));
+    let output = asked.as_ref().map(|output| output.named("--output"));
     let named: Vec<_> = output.into_iter().chain(as_file(&page)).collect();
-    files::check(named.iter().copied())?;
+    output::check_all(named.iter().copied())?;
     let face = face_of_file(&arguments.case.what);
     let is_face = face.is_some();
     let mut about = Vec::new();
@@ -111,7 +111,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
             let grid = if arguments.case.exact { CornerGrid::Unsnapped } else { grid };
             let (said, found) =
                 study::face(face, (&arguments.view, grid), (command, exact), streams)?;
-            files::check(named.iter().copied())?;
+            output::check_all(named.iter().copied())?;
             about.extend(said);
             match found {
                 Some(found) if exact => off_lattice(found)?,

@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use rasterproof_host::output::{self, Over};
+use rasterproof_host::output::{self, Output, Over, Use};
 use rasterproof_host::text::{printable, printable_path};
 
-use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -221,7 +220,9 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["baseline", "against", "checkpoint", "report", "write-test"]) {
+    if let Some(option) =
+        typed.given(&["baseline", "against", "checkpoint", "report", "write-test"])
+    {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
@@ -368,7 +369,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let kept = arguments.checkpoint.as_deref();
     let checkpoint = kept.map(|path| ("--checkpoint", path, Use::Writes(Over::Updated)));
     let written = junit.into_iter().chain(test).chain(checkpoint);
-    files::check(known.into_iter().chain(as_file(&page)).chain(written))?;
+    output::check_all(known.into_iter().chain(as_file(&page)).chain(written))?;
     if kept.is_some() && arguments.jobs > 1 {
         return Err(usage("--checkpoint keeps the answers of one copy; leave --jobs out"));
     }

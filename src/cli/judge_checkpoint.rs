@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{Output, Over};
 use rasterproof_host::text::printable_path;
 use rasterproof_host::{input, limits};
 use rasterproof_judge::Options;
@@ -11,7 +11,6 @@ use rasterproof_judge::ask::Subject;
 use rasterproof_judge::record::RecordedSubject;
 use rasterproof_verify::comparison::pixels::mix;
 
-use super::files::Output;
 use super::{InputError, usage, write_file};
 
 /// How often the answers are written.

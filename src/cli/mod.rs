@@ -3,19 +3,17 @@
 mod cost;
 mod course;
 mod course_grade;
-mod delivery;
 mod digest;
 mod engine;
 mod exhaust;
-mod files;
 mod fixtures;
-mod guard;
 mod inspect;
 mod inspect_case;
 mod invariant;
 mod judge;
 mod judge_checkpoint;
 mod league;
+pub mod outlet;
 mod page;
 mod plan;
 mod playground;
@@ -34,7 +32,6 @@ mod view;
 #[cfg(feature = "vulkan")]
 mod vulkan;
 mod watch;
-pub mod wrap;
 
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
@@ -47,14 +44,12 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
-use delivery::Delivered;
-pub use delivery::Delivery;
-use files::Output;
-use guard::{Escape, Guarded};
+pub use outlet::Delivery;
+use outlet::{Escape, Outlet};
+use rasterproof_host::output::{self, Output};
 use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
-use rasterproof_host::{output, read_files, shell};
+use rasterproof_host::{identity, shell};
 use typed::Typed;
-use wrap::Folded;
 
 use rasterproof_registry::engines;
 use rasterproof_render::scene;
@@ -282,7 +277,7 @@ fn examples(words: &[OsString]) -> String {
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
-    read_files::forget();
+    identity::forget_read_files();
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
     let Streams { progress, colour, columns, error_columns, .. } = *streams;
@@ -291,17 +286,17 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         Err(error) => {
             let is_error = error.use_stderr();
             let text = refusal(error, &words);
-            let output = &mut Delivered::new(streams.output, &delivery);
-            let errors = &mut Delivered::new(streams.errors, &delivery);
-            let (stream, columns): (&mut Delivered<'_>, _) = match is_error {
-                true => (errors, error_columns),
-                // Help is laid out for the usual width.
-                false if columns < wrap::USUAL => (output, columns),
-                false => (output, usize::MAX),
+            // Help is laid out for the usual width.
+            let columns = if columns < outlet::USUAL { columns } else { usize::MAX };
+            let outlet = |stream, columns| {
+                Outlet::new(stream, Escape::Words).noted(&delivery).folded(columns, None)
             };
-            let mut folded = Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
-            let _ = folded.write_all(text.as_bytes()).and_then(|()| folded.flush());
-            report_loss(output, errors);
+            let (mut output, mut errors) =
+                (outlet(streams.output, columns), outlet(streams.errors, error_columns));
+            let stream = if is_error { &mut errors } else { &mut output };
+            let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+            report_loss(&output, &mut errors);
+            let _ = errors.flush();
             return delivery.status(if is_error { exit::USAGE } else { exit::AGREES });
         }
     };
@@ -313,9 +308,8 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         (false, true) => Escape::WordsAndColours,
         (false, false) => Escape::Words,
     };
-    let errors = &mut Delivered::new(streams.errors, &delivery);
-    let mut guarded_errors = Guarded::new(errors, Escape::Words);
-    let errors = &mut Folded::new(&mut guarded_errors, error_columns, program());
+    let errors = Outlet::new(streams.errors, Escape::Words).noted(&delivery);
+    let errors = &mut errors.folded(error_columns, Some(program()));
     if uses_pool(&command) {
         threads::prepare(errors);
     }
@@ -336,21 +330,19 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     };
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
-        let output = &mut Guarded::new(streams.output, escape);
+        let output = &mut Outlet::new(streams.output, escape);
         let is_end = |error: &io::Error| error.kind() == io::ErrorKind::BrokenPipe;
         return match run(output, errors, delivery) {
             Err(error) if error.downcast_ref().is_some_and(is_end) => exit::AGREES,
             result => status_of(result, errors),
         };
     }
-    let mut delivered = Delivered::of_output(streams.output, &delivery);
-    let result = {
-        let mut guarded = Guarded::new(&mut delivered, escape);
-        let columns = if for_machines { usize::MAX } else { columns };
-        run(&mut Folded::new(&mut guarded, columns, program()), errors, delivery.clone())
-    };
+    let columns = if for_machines { usize::MAX } else { columns };
+    let output = Outlet::new(streams.output, escape).noted(&delivery).checked();
+    let output = &mut output.folded(columns, Some(program()));
+    let result = run(output, errors, delivery.clone());
     let status = status_of(result, errors);
-    report_loss(&delivered, errors);
+    report_loss(output, errors);
     let _ = errors.flush();
     delivery.status(status)
 }
@@ -386,7 +378,7 @@ fn status_of(result: Result<u8, InputError>, errors: &mut dyn Write) -> u8 {
 }
 
 /// Says why standard output did not take everything.
-fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
+fn report_loss(output: &Outlet<'_>, errors: &mut dyn Write) {
     if let Some(error) = output.lost() {
         let remedy = if error.kind() == io::ErrorKind::StorageFull { "make room, or " } else { "" };
         let _ = writeln!(

@@ -5,10 +5,9 @@ use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 
 use rasterproof_host::input;
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{Named, Output, Over};
 use rasterproof_host::text::printable_path;
 
-use super::files::{Named, Output, written};
 use super::typed::Typed;
 use super::{InputError, Status, Streams, usage};
 use rasterproof_report::html::{self, Report};
@@ -70,7 +69,7 @@ impl PageArguments {
 
 /// A page as an entry of the files that a command line names.
 pub(super) fn as_file(page: &Option<Output>) -> Option<Named<'_>> {
-    page.as_ref().map(|page| written("the page of --report", page))
+    page.as_ref().map(|page| page.named("the page of --report"))
 }
 
 /// What is printed of a report.

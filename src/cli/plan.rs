@@ -1,11 +1,11 @@
 //! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
 
-use super::files;
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::SceneArguments;
 use super::{Status, Streams, exit, usage};
+use rasterproof_host::output;
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::Canvas;
@@ -54,9 +54,9 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         arguments.page.refuse_idle_folder(typed)?;
     }
     let page = arguments.page.page("plan.html");
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     let scene = arguments.what.maker(typed, Purpose::Planned, streams)?.scene;
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     if arguments.show.is_some() {
         return show_stages(arguments, &scene, streams);
     }

@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Output, Over, Use};
 use rasterproof_host::text::printable_path;
 use rasterproof_host::{input, limits};
 
-use super::files::{self, Output, Use, written};
 use super::{Status, Streams, exit, usage, write_file};
 use rasterproof_playground::{Parts, page};
 
@@ -41,7 +40,7 @@ pub(super) fn run(
         over: if *force { Over::Any } else { Over::Marked },
     };
     let output = output.as_deref().map_or_else(usual, Output::typed);
-    files::check([("--module", &**module, Use::Reads), written("--output", &output)])?;
+    output::check_all([("--module", &**module, Use::Reads), output.named("--output")])?;
     let refused = |why: String| {
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
     };

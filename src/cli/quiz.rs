@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use rasterproof_host::text::printable_path;
-use rasterproof_host::{input, limits, read_files};
+use rasterproof_host::{identity, input, limits};
 
 use super::page::print;
 use super::{Status, Streams, exit, usage};
@@ -57,7 +57,7 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
             .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?;
         name = printable_path(&arguments.answers);
     } else {
-        read_files::note_standard_input();
+        identity::note_standard_input();
     }
     let mut quiz = Quiz {
         input: if is_file { &mut text.as_bytes() } else { &mut *streams.input },

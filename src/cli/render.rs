@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use image::codecs::gif::{GifEncoder, Repeat};
-use rasterproof_host::output::Over;
+use rasterproof_host::output::{self, Output, Over, Use};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, Shown, as_file, print, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -102,7 +101,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let files = [
         what.source().err().map(|path| ("the model", path, Use::Reads)),
         arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
-        Some(written("--output", &output)),
+        Some(output.named("--output")),
         Some(("the picture of differences", &difference.path, Use::Writes(Over::Updated))),
         (grid != CornerGrid::USUAL).then_some((
             "the picture of what the grid changes",
@@ -112,14 +111,14 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         as_file(&page),
     ];
     let files: Vec<_> = files.into_iter().flatten().collect();
-    files::check(files.iter().copied())?;
+    output::check_all(files.iter().copied())?;
     let purpose = match arguments.engine {
         DrawnBy::Both => Purpose::Compared,
         DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
     };
     let mut maker = what.maker(typed, purpose, streams)?;
     // A model names files of its own.
-    files::check(files.iter().copied())?;
+    output::check_all(files.iter().copied())?;
     let usual = on_grid((arguments, typed), &mut maker)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
@@ -265,7 +264,7 @@ fn read_plan(path: &Path) -> Result<Plan, InputError> {
     // Before anything else: the words of another version are not misspelt.
     let version = plan.get("version").and_then(serde_json::Value::as_u64);
     if version != Some(VERSION.into()) {
-        return Err(refused(&PlanError::Version(version)));
+        return Err(refused(&PlanError::of_version(version)));
     }
     serde_path_to_error::deserialize(plan).map_err(|error| refused(&error))
 }

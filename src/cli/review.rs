@@ -16,10 +16,10 @@ use image::{ImageFormat, ImageReader, RgbImage};
 use rasterproof_host::error::FileError;
 use rasterproof_host::input;
 use rasterproof_host::limits::{self, DOCUMENT_BYTES};
+use rasterproof_host::output::{self, Output, Use};
 use rasterproof_host::shell;
 use rasterproof_host::text::{printable, printable_path, printable_short};
 
-use super::files::{self, Output, Use, written};
 use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, TextDiff};
@@ -93,8 +93,8 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     let output = arguments.output.as_deref().map_or_else(default, Output::typed);
     let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
     let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
-    let page = written("the page", &output);
-    files::check(read.chain(olds).chain([page]))?;
+    let page = output.named("the page");
+    output::check_all(read.chain(olds).chain([page]))?;
     for warning in unread.iter().take(MOST_UNREAD) {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }

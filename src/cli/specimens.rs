@@ -1,8 +1,8 @@
 //! `rasterproof specimens`: how often each published fault shows, and a contact sheet of them.
 
+use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
 
-use super::files::{self, Output, written};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -38,8 +38,8 @@ pub struct SpecimensArguments {
 pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let page = arguments.page.page("specimens.html");
     let sheet = arguments.output.as_deref().map(Output::typed);
-    let sheet_file = sheet.as_ref().map(|sheet| written("--output", sheet));
-    files::check(sheet_file.into_iter().chain(as_file(&page)))?;
+    let sheet_file = sheet.as_ref().map(|sheet| sheet.named("--output"));
+    output::check_all(sheet_file.into_iter().chain(as_file(&page)))?;
     if let Some(path) = &arguments.output {
         ends_in(path, "png", "the picture")?;
     }

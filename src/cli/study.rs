@@ -4,6 +4,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
+use rasterproof_host::output::{self, Output};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_precision::cost::Board;
 use rasterproof_registry::comparison::EnginesToJudge;
@@ -18,7 +19,6 @@ use rasterproof_study::report::around::Around;
 use rasterproof_study::report::studied::Studied;
 use rasterproof_study::report::{self as report, costs, engines, json};
 
-use super::files::{self, Output};
 use super::inspect_case::{self, InspectedCase};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
@@ -102,9 +102,9 @@ pub(super) fn cost(
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
     let boards = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
@@ -131,9 +131,9 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("study.html");
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     let maker = what.maker(typed, Purpose::Measured, streams)?;
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }

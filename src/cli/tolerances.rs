@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use rasterproof_host::output::Output;
 use rasterproof_host::text::printable_path;
 use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Acceptance, Row, report};
@@ -11,7 +12,6 @@ use rasterproof_report::json;
 use rasterproof_report::table::{Row as Cells, Table};
 use rasterproof_study::report::cost_plots;
 
-use super::files::Output;
 use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{Status, Streams, ends_in, exit};

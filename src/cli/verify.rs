@@ -6,12 +6,12 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
-use super::files;
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, invariant, program, study, usage, write_picture};
+use rasterproof_host::output;
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Outcome, Report};
@@ -186,7 +186,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         return on_a_device(arguments, options, streams);
     }
     let page = arguments.page.page("verify.html");
-    files::check(as_file(&page))?;
+    output::check_all(as_file(&page))?;
     let judged = arguments.judged();
     if judged.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));

@@ -1,5 +1,6 @@
 //! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
 
+use rasterproof_host::output::Output;
 use rasterproof_vulkan::device::find;
 use rasterproof_vulkan::gpu::campaign;
 use rasterproof_vulkan::gpu::choice::OnLadder;
@@ -8,7 +9,6 @@ use rasterproof_vulkan::gpu::look;
 use rasterproof_vulkan::gpu::plant::Plant;
 use rasterproof_vulkan::gpu::text;
 
-use super::files::Output;
 use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{InputError, Status, Streams, exit, program, usage};

@@ -169,7 +169,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         errors: &mut errors,
         progress: false,
         colour: false,
-        columns: cli::wrap::USUAL,
+        columns: cli::outlet::USUAL,
         error_columns: usize::MAX,
         delivery: cli::Delivery::default(),
     };

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::error::{FileError, refused};
-use crate::read_files;
+use crate::identity;
 
 fn failed(path: &Path, error: &io::Error) -> FileError {
     let missing = error.kind() == io::ErrorKind::NotFound;
@@ -66,7 +66,7 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     if data.len() > limit_bytes {
         return Err(too_large(path, limit_bytes));
     }
-    read_files::note(path);
+    identity::note(path);
     Ok(file)
 }
 

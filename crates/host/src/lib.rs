@@ -1,6 +1,5 @@
 //! The border between rasterproof and the machine it runs on. This crate is the one place that
-//! opens a file ([`input`]), writes a file ([`output`]), recognises two names of one file
-//! ([`identity`]), recognises files that it has read ([`read_files`]) or made ([`mark`]), shows text that other people wrote
+//! opens a file ([`input`]), writes a file whole and over none of the user's ([`output`]), shows text that other people wrote
 //! ([`text`]), quotes a command that a reader may copy ([`shell`]), and states the limits of size
 //! and time ([`limits`]).
 //!
@@ -13,9 +12,8 @@ pub mod identity;
 pub mod input;
 pub mod limits;
 pub mod lock;
-pub mod mark;
+mod mark;
 pub mod output;
-pub mod read_files;
 pub mod shell;
 #[cfg(test)]
 mod testing;

@@ -1,4 +1,4 @@
-//! Writing files: whole or not at all.
+//! Writing files: whole or not at all, and over no file that the user would miss.
 //!
 //! A regular file is written under a random name in the same folder and then renamed, so that no
 //! reader sees half of it and a failed write leaves the old file as it was. A link is followed: the
@@ -16,9 +16,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::{FileError, refused};
+use crate::identity::{self, Identity};
 use crate::limits::STALLED_WRITE_SECONDS;
+use crate::mark;
 use crate::text::printable_path;
-use crate::{mark, read_files};
 
 /// Which existing files a write may replace; any other is kept, and the write ends with an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +34,83 @@ pub enum Over {
     None,
 }
 
+/// A file that a command writes, and which file it may replace.
+#[derive(Clone, Debug)]
+pub struct Output {
+    pub path: PathBuf,
+    pub over: Over,
+}
+
+impl Output {
+    /// A file whose name was typed, which replaces any that is not read.
+    #[must_use]
+    pub fn typed(path: &Path) -> Self {
+        Self { path: path.to_owned(), over: Over::Any }
+    }
+
+    /// It as a file of a command line.
+    #[must_use]
+    pub fn named<'a>(&'a self, option: &'a str) -> Named<'a> {
+        (option, &self.path, Use::Writes(self.over))
+    }
+}
+
+/// What a command does with a file that it was given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    Reads,
+    Writes(Over),
+}
+
+/// A file of a command line: the option that names it, its path, and what the command does with it.
+pub type Named<'a> = (&'a str, &'a Path, Use);
+
+/// What standard output is, as a file; a system without it has no file of this name.
+pub const STANDARD_OUTPUT: &str = "/dev/stdout";
+
+/// Refuses a command that would write over a file which it also reads or writes by another option, by
+/// whatever names; or over one that it has read already, such as a texture of a model; or, where the
+/// program chose the name, over a file that it did not make.
+///
+/// # Errors
+/// In words, with the option.
+pub fn check_all<'a>(files: impl IntoIterator<Item = Named<'a>>) -> Result<(), String> {
+    // Where standard output is a file, it is one more that is written.
+    let standard_output = ("standard output", Path::new(STANDARD_OUTPUT), Use::Writes(Over::Any));
+    let all = files.into_iter().chain(cfg!(unix).then_some(standard_output));
+    let mut before: Vec<(Named<'_>, Identity)> = Vec::new();
+    for (option, path, of) in all {
+        let Some(identity) = Identity::of(path) else { continue };
+        let is_other = |((_, _, use_of_it), other): &&(Named<'_>, Identity)| {
+            (of != Use::Reads || *use_of_it != Use::Reads) && identity.is(other)
+        };
+        if let Some(((other, its_path, its_use), _)) = before.iter().find(is_other) {
+            // What is written is named first.
+            let [(first, path), (second, _)] = match its_use {
+                Use::Reads => [(option, path), (*other, *its_path)],
+                Use::Writes(_) => [(*other, *its_path), (option, path)],
+            };
+            let path = printable_path(path);
+            return Err(format!(
+                "{path}: {first} and {second} name this file; give each a file of its own"
+            ));
+        }
+        before.push(((option, path, of), identity));
+    }
+    for ((option, path, of), _) in before {
+        if let Use::Writes(over) = of {
+            check(path, over).map_err(|error| format!("{option}: {error}"))?;
+        }
+    }
+    Ok(())
+}
+
 /// Refuses a file that may not be replaced.
 ///
 /// # Errors
 /// [`FileError`] where there is such a file.
 pub fn check(path: &Path, over: Over) -> Result<(), FileError> {
-    if over != Over::Updated && read_files::hold(path) {
+    if over != Over::Updated && identity::was_read(path) {
         return Err(refused(path, "is read by this command; give the output another name"));
     }
     // What is written to a pipe or a device replaces nothing.

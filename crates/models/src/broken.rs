@@ -7,7 +7,7 @@ use rasterproof_core::parallel;
 use rasterproof_host::text::printable_short;
 
 use crate::Warnings;
-use crate::contents::{Contents, FilePart, retain};
+use crate::contents::{Contents, FilePart};
 
 /// What is counted of faces that are left out.
 const POSITION: &str = "position that is not finite of face";
@@ -27,7 +27,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
             let place = format!("face {} of the file{part_of}", before + number + 1);
             first.get_or_insert((Some(line).filter(|&line| line > 0), place));
             counts = [counts[0] + of_part[0], counts[1] + of_part[1]];
-            remove(part);
+            part.retain(|part, number| is_broken(part, number) == [false; 2]);
         }
         before += count;
         // Nothing uses the others. They are no part of the picture, and do not have to be told from those that are.
@@ -41,7 +41,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
         for tangent in part.tangents.iter_mut().filter(|tangent| !tangent.is_finite()) {
             *tangent = DVec4::ZERO;
         }
-        let all = part.uvs.iter_mut().chain(&mut part.second_uvs);
+        let all = part.uvs.values.iter_mut().chain(&mut part.second_uvs);
         for uv in all.filter(|uv| !uv.is_finite()) {
             *uv = DVec2::ZERO;
             uvs += 1;
@@ -52,9 +52,8 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
         warnings.add(path, None, "texture coordinates", &text);
     }
     let left_out = counts[0] + counts[1];
-    for (key, count) in [POSITION, COLOUR].into_iter().zip(counts).filter(|(_, count)| *count > 0) {
-        contents.not_drawn.insert(key.to_owned(), count);
-    }
+    contents.count(POSITION, counts[0]);
+    contents.count(COLOUR, counts[1]);
     if let Some((line, place)) = first {
         let what = match counts {
             [_, 0] => "a position",
@@ -78,36 +77,22 @@ fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
         .or_else(|| parallel::first(&part.face_colours, is_broken))?;
     let (mut first, mut counts) = (None, [0; 2]);
     for number in 0..part.polygons.len() {
-        let corners = part.polygons.corners(number);
-        let has = |vectors: &[DVec3]| {
-            let mut vectors =
-                corners.clone().filter_map(|at| vectors.get(part.corners[at] as usize));
-            vectors.any(is_broken)
-        };
-        let kind = if has(&part.positions) { 0 } else { 1 };
-        let has_colour = has(&part.colours) || part.face_colours.get(number).is_some_and(is_broken);
-        if kind == 0 || has_colour {
+        let [position, colour] = self::is_broken(part, number);
+        if position || colour {
             first.get_or_insert(number);
-            counts[kind] += 1;
+            counts[usize::from(!position)] += 1;
         }
     }
     first.map(|first| (first, counts))
 }
 
-/// Removes the faces that [`faces`] counts.
-fn remove(part: &mut FilePart) {
-    let FilePart { positions, colours, corners, normal_numbers, uv_numbers, polygons, .. } = part;
-    let face_colours = &part.face_colours;
-    let is_broken = |&corner: &u32| {
-        let vectors = [positions.get(corner as usize), colours.get(corner as usize)];
-        vectors.into_iter().flatten().any(|vector| !vector.is_finite())
+/// Whether a face has a position (0) or a colour (1) that is not finite.
+fn is_broken(part: &FilePart, number: usize) -> [bool; 2] {
+    let is_broken = |vector: &DVec3| !vector.is_finite();
+    let corners = &part.corners[part.polygons.corners(number)];
+    let has = |vectors: &[DVec3]| {
+        corners.iter().any(|&corner| vectors.get(corner as usize).is_some_and(is_broken))
     };
-    let is_kept = |number: usize, corners: &[u32]| {
-        let has_colour = face_colours.get(number).is_none_or(|colour| colour.is_finite());
-        has_colour && !corners.iter().any(is_broken)
-    };
-    let kept = (0..polygons.len()).filter(|&at| is_kept(at, &corners[polygons.corners(at)]));
-    let colours = kept.filter_map(|at| face_colours.get(at).copied()).collect();
-    retain(polygons, corners, [normal_numbers, uv_numbers], is_kept);
-    part.face_colours = colours;
+    let of_face = part.face_colours.get(number).is_some_and(is_broken);
+    [has(&part.positions), has(&part.colours) || of_face]
 }

@@ -5,8 +5,8 @@ use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::LoadOptions;
 use crate::cameras::Camera;
+use crate::{LoadOptions, Warnings};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
@@ -42,7 +42,7 @@ pub(crate) struct Contents {
     /// `specular colour of 18 materials, 1 bump map`.
     pub not_drawn: BTreeMap<String, u64>,
     /// What is missing or cannot be understood and was done without, one line each.
-    pub warnings: Vec<String>,
+    pub warnings: Warnings,
 }
 
 /// What has to be equal for two parts to become one: the material, and whether there are colours, tangents and second texture
@@ -50,6 +50,13 @@ pub(crate) struct Contents {
 pub(crate) type Kind = (Option<usize>, [bool; 3]);
 
 impl Contents {
+    /// Counts what is not drawn, by a key in the singular.
+    pub(crate) fn count(&mut self, key: &str, count: u64) {
+        if count > 0 {
+            *self.not_drawn.entry(key.to_owned()).or_default() += count;
+        }
+    }
+
     /// Adds a part; many parts become few. An error in words where that cannot be.
     pub(crate) fn add(&mut self, mut part: FilePart) -> Result<(), String> {
         if self.parts.len() < MOST_SINGLE_PARTS {
@@ -91,9 +98,9 @@ pub(crate) struct FilePart {
     pub to_file: DMat4,
     pub positions: Vec<DVec3>,
     /// Normals of any length.
-    pub normals: Vec<DVec3>,
+    pub normals: Vectors<DVec3>,
     /// Texture coordinates, v up.
-    pub uvs: Vec<DVec2>,
+    pub uvs: Vectors<DVec2>,
     /// Those of maps that are read elsewhere, for each position, or none at all.
     pub second_uvs: Vec<DVec2>,
     /// A colour for each position, each channel in [0, 1], or none at all.
@@ -104,8 +111,6 @@ pub(crate) struct FilePart {
     pub face_colours: Vec<DVec3>,
     /// The numbers of the positions of all corners, one polygon after the other.
     pub corners: Vec<u32>,
-    pub normal_numbers: Numbers,
-    pub uv_numbers: Numbers,
     pub polygons: Polygons,
 }
 
@@ -117,6 +122,49 @@ pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
 }
 
 impl FilePart {
+    /// Adds a corner by the numbers of its position, normal and texture coordinates. [`NONE`] stands for what it does not have.
+    #[inline]
+    pub(crate) fn push(&mut self, position: u32, normal: u32, uv: u32) {
+        self.normals.numbers.push(normal, position, &self.corners);
+        self.uvs.numbers.push(uv, position, &self.corners);
+        self.corners.push(position);
+    }
+
+    /// Makes a polygon of the corners from this one on, and returns whether there are three or more. Fewer are taken away.
+    pub(crate) fn end_polygon(&mut self, start: usize, line: usize, smoothing: u32) -> bool {
+        let count = self.corners.len() - start;
+        if count >= 3 {
+            self.polygons.push(count, line as u32, smoothing);
+            return true;
+        }
+        self.normals.numbers.truncate(start);
+        self.uvs.numbers.truncate(start);
+        self.corners.truncate(start);
+        false
+    }
+
+    /// Removes polygons that are not kept, by their numbers and corners, with what is listed for each of their corners.
+    pub(crate) fn retain(&mut self, is_kept: impl Fn(&Self, usize) -> bool) {
+        let (mut kept, mut places, mut colours) = (Polygons::default(), Vec::new(), Vec::new());
+        for number in 0..self.polygons.len() {
+            let corners = self.polygons.corners(number);
+            if is_kept(self, number) {
+                let (line, group) = (self.polygons.line(number), self.polygons.smoothing(number));
+                kept.push(corners.len(), line, group);
+                places.extend(corners);
+                colours.extend(self.face_colours.get(number));
+            }
+        }
+        let of_places = |list: &[u32]| places.iter().map(|&at| list[at]).collect();
+        for numbers in [&mut self.normals.numbers, &mut self.uvs.numbers] {
+            if let Numbers::OfCorners(list) = numbers {
+                *list = of_places(list);
+            }
+        }
+        self.corners = of_places(&self.corners);
+        (self.polygons, self.face_colours) = (kept, colours);
+    }
+
     /// Moves its positions, normals and the winding of its polygons by a matrix.
     pub(crate) fn place(&mut self, matrix: DMat4) {
         if matrix == DMat4::IDENTITY {
@@ -128,7 +176,7 @@ impl FilePart {
         let linear = DMat3::from_mat4(matrix);
         let mirrors = linear.determinant() < 0.0;
         let of_normals = of_normals(linear);
-        for normal in &mut self.normals {
+        for normal in &mut self.normals.values {
             *normal = of_normals * *normal;
         }
         for tangent in &mut self.tangents {
@@ -139,7 +187,7 @@ impl FilePart {
             for number in 0..self.polygons.len() {
                 let corners = self.polygons.corners(number);
                 self.corners[corners.clone()].reverse();
-                for numbers in [&mut self.normal_numbers, &mut self.uv_numbers] {
+                for numbers in [&mut self.normals.numbers, &mut self.uvs.numbers] {
                     if let Numbers::OfCorners(numbers) = numbers {
                         numbers[corners.clone()].reverse();
                     }
@@ -154,10 +202,8 @@ impl FilePart {
         let before = self.positions.len();
         let corners = [&*self.corners, &*other.corners];
         let counts = [before, other.positions.len()];
-        let normals = [&mut self.normals, &mut other.normals];
-        self.normal_numbers.append(&other.normal_numbers, normals, corners, counts);
-        let uvs = [&mut self.uvs, &mut other.uvs];
-        self.uv_numbers.append(&other.uv_numbers, uvs, corners, counts);
+        self.normals.append(other.normals, corners, counts);
+        self.uvs.append(other.uvs, corners, counts);
         if !other.colours.is_empty() {
             self.colours.resize(before, DVec3::ONE);
             self.colours.append(&mut other.colours);
@@ -249,38 +295,11 @@ impl Numbers {
         }
     }
 
-    /// Adds the numbers of the corners of another part, whose vectors come after the own ones. The corners, and how many
-    /// positions there are, are those of both.
-    fn append<V>(
-        &mut self,
-        other: &Self,
-        [own_values, values]: [&mut Vec<V>; 2],
-        [own_corners, corners]: [&[u32]; 2],
-        [own_count, count]: [usize; 2],
-    ) {
-        match (&*self, other) {
-            (Self::Nothing, Self::Nothing) => return,
-            // Some files have more vectors than positions.
-            (Self::OfPositions, Self::OfPositions) => {
-                own_values.truncate(own_count);
-                values.truncate(count);
-                return own_values.append(values);
-            }
-            _ => {}
-        }
-        let numbers = |of: &Self, corners: &[u32], before: usize| -> Vec<u32> {
-            let number = |(corner, &position)| of.get(corner, position);
-            let moved = |number| number + before as u32;
-            let all = corners.iter().enumerate().map(number);
-            all.map(|number| number.map_or(NONE, moved)).collect()
-        };
-        if !matches!(self, Self::OfCorners(_)) {
-            *self = Self::OfCorners(numbers(self, own_corners, 0));
-        }
-        if let Self::OfCorners(own) = self {
-            own.append(&mut numbers(other, corners, own_values.len()));
-        }
-        own_values.append(values);
+    /// The numbers of all corners, of vectors that come after others.
+    fn of_corners(&self, corners: &[u32], before: u32) -> Vec<u32> {
+        let number = |(corner, &position)| self.get(corner, position);
+        let all = corners.iter().enumerate().map(number);
+        all.map(|number| number.map_or(NONE, |number| number + before)).collect()
     }
 
     /// The number of a corner, whose position has a number too.
@@ -291,6 +310,45 @@ impl Numbers {
             Self::OfPositions => Some(position),
             Self::OfCorners(numbers) => Some(numbers[corner]).filter(|&number| number != NONE),
         }
+    }
+}
+
+/// Vectors of one kind, and which of them each corner of a part has.
+#[derive(Debug, Default)]
+pub(crate) struct Vectors<V> {
+    pub values: Vec<V>,
+    pub numbers: Numbers,
+}
+
+impl<V> Vectors<V> {
+    /// One vector for each position, or none at all.
+    pub(crate) fn of_positions(values: Vec<V>) -> Self {
+        let numbers = if values.is_empty() { Numbers::Nothing } else { Numbers::OfPositions };
+        Self { values, numbers }
+    }
+
+    /// Adds those of another part. The corners, and how many positions there are, are those of both.
+    fn append(
+        &mut self,
+        mut other: Self,
+        [own_corners, corners]: [&[u32]; 2],
+        [own_count, count]: [usize; 2],
+    ) {
+        match (&self.numbers, &other.numbers) {
+            (Numbers::Nothing, Numbers::Nothing) => return,
+            // Some files have more vectors than positions.
+            (Numbers::OfPositions, Numbers::OfPositions) => {
+                self.values.truncate(own_count);
+                other.values.truncate(count);
+                return self.values.append(&mut other.values);
+            }
+            _ => {}
+        }
+        let before = self.values.len() as u32;
+        let mut numbers = self.numbers.of_corners(own_corners, 0);
+        numbers.append(&mut other.numbers.of_corners(corners, before));
+        self.numbers = Numbers::OfCorners(numbers);
+        self.values.append(&mut other.values);
     }
 }
 
@@ -406,33 +464,8 @@ impl Polygons {
     }
 }
 
-/// Removes polygons that are not kept, by their numbers and corners, with what is listed for each of their corners.
-pub(crate) fn retain(
-    polygons: &mut Polygons,
-    corners: &mut Vec<u32>,
-    numbers: [&mut Numbers; 2],
-    is_kept: impl Fn(usize, &[u32]) -> bool,
-) {
-    let (mut kept, mut places) = (Polygons::default(), Vec::new());
-    for number in 0..polygons.len() {
-        let of_polygon = polygons.corners(number);
-        if is_kept(number, &corners[of_polygon.clone()]) {
-            kept.push(of_polygon.len(), polygons.line(number), polygons.smoothing(number));
-            places.extend(of_polygon);
-        }
-    }
-    let of_places = |list: &[u32]| places.iter().map(|&at| list[at]).collect();
-    for numbers in numbers {
-        if let Numbers::OfCorners(list) = numbers {
-            *list = of_places(list);
-        }
-    }
-    *corners = of_places(corners);
-    *polygons = kept;
-}
-
 /// What a file says about a surface, as far as it is drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Surface {
     pub name: String,
     /// Diffuse colour, each channel in [0, 1].
@@ -456,11 +489,12 @@ impl Surface {
 }
 
 /// What is seen of the backs of faces, those that are clockwise as the eye sees them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Sides {
     /// Nothing: they are culled.
     Front,
     /// They are lit as the front is, by the same normals.
+    #[default]
     Alike,
     /// They are lit by the reversed normals.
     Both,
@@ -516,9 +550,8 @@ mod tests {
             polygon.iter().for_each(|&(corners, group)| polygons.push(corners, seed, group));
             FilePart {
                 positions: (0..5).map(vector).collect(),
-                normals: (0..7).map(vector).collect(),
+                normals: Vectors { values: (0..7).map(vector).collect(), numbers: normals },
                 corners: (0..count as u32).map(|corner| (corner * 3) % 5).collect(),
-                normal_numbers: normals,
                 polygons,
                 ..FilePart::default()
             }
@@ -530,8 +563,8 @@ mod tests {
             });
             let corner = |(corner, group, line): (usize, u32, u32)| {
                 let position = part.corners[corner];
-                let normal = part.normal_numbers.get(corner, position);
-                let normal = normal.map(|number| part.normals[number as usize]);
+                let normal = part.normals.numbers.get(corner, position);
+                let normal = normal.map(|number| part.normals.values[number as usize]);
                 (part.positions[position as usize], normal, group, line)
             };
             polygons.map(corner).collect()

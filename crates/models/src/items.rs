@@ -18,7 +18,9 @@ use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 
 use crate::broken;
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface, key};
+use crate::contents::{
+    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface, Vectors, key,
+};
 use crate::gltf::encoded;
 use crate::polygons::{self, Odd, Shape};
 use crate::tangents;
@@ -105,28 +107,27 @@ pub(crate) fn model(
     }
     let shiny = contents.materials.iter().filter(|surface| surface.specular != Specular::default());
     let shiny = shiny.count() as u64;
-    if options.shading == Shading::Gouraud && shiny > 0 {
-        let key = "specular colour, with Gouraud shading, of material".to_owned();
-        contents.not_drawn.insert(key, shiny);
+    if options.shading == Shading::Gouraud {
+        contents.count("specular colour, with Gouraud shading, of material", shiny);
     }
     let is_physical = |surface: &&Surface| surface.physical.is_some() && !surface.unlit;
     let physical = contents.materials.iter().filter(is_physical).count();
-    if options.shading == Shading::Gouraud && physical > 0 {
-        let key = "metal and roughness, with Gouraud shading, of material".to_owned();
-        contents.not_drawn.insert(key, physical as u64);
+    if options.shading == Shading::Gouraud {
+        let key = "metal and roughness, with Gouraud shading, of material";
+        contents.count(key, physical as u64);
     }
     let matt =
         |item: &&Item| item.material.physical.is_none() && item.material.shading != Shading::Unlit;
     let matt = items.iter().filter(matt).count() as u64;
-    if !lights.is_empty() && matt > 0 {
-        let key = "light of the file, without metal and roughness, of primitive".to_owned();
-        contents.not_drawn.insert(key, matt);
+    if !lights.is_empty() {
+        contents.count("light of the file, without metal and roughness, of primitive", matt);
     }
     let not_drawn = counted(&contents.not_drawn);
     let mut why_empty = clear_materials(path, &items, &origins, &mut warnings);
     if items.is_empty() {
         if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
-            let why = contents.warnings.first().map_or(String::new(), |why| format!(" ({why})"));
+            let why =
+                contents.warnings.shown.first().map_or(String::new(), |why| format!(" ({why})"));
             return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
         }
         let why = if left_out > 0 { "all its faces are left out" } else { "it has no faces" };
@@ -134,9 +135,7 @@ pub(crate) fn model(
         why_empty = why.to_owned();
     }
     let (file_bytes, animations) = (contents.other_bytes, contents.animations);
-    let mut all = contents.warnings;
-    all.extend(warnings.finish());
-    let warnings = all;
+    let warnings = [contents.warnings.finish(), warnings.finish()].concat();
     Ok(Model {
         items,
         origins,
@@ -462,8 +461,8 @@ fn part_colours(part: &mut FilePart) -> Attribute<DVec3> {
 
 /// The texture coordinates of the corners of a part; (0, 0) for those that have none.
 fn part_uvs(part: &mut FilePart) -> Attribute<DVec2> {
-    let mut values = std::mem::take(&mut part.uvs);
-    match std::mem::take(&mut part.uv_numbers) {
+    let Vectors { mut values, numbers } = std::mem::take(&mut part.uvs);
+    match numbers {
         Numbers::Nothing => Attribute::Same(DVec2::ZERO),
         Numbers::OfPositions => Attribute::OfPositions(values),
         Numbers::OfCorners(mut indices) => {
@@ -484,8 +483,7 @@ fn part_normals(
     smooth: &SmoothNormals,
     normals: Normals,
 ) -> Option<Attribute<DVec3>> {
-    let mut values = std::mem::take(&mut part.normals);
-    let mut numbers = std::mem::take(&mut part.normal_numbers);
+    let Vectors { mut values, mut numbers } = std::mem::take(&mut part.normals);
     if normals == Normals::Flat {
         (values, numbers) = (Vec::new(), Numbers::Nothing);
     }

@@ -3,7 +3,6 @@
 //! A reader turns the bytes of one format into `Contents`: polygons in the file's own coordinates, materials, and what
 //! the file contains that is not drawn. [`load`] makes items of a scene of them, the same way for every format.
 
-mod ahead;
 mod broken;
 pub mod cameras;
 mod contents;
@@ -15,26 +14,24 @@ mod obj;
 mod outside;
 mod ply;
 mod polygons;
+mod records;
 mod stl;
 mod tangents;
-mod text;
 mod textures;
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use rasterproof_host::error::FileError;
 use rasterproof_host::input::Pieces;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::scene::{Item, Shading};
 
-use ahead::Ahead;
 pub use cameras::{Camera, Lens};
 pub use format::Format;
-use text::Text;
+use records::Records;
 pub use textures::load_texture;
 
 /// What is wrong with a file, where, and what to do about it.
@@ -190,22 +187,22 @@ pub(crate) const PIECE_BYTES: u64 = 1 << 20;
 /// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
 /// warning: the surface is drawn in its colour, or grey.
 pub fn load(path: &Path, options: LoadOptions) -> Result<Model, BadFile> {
-    let failed = |error: FileError| bad(path, None, error.cause);
+    let failed = |error: rasterproof_host::error::FileError| bad(path, None, error.cause);
     let mut file = Pieces::open(path, limits::MODEL_BYTES).map_err(failed)?;
     let length = file.length_bytes();
     let mut bytes = Vec::new();
     file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
     let format = Format::of(path, &bytes, length).map_err(|cause| bad(path, None, cause))?;
-    let has_records = format == Format::Stl && !stl::is_text(&bytes);
+    let is_text = stl::is_text(&bytes);
     // Each reader gets the bytes for good, since what it makes of them needs the memory.
+    let mut file = Records::new(path, bytes, file);
     let contents = match format {
-        Format::Obj => obj::read(path, Text::new(bytes, file))?,
-        Format::Stl if has_records => stl::binary(path, Ahead::new(bytes, file))?,
-        Format::Ply => ply::read(path, Ahead::new(bytes, file))?,
-        Format::Stl => stl::text(path, Text::new(bytes, file))?,
+        Format::Obj => obj::read(path, file)?,
+        Format::Stl if is_text => stl::text(path, file)?,
+        Format::Stl => stl::binary(path, file)?,
+        Format::Ply => ply::read(path, file)?,
         Format::Gltf | Format::Glb => {
-            let mut file = Ahead::new(bytes, file);
-            file.read_all().map_err(failed)?;
+            file.read_all()?;
             gltf::read(path, &file.bytes, options.pose)?
         }
     };

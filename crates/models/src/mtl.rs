@@ -9,7 +9,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::Warnings;
 use crate::outside::NOT_QUOTED;
-use crate::{text, textures};
+use crate::{records, textures};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct MtlMaterial {
@@ -86,7 +86,8 @@ pub(crate) fn without_comment(line: &str) -> &str {
 fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result<(), String> {
     let lower = kind.to_ascii_lowercase();
     if lower == "newmtl" {
-        materials.push(MtlMaterial { name: text::name(rest).to_owned(), ..MtlMaterial::default() });
+        materials
+            .push(MtlMaterial { name: records::name(rest).to_owned(), ..MtlMaterial::default() });
         return Ok(());
     }
     if WITHOUT_EFFECT.contains(&lower.as_str()) {

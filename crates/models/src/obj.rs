@@ -6,20 +6,17 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
-use glam::{DMat4, DVec2, DVec3};
-use rasterproof_host::error::FileError;
+use glam::{DVec2, DVec3};
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
 use std::sync::Arc;
 
-use crate::contents::{
-    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Sides, Surface, retain,
-};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
-use crate::text::{self, Text, without_mark};
+use crate::records::{self, Records, is_wide, short, without_mark};
 use crate::textures::{Decoded, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
@@ -45,46 +42,36 @@ struct Run {
     name: Arc<str>,
     /// The name of the material, and the first line that names it.
     material: Option<(Arc<str>, usize)>,
-    corners: Vec<u32>,
-    uvs: Numbers,
-    normals: Numbers,
-    polygons: Polygons,
+    /// Its numbers are those of the vectors of the file.
+    part: FilePart,
 }
 
-impl Run {
-    #[inline]
-    fn push(&mut self, [position, uv, normal]: FaceCorner) {
-        self.uvs.push(uv, position, &self.corners);
-        self.normals.push(normal, position, &self.corners);
-        self.corners.push(position);
-    }
+#[derive(Default)]
+struct Vectors {
+    positions: Vec<DVec3>,
+    uvs: Vec<DVec2>,
+    normals: Vec<DVec3>,
+    /// The colours of the first positions, up to the last that has one.
+    colours: Vec<DVec3>,
+}
 
-    fn truncate(&mut self, corners: usize) {
-        self.uvs.truncate(corners);
-        self.normals.truncate(corners);
-        self.corners.truncate(corners);
-    }
-
-    fn corner(&self, corner: usize) -> FaceCorner {
-        let position = self.corners[corner];
-        let number = |numbers: &Numbers| numbers.get(corner, position).unwrap_or(NONE);
-        [position, number(&self.uvs), number(&self.normals)]
+impl Vectors {
+    /// How many positions, texture coordinates and normals there are.
+    fn counts(&self) -> [usize; 3] {
+        [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 }
 
 #[derive(Default)]
 struct Lines {
-    positions: Vec<DVec3>,
-    /// The colours of the first positions, up to the last that has one.
-    colours: Vec<DVec3>,
-    uvs: Vec<DVec2>,
-    normals: Vec<DVec3>,
+    vectors: Vectors,
     runs: Vec<Run>,
     /// What lines of material files name, each once.
     libraries: Vec<String>,
     /// Those names, to find one again.
     known: HashSet<String>,
-    not_drawn: BTreeMap<String, u64>,
+    /// What is not drawn, and warnings.
+    contents: Contents,
     /// Vectors that cannot be read, by kind and index, with the line and what is wrong: a vector that no face uses
     /// does no harm.
     broken: BTreeMap<(usize, u32), (usize, String)>,
@@ -101,14 +88,14 @@ impl Lines {
     fn keep_broken(
         &mut self,
         kind: usize,
-        index: usize,
         line: usize,
         cause: String,
     ) -> Result<Values<3>, String> {
         if self.broken.len() >= MOST_BROKEN {
             return Err(format!("{cause}, as in {MOST_BROKEN} lines before"));
         }
-        self.broken.insert((kind, index as u32), (line, cause));
+        let index = self.vectors.counts()[kind] as u32;
+        self.broken.insert((kind, index), (line, cause));
         Ok(Values { all: [0.0; 3], count: 0, not_finite: None })
     }
 }
@@ -124,24 +111,23 @@ struct State {
     is_new: bool,
 }
 
-pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
-    let mut warnings = Warnings::default();
-    let mut lines = lines(path, text, &mut warnings)?;
-    check_faces(path, &mut lines, &mut warnings)?;
+pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> {
+    let mut lines = lines(path, file)?;
+    check_faces(path, &mut lines)?;
+    let Lines { vectors, runs, libraries, mut contents, .. } = lines;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (described, all_read) = read_libraries(path, &lines.libraries, &mut warnings);
+    let (described, all_read) = read_libraries(path, &libraries, &mut contents.warnings);
     let mut numbers: HashMap<&str, usize> = HashMap::new();
     for (number, material) in described.iter().enumerate() {
         numbers.insert(&material.name, number);
     }
-    let mut contents = Contents { not_drawn: lines.not_drawn, ..Contents::default() };
     let mut textures = Textures::new(folder);
     // The number in `contents` of each material that is used.
     let mut used: HashMap<usize, usize> = HashMap::new();
     let mut unknown = HashSet::new();
-    let mut cutter = Cutter::of(&[lines.positions.len(), lines.uvs.len(), lines.normals.len()]);
+    let mut cutter = Cutter::of(&vectors);
     let mut before = None;
-    for run in lines.runs {
+    for run in runs {
         let number = match &run.material {
             None => None,
             // Without a name the material stays, unless a file describes one without a name.
@@ -152,37 +138,31 @@ pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
                     let name = printable_short(name, 40);
                     let text =
                         format!("no material file describes '{name}'; its faces are drawn grey");
-                    warnings.add(path, Some(*line), "materials that no file describes", &text);
+                    let kind = "materials that no file describes";
+                    contents.warnings.add(path, Some(*line), kind, &text);
                 }
                 number
             }
         };
         before = number;
-        let vectors =
-            (&lines.positions[..], &lines.uvs[..], &lines.normals[..], &lines.colours[..]);
-        let mut part = cutter.part(vectors, run);
+        let mut part = cutter.part(&vectors, run);
         if let Some(number) = number {
             let material = &described[number];
             part.material = Some(*used.entry(number).or_insert_with(|| {
-                let surface =
-                    surface(path, material, &mut textures, &mut contents.not_drawn, &mut warnings);
+                let surface = surface(path, material, &mut textures, &mut contents);
                 contents.materials.push(surface);
                 contents.materials.len() - 1
             }));
             if let Some(texture) = material.texture.as_ref().or(material.opacity_map.as_ref()) {
-                for uv in &mut part.uvs {
+                for uv in &mut part.uvs.values {
                     *uv = *uv * texture.scale + texture.offset;
                 }
             }
         }
         contents.add(part).map_err(|cause| bad(path, None, cause))?;
     }
-    contents.warnings = warnings.finish();
     Ok(contents)
 }
-
-/// Lists of positions, texture coordinates, normals and colours.
-type Vectors<'a> = (&'a [DVec3], &'a [DVec2], &'a [DVec3], &'a [DVec3]);
 
 /// Makes parts with lists of their own, which hold what they use.
 struct Cutter {
@@ -191,36 +171,28 @@ struct Cutter {
 }
 
 impl Cutter {
-    fn of(counts: &[usize; 3]) -> Self {
-        Self { numbers: counts.map(|count| vec![NONE; count]) }
+    fn of(vectors: &Vectors) -> Self {
+        Self { numbers: vectors.counts().map(|count| vec![NONE; count]) }
     }
 
-    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, mut run: Run) -> FilePart {
-        let p = self.local(0, &mut run.corners);
+    fn part(&mut self, vectors: &Vectors, Run { name, mut part, .. }: Run) -> FilePart {
+        let p = self.local(0, &mut part.corners);
         let mut of = |kind: usize, numbers: &mut Numbers| match numbers {
             Numbers::Nothing => Vec::new(),
             // They are used in the same order as the positions.
             Numbers::OfPositions => p.clone(),
             Numbers::OfCorners(numbers) => self.local(kind, numbers),
         };
-        let (t, n) = (of(1, &mut run.uvs), of(2, &mut run.normals));
-        let coloured = p.iter().any(|&index| (index as usize) < colours.len());
-        let colour = |&index: &u32| colours.get(index as usize).copied().unwrap_or(DVec3::ONE);
-        FilePart {
-            name: (*run.name).to_owned(),
-            material: None,
-            to_file: DMat4::IDENTITY,
-            positions: p.iter().map(|&index| positions[index as usize]).collect(),
-            normals: n.iter().map(|&index| normals[index as usize]).collect(),
-            uvs: t.iter().map(|&index| uvs[index as usize]).collect(),
-            colours: if coloured { p.iter().map(colour).collect() } else { Vec::new() },
-            tangents: Vec::new(),
-            corners: run.corners,
-            normal_numbers: run.normals,
-            uv_numbers: run.uvs,
-            polygons: run.polygons,
-            ..FilePart::default()
+        let (t, n) = (of(1, &mut part.uvs.numbers), of(2, &mut part.normals.numbers));
+        part.name = (*name).to_owned();
+        part.positions = p.iter().map(|&index| vectors.positions[index as usize]).collect();
+        part.uvs.values = t.iter().map(|&index| vectors.uvs[index as usize]).collect();
+        part.normals.values = n.iter().map(|&index| vectors.normals[index as usize]).collect();
+        let colours = p.iter().map(|&index| vectors.colours.get(index as usize).copied());
+        if colours.clone().any(|colour| colour.is_some()) {
+            part.colours = colours.map(|colour| colour.unwrap_or(DVec3::ONE)).collect();
         }
+        part
     }
 
     /// Replaces numbers of the file by those of a part, which are given by first use, and returns what the part uses.
@@ -244,12 +216,11 @@ fn surface(
     path: &Path,
     material: &mtl::MtlMaterial,
     textures: &mut Textures,
-    not_drawn: &mut BTreeMap<String, u64>,
-    warnings: &mut Warnings,
+    contents: &mut Contents,
 ) -> Surface {
     let folder = path.parent().unwrap_or(Path::new(""));
     for key in &material.not_drawn {
-        *not_drawn.entry(key.clone()).or_default() += 1;
+        contents.count(key, 1);
     }
     let mut failed = |error: BadFile, without: &str| {
         let name = printable_short(&material.name, 40);
@@ -261,7 +232,7 @@ fn surface(
             ),
         };
         let text = format!("{error}; the material '{name}' is drawn {without}");
-        warnings.add_as_it_is(path, "textures", &text);
+        contents.warnings.add_as_it_is(path, "textures", &text);
     };
     let texture = material.texture.as_ref().and_then(|texture| {
         let read = textures.get(&texture.name, texture.clamp);
@@ -285,9 +256,7 @@ fn surface(
         texture,
         specular: material.specular(),
         opacity,
-        physical: None,
-        unlit: false,
-        sides: Sides::Alike,
+        ..Surface::default()
     }
 }
 
@@ -390,15 +359,14 @@ fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
     bad(path, Some(line), format!("{cause}: repair the line, or export the model again"))
 }
 
-fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, BadFile> {
-    let unread = |error: FileError| bad(path, None, error.cause);
+fn lines(path: &Path, mut file: Records<'_>) -> Result<Lines, BadFile> {
+    let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
     let mut state = State { is_new: true, ..State::default() };
     let mut joined = Vec::new();
-    let mut number = 0;
-    while let Some(line) = text.next_line().map_err(unread)? {
-        number += 1;
-        let first = number;
+    loop {
+        let first = file.line + 1;
+        let Some(line) = file.next_line()? else { break };
         let mut line = line.trim_ascii();
         // A comment may end with the name of a folder.
         if line.ends_with(b"\\") && !line.starts_with(b"#") {
@@ -406,19 +374,18 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
             while let Some(begun) = line.strip_suffix(b"\\") {
                 joined.extend_from_slice(begun);
                 joined.push(b' ');
-                number += 1;
-                line = text.next_line().map_err(unread)?.unwrap_or_default().trim_ascii();
+                line = file.next_line()?.unwrap_or_default().trim_ascii();
             }
             joined.extend_from_slice(line);
             line = &joined;
         }
         let result = read_line(line, first, &mut read, &mut state);
         if let Some(cause) = result.map_err(|cause| refused(path, first, &cause))? {
-            warnings.add(path, Some(first), "lines", &cause);
+            read.contents.warnings.add(path, Some(first), "lines", &cause);
         }
     }
-    if read.runs.is_empty() && read.not_drawn.is_empty() {
-        let hint = if text.is_wide {
+    if read.runs.is_empty() && read.contents.not_drawn.is_empty() {
+        let hint = if is_wide {
             "it begins like text in UTF-16: save it as UTF-8"
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
@@ -432,8 +399,9 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
     }
     // Some programs write bytes.
     let is_large = |colour: &DVec3| colour.is_finite() && colour.max_element() > 1.0;
-    let scale = if read.colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
-    for colour in read.colours.iter_mut().filter(|colour| !colour.is_nan()) {
+    let colours = &mut read.vectors.colours;
+    let scale = if colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
+    for colour in colours.iter_mut().filter(|colour| !colour.is_nan()) {
         let scaled = (*colour * scale).clamp(DVec3::ZERO, DVec3::ONE);
         *colour = if *colour == WITHOUT_COLOUR { DVec3::ONE } else { scaled };
     }
@@ -449,52 +417,52 @@ fn read_line(
 ) -> Result<Option<String>, String> {
     if let Some(colours) = line.strip_prefix(b"#MRGB") {
         let count = colours.iter().filter(|byte| byte.is_ascii_hexdigit()).count() / 8;
-        *read.not_drawn.entry(ZBRUSH_COLOUR.to_owned()).or_default() += count as u64;
+        read.contents.count(ZBRUSH_COLOUR, count as u64);
         return Ok(None);
     }
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
     let mut with_comma = words.clone().filter(|word| memchr::memchr(b',', word).is_some());
     match kind {
-        b"v" => match position(words, read) {
-            Ok(None) => return Ok(with_comma.next().map(text::comma)),
+        b"v" => match position(words, &mut read.vectors) {
+            Ok(None) => return Ok(with_comma.next().map(records::comma)),
             Ok(Some(word)) => {
                 let (what, why) = ("the faces that use it are left out", not_finite(&word));
                 return Ok(Some(format!("{why}; {what}")));
             }
             Err(cause) => {
-                read.keep_broken(0, read.positions.len(), number, cause)?;
-                read.positions.push(DVec3::ZERO);
+                read.keep_broken(0, number, cause)?;
+                read.vectors.positions.push(DVec3::ZERO);
             }
         },
         b"vt" => {
-            let values = numbers::<3>(words, 1)
-                .or_else(|cause| read.keep_broken(1, read.uvs.len(), number, cause))?;
+            let values =
+                numbers::<3>(words, 1).or_else(|cause| read.keep_broken(1, number, cause))?;
             let uv = DVec2::new(values.all[0], values.all[1]);
-            read.uvs.push(if uv.is_finite() { uv } else { DVec2::ZERO });
+            read.vectors.uvs.push(if uv.is_finite() { uv } else { DVec2::ZERO });
             if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
                 return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(text::comma));
+            return Ok(with_comma.next().map(records::comma));
         }
         b"vn" => {
-            let values = numbers::<3>(words, 3)
-                .or_else(|cause| read.keep_broken(2, read.normals.len(), number, cause))?;
-            read.normals.push(DVec3::from_slice(&values.all));
+            let values =
+                numbers::<3>(words, 3).or_else(|cause| read.keep_broken(2, number, cause))?;
+            read.vectors.normals.push(DVec3::from_slice(&values.all));
             if let Some(word) = values.not_finite {
                 let what = "the normal of the face takes its place";
                 return Ok(Some(format!("{}; {what}", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(text::comma));
+            return Ok(with_comma.next().map(records::comma));
         }
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
-            state.object = text::name(&rest(line, kind)).into();
+            state.object = records::name(&rest(line, kind)).into();
             state.group = Arc::default();
             state.is_new = true;
         }
         b"g" => {
-            state.group = text::name(&rest(line, kind)).into();
+            state.group = records::name(&rest(line, kind)).into();
             state.is_new = true;
         }
         b"s" => {
@@ -504,7 +472,7 @@ fn read_line(
             state.smoothing = if is_off { 0 } else { index(word).map_or(1, |group| group as u32) };
         }
         b"usemtl" => {
-            let name: Arc<str> = text::name(&rest(line, kind)).into();
+            let name: Arc<str> = records::name(&rest(line, kind)).into();
             if state.material.as_ref().map(|(name, _)| name) != Some(&name) {
                 state.material = Some((name, number));
                 state.is_new = true;
@@ -524,7 +492,7 @@ fn read_line(
                 return read_line(&line, number, read, state);
             }
             if let Some((_, key)) = NOT_DRAWN.iter().find(|(name, _)| *name == word) {
-                *read.not_drawn.entry((*key).to_owned()).or_default() += 1;
+                read.contents.count(key, 1);
             } else if !WITHOUT_EFFECT.contains(&&*word) {
                 let what = format!("'{}' does not begin a line of an OBJ", short(kind));
                 return Ok(Some(format!("{what}; the line is left out")));
@@ -538,7 +506,7 @@ fn read_line(
 /// coordinates or of the colour is not.
 fn position<'a>(
     words: impl Iterator<Item = &'a [u8]>,
-    read: &mut Lines,
+    read: &mut Vectors,
 ) -> Result<Option<String>, String> {
     let Values { all, count, not_finite } = numbers::<7>(words, 3)?;
     let position = DVec3::from_slice(&all);
@@ -562,7 +530,7 @@ fn position<'a>(
 }
 
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
-    let end = memchr::memchr_iter(b'#', line).find(|&at| !text::is_of_number(line, at));
+    let end = memchr::memchr_iter(b'#', line).find(|&at| !records::is_of_number(line, at));
     line[..end.unwrap_or(line.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
@@ -592,9 +560,7 @@ fn numbers<'a, const N: usize>(
 ) -> Result<Values<N>, String> {
     let mut values = Values { all: [0.0; N], count: 0, not_finite: None };
     for word in words {
-        let Some(value) = text::number(word) else {
-            return Err(format!("'{}' is not a number", short(word)));
-        };
+        let value = records::expected_number(word)?;
         if !value.is_finite() && values.not_finite.is_none() {
             values.not_finite = Some(short(word));
         }
@@ -607,10 +573,6 @@ fn numbers<'a, const N: usize>(
         return Err(format!("{} numbers where {least} are needed", values.count));
     }
     Ok(values)
-}
-
-fn short(word: &[u8]) -> String {
-    printable_short(&String::from_utf8_lossy(word), 40)
 }
 
 /// A whole number of at most ten digits, without a sign.
@@ -632,25 +594,21 @@ fn face<'a>(
     if state.is_new {
         state.is_new = false;
         let name = if state.object.is_empty() { &state.group } else { &state.object };
-        let (corners, polygons) = (Vec::new(), Polygons::default());
-        let (uvs, normals) = (Numbers::Nothing, Numbers::Nothing);
         let (name, material) = (name.clone(), state.material.clone());
-        read.runs.push(Run { name, material, corners, uvs, normals, polygons });
+        read.runs.push(Run { name, material, part: FilePart::default() });
     }
-    let counts = [read.positions.len(), read.uvs.len(), read.normals.len()];
-    let Some(run) = read.runs.last_mut() else { return Ok(None) };
-    let start = run.corners.len();
+    let counts = read.vectors.counts();
+    let Some(Run { part, .. }) = read.runs.last_mut() else { return Ok(None) };
+    let start = part.corners.len();
     for word in words {
-        run.push(face_corner(word, counts)?);
+        let [position, uv, normal] = face_corner(word, counts)?;
+        part.push(position, normal, uv);
     }
-    let count = run.corners.len() - start;
-    if count < 3 {
-        run.truncate(start);
-        *read.not_drawn.entry(INCOMPLETE_FACE.to_owned()).or_default() += 1;
-        return Ok(Some("a face needs three corners or more; the line is left out".to_owned()));
+    if part.end_polygon(start, number, state.smoothing) {
+        return Ok(None);
     }
-    run.polygons.push(count, number as u32, state.smoothing);
-    Ok(None)
+    read.contents.count(INCOMPLETE_FACE, 1);
+    Ok(Some("a face needs three corners or more; the line is left out".to_owned()))
 }
 
 /// `position/texture/normal` as indices from 0; negative ones count back from here.
@@ -690,88 +648,96 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
 
 /// Looks whether what faces name is there. Takes away texture coordinates and normals that are not, and faces without all of their
 /// positions. Faces may come before what they name, so this is done at the end.
-fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
-    let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
+fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
+    let Lines { vectors, runs, broken, contents, .. } = lines;
+    let counts = vectors.counts();
+    let Contents { warnings, .. } = contents;
     // Vectors that faces are drawn without, by kind and index.
     let mut used: HashSet<(usize, u32)> = HashSet::new();
-    // Why the first face is left out, if one is.
-    let mut refusal = None;
-    for run in &mut lines.runs {
+    // Why the first face is left out, if one is, and how many are.
+    let (mut refusal, mut all_left_out) = (None, 0);
+    for Run { part, .. } in runs.iter_mut() {
         let largest = |numbers: &[u32]| {
             numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
         };
         let is_there = |numbers: &Numbers, count: usize| match numbers {
             Numbers::Nothing => true,
-            Numbers::OfPositions => largest(&run.corners) <= count,
+            Numbers::OfPositions => largest(&part.corners) <= count,
             Numbers::OfCorners(numbers) => largest(numbers) <= count,
         };
-        let [positions, uvs, normals] = counts;
-        let are_there = largest(&run.corners) <= positions
-            && is_there(&run.uvs, uvs)
-            && is_there(&run.normals, normals);
-        if are_there && lines.broken.is_empty() {
+        let are_there = largest(&part.corners) <= counts[0]
+            && is_there(&part.uvs.numbers, counts[1])
+            && is_there(&part.normals.numbers, counts[2]);
+        if are_there && broken.is_empty() {
             continue;
         }
         // Faces in ascending order.
         let mut left_out = Vec::new();
-        for number in 0..run.polygons.len() {
-            let line = run.polygons.line(number) as usize;
-            let corners = run.polygons.corners(number);
-            for kind in 0..KINDS.len() {
-                let is_wrong = |index: u32| {
-                    let is_broken = || lines.broken.contains_key(&(kind, index));
-                    index != NONE && (index as usize >= counts[kind] || is_broken())
-                };
-                let indices = corners.clone().map(|corner| run.corner(corner)[kind]);
-                let Some(index) = indices.clone().find(|&index| is_wrong(index)) else { continue };
-                let (name, count) = (KINDS[kind], counts[kind]);
-                let broken = lines.broken.get(&(kind, index));
-                let cause = match index {
-                    ABSENT => format!("a {name} that the face names is not there"),
-                    index => {
-                        let index = u64::from(index) + 1;
-                        format!("{name} {index} is not there; the file has {count}")
+        for number in 0..part.polygons.len() {
+            let line = part.polygons.line(number) as usize;
+            let corners = part.polygons.corners(number);
+            for (kind, name) in KINDS.into_iter().enumerate() {
+                let count = counts[kind];
+                let number_of = |corner: usize| {
+                    let position = part.corners[corner];
+                    match kind {
+                        0 => Some(position),
+                        1 => part.uvs.numbers.get(corner, position),
+                        _ => part.normals.numbers.get(corner, position),
                     }
                 };
-                if kind == 0 {
-                    let of_line = |(line, cause): &(usize, String)| (*line, cause.clone());
-                    refusal.get_or_insert_with(|| broken.map_or((line, cause.clone()), of_line));
-                }
-                let cause =
-                    broken.map_or(cause, |_| format!("the {name} of the face cannot be read"));
-                let text = match kind {
-                    0 => format!("{cause}; the face is left out"),
-                    _ => format!("{cause}; the face is drawn without {name}s of the file"),
+                let is_wrong =
+                    |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));
+                let indices: Vec<u32> = corners.clone().filter_map(number_of).collect();
+                let Some(&index) = indices.iter().find(|index| is_wrong(index)) else { continue };
+                let (line, cause) = match (broken.get(&(kind, index)), index) {
+                    (Some((line, cause)), _) => (*line, cause.clone()),
+                    (None, ABSENT) => (line, format!("a {name} that the face names is not there")),
+                    (None, index) => {
+                        let index = u64::from(index) + 1;
+                        (line, format!("{name} {index} is not there; the file has {count}"))
+                    }
                 };
-                warnings.add(path, Some(line), &format!("faces without their {name}s"), &text);
-                used.extend(indices.map(|index| (kind, index)));
-                if kind == 0 {
-                    left_out.push(number);
-                    break;
-                }
-                let numbers = if kind == 1 { &mut run.uvs } else { &mut run.normals };
+                let is_broken = broken.contains_key(&(kind, index));
+                let shown = match is_broken {
+                    true => format!("the {name} of the face cannot be read"),
+                    false => cause.clone(),
+                };
+                let text = match kind {
+                    0 => format!("{shown}; the face is left out"),
+                    _ => format!("{shown}; the face is drawn without {name}s of the file"),
+                };
+                let of_face = Some(part.polygons.line(number) as usize);
+                warnings.add(path, of_face, &format!("faces without their {name}s"), &text);
+                used.extend(indices.into_iter().map(|index| (kind, index)));
+                let numbers = match kind {
+                    0 => {
+                        refusal.get_or_insert((line, cause));
+                        left_out.push(number);
+                        break;
+                    }
+                    1 => &mut part.uvs.numbers,
+                    _ => &mut part.normals.numbers,
+                };
                 if *numbers == Numbers::OfPositions {
-                    *numbers = Numbers::OfCorners(run.corners.clone());
+                    *numbers = Numbers::OfCorners(part.corners.clone());
                 }
                 if let Numbers::OfCorners(numbers) = numbers {
                     numbers[corners.clone()].fill(NONE);
                 }
             }
         }
-        if left_out.is_empty() {
-            continue;
+        all_left_out += left_out.len() as u64;
+        if !left_out.is_empty() {
+            part.retain(|_, number| left_out.binary_search(&number).is_err());
         }
-        *lines.not_drawn.entry(WITHOUT_POSITION.to_owned()).or_default() += left_out.len() as u64;
-        let Run { corners, uvs, normals, polygons, .. } = run;
-        let is_kept = |number: usize, _: &[u32]| left_out.binary_search(&number).is_err();
-        retain(polygons, corners, [uvs, normals], is_kept);
     }
     if let Some((line, cause)) = refusal
-        && lines.runs.iter().all(|run| run.polygons.len() == 0)
+        && runs.iter().all(|run| run.part.polygons.len() == 0)
     {
         return Err(refused(path, line, &cause));
     }
-    for (place @ (kind, _), (line, cause)) in &lines.broken {
+    for (place @ (kind, _), (line, cause)) in &*broken {
         let what = match (used.contains(place), kind) {
             (true, 0) => "the faces that use it are left out",
             (true, _) => "the faces that use it are drawn without it",
@@ -779,5 +745,6 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
         };
         warnings.add(path, Some(*line), "lines", &format!("{cause}; {what}"));
     }
+    contents.count(WITHOUT_POSITION, all_left_out);
     Ok(())
 }

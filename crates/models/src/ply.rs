@@ -6,18 +6,15 @@
 use std::ops::Range;
 use std::path::Path;
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use rasterproof_core::parallel::{self, SHARE};
-use rasterproof_host::error::FileError;
 use rasterproof_host::text::printable_short;
-use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
-use crate::ahead::Ahead;
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface};
-use crate::text::{number, without_mark};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::records::{Kind, Records, expected_number, without_mark};
 use crate::textures::{Textures, opacity};
-use crate::{BadFile, Warnings, bad, outside};
+use crate::{BadFile, bad, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
@@ -32,81 +29,31 @@ pub(crate) fn is_ply(bytes: &[u8]) -> bool {
     )
 }
 
-/// The type of a number, which decides how many bytes it has in a binary file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    I64,
-    U64,
-    F32,
-    F64,
+fn kind_of(name: &str) -> Option<Kind> {
+    Some(match name {
+        "char" | "int8" => Kind::I8,
+        "uchar" | "uint8" => Kind::U8,
+        "short" | "int16" => Kind::I16,
+        "ushort" | "uint16" => Kind::U16,
+        "int" | "int32" => Kind::I32,
+        "uint" | "uint32" => Kind::U32,
+        // These are not in the format; Open3D and others write them.
+        "long" | "int64" => Kind::I64,
+        "ulong" | "uint64" => Kind::U64,
+        "float" | "float32" => Kind::F32,
+        "double" | "float64" => Kind::F64,
+        _ => return None,
+    })
 }
 
-impl Kind {
-    fn of(name: &str) -> Option<Self> {
-        Some(match name {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            // These are not in the format; Open3D and others write them.
-            "long" | "int64" => Self::I64,
-            "ulong" | "uint64" => Self::U64,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::I64 | Self::U64 | Self::F64 => 8,
-        }
-    }
-
-    /// By which a channel of a colour is divided.
-    fn full(self) -> f64 {
-        match self {
-            Self::I8 | Self::U8 => 255.0,
-            Self::I16 | Self::U16 => 65535.0,
-            Self::I32 | Self::U32 => f64::from(u32::MAX),
-            Self::I64 | Self::U64 => u64::MAX as f64,
-            Self::F32 | Self::F64 => 1.0,
-        }
-    }
-
-    /// The number at the beginning of these bytes, of which there are [`Self::size`] or more.
-    #[inline]
-    fn number(self, bytes: &[u8], is_big: bool) -> f64 {
-        fn word<const N: usize>(bytes: &[u8], is_big: bool) -> [u8; N] {
-            let mut word = *bytes.first_chunk().unwrap_or(&[0; N]);
-            if is_big {
-                word.reverse();
-            }
-            word
-        }
-        match self {
-            Self::I8 => f64::from(i8::from_le_bytes(word(bytes, is_big))),
-            Self::U8 => f64::from(u8::from_le_bytes(word(bytes, is_big))),
-            Self::I16 => f64::from(i16::from_le_bytes(word(bytes, is_big))),
-            Self::U16 => f64::from(u16::from_le_bytes(word(bytes, is_big))),
-            Self::I32 => f64::from(i32::from_le_bytes(word(bytes, is_big))),
-            Self::U32 => f64::from(u32::from_le_bytes(word(bytes, is_big))),
-            Self::I64 => i64::from_le_bytes(word(bytes, is_big)) as f64,
-            Self::U64 => u64::from_le_bytes(word(bytes, is_big)) as f64,
-            Self::F32 => f64::from(f32::from_le_bytes(word(bytes, is_big))),
-            Self::F64 => f64::from_le_bytes(word(bytes, is_big)),
-        }
+/// By which a channel of a colour of this type is divided.
+fn full(kind: Kind) -> f64 {
+    match kind {
+        Kind::I8 | Kind::U8 => 255.0,
+        Kind::I16 | Kind::U16 => 65535.0,
+        Kind::I32 | Kind::U32 => f64::from(u32::MAX),
+        Kind::I64 | Kind::U64 => u64::MAX as f64,
+        Kind::F32 | Kind::F64 => 1.0,
     }
 }
 
@@ -140,31 +87,34 @@ struct Header {
     unknown: Vec<(usize, String)>,
 }
 
-/// The numbers of a file, one after the other.
-struct Body {
-    file: Ahead,
+/// The elements of a file, number after number.
+struct Body<'a> {
+    file: Records<'a>,
     form: Form,
-    /// Whether lines of the header end with a carriage return alone: a line feed after one belongs to the data.
-    is_old: bool,
-    /// The line of text, from 1, and where what is left of it is.
-    line: usize,
+    /// Where what is left of the line of text is.
     words: Range<usize>,
+    /// The number of the element that is read, from 0.
+    element: u64,
     /// Lines of text with more numbers than the header says.
     long: u64,
     /// The first line with a decimal comma.
     comma: Option<usize>,
 }
 
-impl Body {
-    /// Where the next line is, without its line break. Moves past it.
-    fn next_line(&mut self) -> Option<Range<usize>> {
-        let start = self.file.at;
-        let rest = Some(self.file.left()).filter(|rest| !rest.is_empty())?;
-        let end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
-        let is_two = !self.is_old && rest[end..].starts_with(b"\r\n");
-        self.file.at += (end + 1 + usize::from(is_two)).min(rest.len());
-        self.line += 1;
-        Some(start..start + end)
+impl Body<'_> {
+    fn bad(&self, cause: &str) -> BadFile {
+        self.file.bad(&format!("{cause}: export the model again"))
+    }
+
+    /// Where the next line is. Behind the last line break there is none.
+    fn next_line(&mut self) -> Result<Option<Range<usize>>, BadFile> {
+        let line = self.file.find_line()?;
+        let is_behind = self.file.at > self.file.bytes.len();
+        if is_behind && line.as_ref().is_some_and(Range::is_empty) {
+            self.file.line -= 1;
+            return Ok(None);
+        }
+        Ok(line)
     }
 
     /// Goes to the next element: a line in text.
@@ -174,7 +124,8 @@ impl Body {
         }
         self.end_element();
         loop {
-            self.words = self.next_line().ok_or("the file is cut off")?;
+            let line = self.next_line().map_err(|error| error.cause)?;
+            self.words = line.ok_or("the file is cut off")?;
             if !self.file.bytes[self.words.clone()].trim_ascii().is_empty() {
                 return Ok(());
             }
@@ -207,38 +158,51 @@ impl Body {
             return Ok(f64::from(number));
         }
         if word.contains(&b',') {
-            self.comma.get_or_insert(self.line);
+            self.comma.get_or_insert(self.file.line);
         }
-        number(word).ok_or_else(|| {
-            let word = printable_short(&String::from_utf8_lossy(word), 40);
-            format!("'{word}' is not a number")
-        })
+        expected_number(word)
     }
 
     /// The length of a list, which cannot be longer than what is left of the file.
     fn length(&mut self, kind: Kind) -> Result<usize, String> {
         let length = self.number(kind)?;
-        let left = self.file.left().len() + self.words.len();
-        if length < 0.0 || length > left as f64 || length.fract() != 0.0 {
-            return Err(format!("a list of {length} numbers, and {left} bytes are left"));
+        let is_whole = length >= 0.0 && length.fract() == 0.0;
+        // Most lists end in what was read already, and then nobody has to ask for the length of the file.
+        if !is_whole || length > self.file.left().len() as f64 {
+            let left = self.file.left_bytes() + self.words.len() as u64;
+            if !is_whole || length > left as f64 {
+                return Err(format!("a list of {length} numbers, and {left} bytes are left"));
+            }
         }
         Ok(length as usize)
     }
+
+    /// Moves past properties whose values nobody reads.
+    fn skip(&mut self, properties: &[Property]) -> Result<(), String> {
+        for property in properties {
+            let count = property.length.map_or(Ok(1), |kind| self.length(kind))?;
+            for _ in 0..count {
+                self.number(property.kind)?;
+            }
+        }
+        Ok(())
+    }
 }
 
-/// Reads the lines up to `end_header`. On an error the body says in which line.
-fn header(body: &mut Body) -> Result<Header, String> {
+/// Reads the lines up to `end_header`.
+fn header(body: &mut Body<'_>) -> Result<Header, BadFile> {
     let (elements, textures, unknown) = (Vec::new(), Vec::new(), Vec::new());
     let mut header = Header { form: Form::Text, elements, textures, unknown };
     let mut is_known = false;
     loop {
-        let line = body.next_line().ok_or("the file ends inside its header")?;
+        let line = body.next_line()?;
+        let line = line.ok_or_else(|| body.bad("the file ends inside its header"))?;
         let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
         // Some programs write capitals.
         let lower = line.to_ascii_lowercase();
         let words: Vec<&str> = lower.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
-        let wrong = || format!("'{shown}' is no line of a header");
+        let wrong = || body.bad(&format!("'{shown}' is no line of a header"));
         let as_written = |at| line.split_whitespace().nth(at).unwrap_or_default().to_owned();
         match words[..] {
             [] | ["ply" | "obj_info", ..] => {}
@@ -263,20 +227,20 @@ fn header(body: &mut Body) -> Result<Header, String> {
             }
             ["property", "list", length, kind, _] => {
                 let element = header.elements.last_mut().ok_or_else(wrong)?;
-                let (length, kind) = Kind::of(length).zip(Kind::of(kind)).ok_or_else(wrong)?;
+                let (length, kind) = kind_of(length).zip(kind_of(kind)).ok_or_else(wrong)?;
                 let (name, length) = (as_written(4), Some(length));
                 element.properties.push(Property { name, kind, length });
             }
             ["property", kind, _] => {
                 let element = header.elements.last_mut().ok_or_else(wrong)?;
-                let (kind, name) = (Kind::of(kind).ok_or_else(wrong)?, as_written(2));
+                let (kind, name) = (kind_of(kind).ok_or_else(wrong)?, as_written(2));
                 element.properties.push(Property { name, kind, length: None });
             }
             ["end_header"] if is_known => return Ok(header),
-            ["end_header"] => return Err("the header names no format".to_owned()),
+            ["end_header"] => return Err(body.bad("the header names no format")),
             ["element" | "property", ..] => return Err(wrong()),
             // Some programs leave out the word `comment`.
-            _ => header.unknown.push((body.line, shown)),
+            _ => header.unknown.push((body.file.line, shown)),
         }
     }
 }
@@ -303,71 +267,51 @@ const FIRST_COLOUR: usize = 8;
 /// The number of the opacity in [`VERTEX`].
 const ALPHA: usize = 11;
 
-/// Why an element cannot be read, and its number from 0.
-type Wrong = (u64, String);
-
 /// Reads the text or the bytes of a PLY.
-pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
-    let unread = |error: FileError| bad(path, None, error.cause);
-    // With both bytes of a line break.
-    let is_whole = |at: usize| at + b"\nend_header\r\n".len() <= file.bytes.len();
-    let ends = |end| memchr::memmem::find(&file.bytes, end).is_some_and(is_whole);
-    if !ends(b"\nend_header") && !ends(b"\rend_header") {
-        file.read_all().map_err(unread)?;
-    }
-    file.at = file.bytes.len() - without_mark(&file.bytes).len();
+pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
     let line_break = file.left().iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     let line_break = &file.left()[line_break.unwrap_or(0)..];
-    let is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
-    let mut body =
-        Body { file, form: Form::Text, is_old, line: 0, words: 0..0, long: 0, comma: None };
-    let failed = |body: &Body, cause: &str| {
-        let (line, cause) = match body.form {
-            Form::Text => (Some(body.line), cause.to_owned()),
-            _ => (None, format!("byte {}: {cause}", body.file.byte())),
-        };
-        bad(path, line, format!("{cause}: export the model again"))
-    };
-    let header = header(&mut body).map_err(|cause| failed(&body, &cause))?;
+    file.is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
+    let (form, words) = (Form::Text, 0..0);
+    let mut body = Body { file, form, words, element: 0, long: 0, comma: None };
+    let header = header(&mut body)?;
     body.form = header.form;
-    match body.form {
-        Form::Text => body.file.read_all().map_err(unread)?,
-        Form::Little | Form::Big => body.line = 0,
+    if body.form != Form::Text {
+        body.file.line = 0;
+        // A header may end the file.
+        body.file.at = body.file.at.min(body.file.bytes.len());
     }
     let mut contents = Contents::default();
-    let mut part = FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() };
+    let mut part = FilePart::default();
     for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
+        body.element = 0;
         let result = match element.name.to_ascii_lowercase().as_str() {
             "vertex" => vertices(&mut body, element, &mut part, &mut contents),
             "face" => faces(&mut body, element, &mut part, &mut contents),
             "tristrips" => strips(&mut body, element, &mut part),
-            lower => {
-                let other = || format!("element {}", printable_short(&element.name, 40));
-                let key = if lower == "edge" { lower } else { &other() };
-                add(&mut contents, key, element.count);
-                (0..element.count).try_for_each(|number| {
-                    body.next_element().map_err(|cause| (number, cause))?;
-                    skip(&mut body, &element.properties).map_err(|cause| (number, cause))
-                })
+            "edge" => others(&mut body, element, "edge", &mut contents),
+            _ => {
+                let key = format!("element {}", printable_short(&element.name, 40));
+                others(&mut body, element, &key, &mut contents)
             }
         };
-        result.map_err(|(number, cause)| {
+        result.map_err(|cause| {
             let name = printable_short(&element.name, 40);
-            failed(&body, &format!("{name} {} of {}: {cause}", number + 1, element.count))
+            body.bad(&format!("{name} {} of {}: {cause}", body.element + 1, element.count))
         })?;
     }
-    let mut warnings = Warnings::default();
+    let warnings = &mut contents.warnings;
     for (line, shown) in &header.unknown {
         let text = format!("'{shown}' is no line of a header; it is left out");
         warnings.add(path, Some(*line), "lines of the header", &text);
     }
-    body.file.read_all().map_err(unread)?;
+    body.end_element();
+    body.file.read_all()?;
     let left = body.file.left().trim_ascii().len();
     if left > 0 {
         let text = format!("{left} bytes follow the last element; they are left out");
         warnings.add(path, None, "bytes", &text);
     }
-    body.end_element();
     if body.long > 0 {
         let what = "lines have more numbers than the header says; the rest of them is left out";
         warnings.add(path, None, "lines", &format!("{} {what}", body.long));
@@ -377,175 +321,140 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
         warnings.add(path, Some(line), "commas", text);
     }
     check(path, &part)?;
-    if part.normals.len() == part.positions.len() {
-        part.normal_numbers = Numbers::OfPositions;
+    if part.normals.values.len() == part.positions.len() {
+        part.normals.numbers = Numbers::OfPositions;
     }
-    if part.uv_numbers == Numbers::Nothing && part.uvs.len() == part.positions.len() {
-        part.uv_numbers = Numbers::OfPositions;
+    if part.uvs.numbers == Numbers::Nothing && part.uvs.values.len() == part.positions.len() {
+        part.uvs.numbers = Numbers::OfPositions;
     }
     if !part.face_colours.is_empty() {
         part.face_colours.resize(part.polygons.len(), DVec3::ONE);
     }
     if part.polygons.len() == 0 {
-        add(&mut contents, "point", part.positions.len() as u64);
+        contents.count("point", part.positions.len() as u64);
     }
-    surface(path, &header, &mut part, &mut contents, &mut warnings);
-    contents.warnings = warnings.finish();
+    surface(path, &header, &mut part, &mut contents);
     contents.parts.push(part);
     Ok(contents)
 }
 
-fn add(contents: &mut Contents, key: &str, count: u64) {
-    if count > 0 {
-        *contents.not_drawn.entry(key.to_owned()).or_default() += count;
-    }
-}
-
-/// Moves past properties whose values nobody reads.
-fn skip(body: &mut Body, properties: &[Property]) -> Result<(), String> {
-    for property in properties {
-        let count = property.length.map_or(Ok(1), |kind| body.length(kind))?;
-        for _ in 0..count {
-            body.number(property.kind)?;
-        }
+/// Counts elements that are not drawn, and moves past them.
+fn others(
+    body: &mut Body<'_>,
+    element: &Element,
+    key: &str,
+    contents: &mut Contents,
+) -> Result<(), String> {
+    contents.count(key, element.count);
+    while body.element < element.count {
+        body.next_element()?;
+        body.skip(&element.properties)?;
+        body.element += 1;
     }
     Ok(())
 }
 
+/// The values of one vertex, in the order of [`VERTEX`].
+type Vertex = [f64; VERTEX.len()];
+
+/// What a vertex has that gives no values.
+const NO_VALUES: Vertex = {
+    let mut values = [0.0; VERTEX.len()];
+    values[ALPHA] = 1.0;
+    values
+};
+
 fn vertices(
-    body: &mut Body,
+    body: &mut Body<'_>,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
-) -> Result<(), Wrong> {
+) -> Result<(), String> {
     let place = |property: &Property| {
         let is = |name: &&str| property.name.eq_ignore_ascii_case(name);
         let is_named = |names: &&[&str]| names.iter().any(is);
         VERTEX.iter().position(|names| property.length.is_none() && is_named(names))
     };
     let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
-    let has = |range: std::ops::Range<usize>| range.clone().all(|at| places.contains(&Some(at)));
+    let has = |range: Range<usize>| range.clone().all(|at| places.contains(&Some(at)));
     if !has(0..3) {
-        return Err((0, "the header gives vertices no x, y and z".to_owned()));
+        return Err("the header gives vertices no x, y and z".to_owned());
     }
-    let (has_normals, has_uvs, has_colours) = (has(3..6), has(6..8), has(8..11));
+    let (has_normals, has_uvs, has_colours) = (has(3..6), has(6..8), has(FIRST_COLOUR..ALPHA));
     for (property, place) in element.properties.iter().zip(&places) {
         if place.is_none() {
             let name = printable_short(&property.name, 40);
-            add(contents, &format!("value '{name}' of position"), element.count);
+            contents.count(&format!("value '{name}' of position"), element.count);
         }
     }
     // As many as the file can hold, whatever the header says.
-    let most = element.count.min(body.file.left_bytes()) as usize;
-    part.positions.reserve(most);
-    let scaled = |place: usize, kind: Kind, value: f64| {
-        if place < FIRST_COLOUR { value } else { value / kind.full() }
-    };
-    let columns = columns(body, element, &places, part);
-    let (whole, mut transparent) = columns.map_err(|error| (0, error.cause))?;
-    let mut push = |values: [f64; VERTEX.len()]| {
-        let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = values;
+    part.positions.reserve(element.count.min(body.file.left_bytes()) as usize);
+    let mut transparent = 0;
+    let mut push = |[x, y, z, nx, ny, nz, u, v, r, g, b, a]: Vertex| {
         part.positions.push(DVec3::new(x, y, z));
         if has_normals {
-            part.normals.push(DVec3::new(nx, ny, nz));
+            part.normals.values.push(DVec3::new(nx, ny, nz));
         }
         if has_uvs {
-            part.uvs.push(DVec2::new(u, v));
+            part.uvs.values.push(DVec2::new(u, v));
         }
         if has_colours {
             part.colours.push(clamped(DVec3::new(r, g, b)));
             transparent += u64::from(a < 1.0);
         }
     };
-    let mut missing = [0.0; VERTEX.len()];
-    missing[ALPHA] = 1.0;
-    for number in whole..element.count {
-        body.next_element().map_err(|cause| (number, cause))?;
-        let mut values = missing;
+    let scaled = |place: usize, kind: Kind, value: f64| {
+        if place < FIRST_COLOUR { value } else { value / full(kind) }
+    };
+    // Whole records of bytes are read by all threads. What is cut off, and what has lists, is read number by number.
+    if body.form != Form::Text && element.properties.iter().all(|one| one.length.is_none()) {
+        // The place and the type of each value that is read, and how many bytes of the record are before it.
+        let (mut columns, mut size) = (Vec::new(), 0);
         for (property, place) in element.properties.iter().zip(&places) {
-            let result = match place {
-                None => skip(body, std::slice::from_ref(property)),
-                Some(place) => body.number(property.kind).map(|value| {
-                    values[*place] = scaled(*place, property.kind, value);
-                }),
-            };
-            result.map_err(|cause| (number, cause))?;
+            columns.extend(place.map(|place| (place, property.kind, size)));
+            size += property.kind.size();
+        }
+        let is_big = body.form == Form::Big;
+        let vertex = |record: &[u8]| {
+            let mut values = NO_VALUES;
+            for &(place, kind, at) in &columns {
+                values[place] = scaled(place, kind, kind.number(&record[at..], is_big));
+            }
+            values
+        };
+        let mut read: Vec<Vertex> = Vec::new();
+        let whole = body.file.records(size, element.count, |bytes| {
+            // As many at once as stay in the caches.
+            for bytes in bytes.chunks(size * SHARE * rayon::current_num_threads()) {
+                let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
+                records.map(vertex).collect_into_vec(&mut read);
+                read.iter().copied().for_each(&mut push);
+            }
+            bytes.len() / size
+        });
+        body.element = whole.map_err(|error| error.cause)?;
+    }
+    while body.element < element.count {
+        body.next_element()?;
+        let mut values = NO_VALUES;
+        for (property, place) in element.properties.iter().zip(&places) {
+            match place {
+                None => body.skip(std::slice::from_ref(property))?,
+                Some(place) => {
+                    values[*place] = scaled(*place, property.kind, body.number(property.kind)?);
+                }
+            }
         }
         push(values);
+        body.element += 1;
     }
-    add(contents, "transparent position", transparent);
+    contents.count("transparent position", transparent);
     Ok(())
 }
 
 /// A colour between black and white. One that is no number stays so.
 fn clamped(colour: DVec3) -> DVec3 {
     if colour.is_nan() { colour } else { colour.clamp(DVec3::ZERO, DVec3::ONE) }
-}
-
-/// Reads the vertices of a binary file that have no lists, by all threads, and returns how many they are and how many of
-/// them are transparent. If the file is cut off, those that are missing are left to the caller.
-fn columns(
-    body: &mut Body,
-    element: &Element,
-    places: &[Option<usize>],
-    part: &mut FilePart,
-) -> Result<(u64, u64), FileError> {
-    let has_list = element.properties.iter().any(|property| property.length.is_some());
-    if body.form == Form::Text || has_list {
-        return Ok((0, 0));
-    }
-    // The type of each value of a vertex, and how many bytes are before it in the record.
-    let mut columns = [None; VERTEX.len()];
-    let mut size = 0;
-    for (property, place) in element.properties.iter().zip(places) {
-        if let Some(place) = place {
-            columns[*place] = Some((property.kind, size));
-        }
-        size += property.kind.size();
-    }
-    let is_big = body.form == Form::Big;
-    let number = |record: &[u8], column: Option<(Kind, usize)>| match column {
-        Some((kind, at)) => kind.number(&record[at..], is_big),
-        None => 0.0,
-    };
-    let has = |places: std::ops::Range<usize>| columns[places].iter().all(Option::is_some);
-    let [u, v, alpha] = [columns[6], columns[7], columns[ALPHA]];
-    let uv = |record: &[u8]| DVec2::new(number(record, u), number(record, v));
-    let is_transparent =
-        |record: &&[u8]| alpha.is_some_and(|(kind, _)| number(record, alpha) < kind.full());
-    let mut transparent = 0;
-    let whole = body.file.records(size, element.count, |bytes| {
-        let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
-        let take = |vectors: &mut Vec<DVec3>, place: usize| {
-            let [x, y, z] = [columns[place], columns[place + 1], columns[place + 2]];
-            let full = [x, y, z].map(|column| column.map_or(1.0, |(kind, _)| kind.full()));
-            let full = (place == FIRST_COLOUR).then_some(DVec3::from_array(full));
-            vectors.par_extend(records.clone().map(move |record| {
-                let vector = DVec3::new(number(record, x), number(record, y), number(record, z));
-                match full {
-                    Some(full) => clamped(vector / full),
-                    None => vector,
-                }
-            }));
-        };
-        take(&mut part.positions, 0);
-        if has(3..6) {
-            take(&mut part.normals, 3);
-        }
-        if has(6..8) {
-            part.uvs.par_extend(records.clone().map(uv));
-        }
-        if has(FIRST_COLOUR..ALPHA) {
-            take(&mut part.colours, FIRST_COLOUR);
-            let shares: Vec<&[u8]> = bytes.chunks(size * SHARE).collect();
-            let of_shares = parallel::map(shares.len(), |share| {
-                shares[share].chunks_exact(size).filter(is_transparent).count()
-            });
-            transparent += of_shares.into_iter().sum::<usize>() as u64;
-        }
-        bytes.len() / size
-    })?;
-    Ok((whole, transparent))
 }
 
 /// The red, green and blue of an element that has all three.
@@ -565,124 +474,116 @@ fn is_corners(property: &Property) -> bool {
 }
 
 fn faces(
-    body: &mut Body,
+    body: &mut Body<'_>,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
-) -> Result<(), Wrong> {
+) -> Result<(), String> {
     if !element.properties.iter().any(is_corners) {
-        return Err((0, "the header gives faces no list 'vertex_indices'".to_owned()));
+        return Err("the header gives faces no list 'vertex_indices'".to_owned());
     }
     // Texture coordinates of the corners, as MeshLab writes them.
     let is_uvs = |property: &Property| {
         property.length.is_some() && property.name.eq_ignore_ascii_case("texcoord")
     };
-    let has_uvs = element.properties.iter().any(is_uvs);
     // The colours of vertices are finer.
     let channels = if part.colours.is_empty() { channels(element) } else { None };
+    let channel = |property: &Property| {
+        channels.and_then(|all| all.iter().position(|one| one.name == property.name))
+    };
     for property in &element.properties {
-        let is_channel =
-            || channels.is_some_and(|all| all.iter().any(|one| one.name == property.name));
-        if !is_corners(property) && !is_uvs(property) && !is_channel() {
+        if !is_corners(property) && !is_uvs(property) && channel(property).is_none() {
             let key = format!("value '{}' of face", printable_short(&property.name, 40));
-            add(contents, &key, element.count);
+            contents.count(&key, element.count);
         }
     }
-    if has_uvs {
-        part.uvs.clear();
-        part.uv_numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
+    if element.properties.iter().any(is_uvs) {
+        part.uvs.values.clear();
+        part.uvs.numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
     }
-    let most = element.count.min(body.file.left_bytes()) as usize;
     if body.form == Form::Text {
+        let most = element.count.min(body.file.left_bytes()) as usize;
         part.corners.reserve(3 * most);
         part.polygons.lines.reserve(most);
     }
     let (mut small, mut uvs) = (0, Vec::new());
-    let mut number = 0;
-    while number < element.count {
-        let many = triangles(body, element, element.count - number, part);
-        number += many.map_err(|error| (number, error.cause))?;
-        if number == element.count {
+    loop {
+        body.element += triangles(body, element, element.count - body.element, part)?;
+        if body.element == element.count {
             break;
         }
-        let wrong = |cause| (number, cause);
-        body.next_element().map_err(wrong)?;
+        body.next_element()?;
         let start = part.corners.len();
         uvs.clear();
         let mut colour = DVec3::ONE;
         for property in &element.properties {
-            let is_named = |channel: &&Property| channel.name == property.name;
-            if let Some(channel) = channels.and_then(|all| all.iter().position(is_named)) {
-                colour[channel] = body.number(property.kind).map_err(wrong)? / property.kind.full();
+            if let Some(channel) = channel(property) {
+                colour[channel] = body.number(property.kind)? / full(property.kind);
                 continue;
             }
             let (Some(length), true) = (property.length, is_corners(property) || is_uvs(property))
             else {
-                skip(body, std::slice::from_ref(property)).map_err(wrong)?;
+                body.skip(std::slice::from_ref(property))?;
                 continue;
             };
-            for _ in 0..body.length(length).map_err(wrong)? {
-                let value = body.number(property.kind).map_err(wrong)?;
+            for _ in 0..body.length(length)? {
+                let value = body.number(property.kind)?;
                 if is_corners(property) {
-                    part.corners.push(corner(part.positions.len(), value).map_err(wrong)?);
+                    part.corners.push(corner(part.positions.len(), value)?);
                 } else {
                     uvs.push(value);
                 }
             }
         }
-        number += 1;
-        let count = part.corners.len() - start;
-        if count < 3 {
-            part.corners.truncate(start);
+        body.element += 1;
+        if !part.end_polygon(start, body.file.line, 0) {
             small += 1;
             continue;
         }
-        if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+        if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
+            let count = part.corners.len() - start;
             let (pairs, _) = uvs.as_chunks::<2>();
-            let first = part.uvs.len() as u32;
+            let first = part.uvs.values.len() as u32;
             let is_whole = pairs.len() == count;
             numbers.extend((first..).take(count).map(|at| if is_whole { at } else { NONE }));
             if is_whole {
-                part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
+                part.uvs.values.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
             }
         }
         if channels.is_some() {
             // Triangles of strips before them have none.
-            part.face_colours.resize(part.polygons.len(), DVec3::ONE);
+            part.face_colours.resize(part.polygons.len() - 1, DVec3::ONE);
             part.face_colours.push(clamped(colour));
         }
-        part.polygons.push(count, body.line as u32, 0);
     }
-    add(contents, INCOMPLETE_FACE, small);
+    contents.count(INCOMPLETE_FACE, small);
     Ok(())
 }
 
 /// Reads the next faces of a binary file as long as they are triangles in the form that is usual, and returns how many they are.
 /// Everything else is left to the caller.
 fn triangles(
-    body: &mut Body,
+    body: &mut Body<'_>,
     element: &Element,
     most: u64,
     part: &mut FilePart,
-) -> Result<u64, FileError> {
+) -> Result<u64, String> {
     const RECORD: usize = 13;
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
     else {
         return Ok(0);
     };
-    if body.form == Form::Text {
+    if body.form == Form::Text || most == 0 {
         return Ok(0);
     }
     let is_big = body.form == Form::Big;
     let corners = |record: &[u8; RECORD]| {
-        let [_, words @ ..] = record;
-        let number = |word: &[u8; 4]| {
-            let number = u32::from_le_bytes(*word);
+        let number = |at: usize| {
+            let number = u32::from_le_bytes([0, 1, 2, 3].map(|byte| record[at + byte]));
             if is_big { number.swap_bytes() } else { number }
         };
-        let [a, b, c] = words.as_chunks().0 else { unreachable!("three numbers of four bytes") };
-        [number(a), number(b), number(c)]
+        [1, 5, 9].map(number)
     };
     // Negative indices are larger than those that are allowed.
     let is_other = |record: &[u8; RECORD]| {
@@ -704,13 +605,14 @@ fn triangles(
             read.par_extend(records.par_iter().with_min_len(SHARE).map(corners));
         }
         records.len()
-    })?;
+    });
+    let count = count.map_err(|error| error.cause)?;
     if part.corners.is_empty() {
         part.corners = read.into_flattened();
     } else {
         part.corners.extend_from_slice(read.as_flattened());
     }
-    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+    if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
         numbers.resize(part.corners.len(), NONE);
     }
     part.polygons.push_triangles(count as usize);
@@ -726,18 +628,17 @@ fn corner(count: usize, value: f64) -> Result<u32, String> {
 }
 
 /// Strips of triangles, each ended by -1.
-fn strips(body: &mut Body, element: &Element, part: &mut FilePart) -> Result<(), Wrong> {
-    for number in 0..element.count {
-        let wrong = |cause| (number, cause);
-        body.next_element().map_err(wrong)?;
+fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result<(), String> {
+    while body.element < element.count {
+        body.next_element()?;
         for property in &element.properties {
             let (Some(length), true) = (property.length, is_corners(property)) else {
-                skip(body, std::slice::from_ref(property)).map_err(wrong)?;
+                body.skip(std::slice::from_ref(property))?;
                 continue;
             };
             let (mut before, mut count) = ([0.0; 2], 0);
-            for _ in 0..body.length(length).map_err(wrong)? {
-                let value = body.number(property.kind).map_err(wrong)?;
+            for _ in 0..body.length(length)? {
+                let value = body.number(property.kind)?;
                 if value < 0.0 {
                     count = 0;
                     continue;
@@ -745,19 +646,17 @@ fn strips(body: &mut Body, element: &Element, part: &mut FilePart) -> Result<(),
                 let [a, b] = before;
                 // Triangles of two equal corners lead from one part of a strip to the next.
                 if count >= 2 && a != b && b != value && a != value {
-                    let turned = if count % 2 == 0 { [a, b, value] } else { [b, a, value] };
-                    for value in turned {
-                        part.corners.push(corner(part.positions.len(), value).map_err(wrong)?);
+                    let start = part.corners.len();
+                    for value in if count % 2 == 0 { [a, b, value] } else { [b, a, value] } {
+                        part.push(corner(part.positions.len(), value)?, NONE, NONE);
                     }
-                    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
-                        numbers.extend([NONE; 3]);
-                    }
-                    part.polygons.push(3, body.line as u32, 0);
+                    part.end_polygon(start, body.file.line, 0);
                 }
                 before = [b, value];
                 count += 1;
             }
         }
+        body.element += 1;
     }
     Ok(())
 }
@@ -775,17 +674,11 @@ fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
 }
 
 /// The texture that a comment names.
-fn surface(
-    path: &Path,
-    header: &Header,
-    part: &mut FilePart,
-    contents: &mut Contents,
-    warnings: &mut Warnings,
-) {
+fn surface(path: &Path, header: &Header, part: &mut FilePart, contents: &mut Contents) {
     let Some((name, others)) = header.textures.split_first() else { return };
-    add(contents, "other texture", others.len() as u64);
-    if part.uvs.is_empty() {
-        add(contents, "texture without coordinates", 1);
+    contents.count("other texture", others.len() as u64);
+    if part.uvs.values.is_empty() {
+        contents.count("texture without coordinates", 1);
         return;
     }
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -793,20 +686,16 @@ fn surface(
         Ok(decoded) => {
             part.material = Some(contents.materials.len());
             contents.materials.push(Surface {
-                name: String::new(),
                 colour: DVec3::ONE,
                 opacity: opacity(1.0, decoded.opacity()),
                 texture: Some(decoded.texture.into()),
-                specular: Specular::default(),
-                physical: None,
-                unlit: false,
-                sides: Sides::Alike,
+                ..Surface::default()
             });
         }
         Err(error) => {
             let error = outside::of_picture(folder, error);
             let text = format!("{error}; the model is drawn without it");
-            warnings.add_as_it_is(path, "textures", &text);
+            contents.warnings.add_as_it_is(path, "textures", &text);
         }
     }
 }

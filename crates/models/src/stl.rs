@@ -8,19 +8,17 @@ use std::iter::Peekable;
 use std::path::Path;
 
 use foldhash::fast::RandomState;
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel::{self, SHARE};
-use rasterproof_host::error::FileError;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::ahead::Ahead;
 use crate::contents::{Contents, Coordinate, FilePart, Polygons};
-use crate::text::{Text, without_mark};
-use crate::{BadFile, Warnings, bad};
+use crate::records::{self, Records, is_wide, without_mark};
+use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -49,8 +47,7 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// the ending of its name.
 pub(crate) fn begins_binary(path: &Path, bytes: &[u8]) -> bool {
     let begin = &bytes[..bytes.len().min(HEADER + RECORD)];
-    let is_wide = begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff");
-    if is_wide || !begin.contains(&0) {
+    if is_wide(begin) || !begin.contains(&0) {
         return false;
     }
     let is_usual = |word: &[u8; 4]| {
@@ -168,7 +165,8 @@ fn renumber(old: &[u32], new: &[u32], to: &mut Vec<u32>) {
 }
 
 /// Reads triangles in records, and counts those that have an attribute, which is not drawn.
-pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
+pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
+    file.at = 0;
     let length = file.left_bytes();
     let truncated = |cause: String| {
         bad(path, None, format!("is truncated: {cause}: copy it or export the model again"))
@@ -179,7 +177,8 @@ pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> 
     };
     file.at = HEADER;
     let there = file.left_bytes() / RECORD as u64;
-    let mut warnings = Warnings::default();
+    let mut contents = Contents::default();
+    let warnings = &mut contents.warnings;
     // Programs that write before they know the number leave one of these.
     let count = match announced {
         0 | UNKNOWN if there > 0 => {
@@ -210,20 +209,15 @@ pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> 
         all.extend(shares(records, rayon::current_num_threads()));
         records.len()
     });
-    if read.map_err(|error| bad(path, None, error.cause))? < count {
+    if read? < count {
         let cause = "the file is cut off: it became shorter while it was read";
         return Err(bad(path, None, cause));
     }
     drop(file);
-    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
-    if with_attribute > 0 {
-        contents.not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
-    }
+    contents.count("attribute of triangle", with_attribute);
     let (positions, corners) = merged(&all);
     let polygons = Polygons::triangles(count as usize);
-    let to_file = DMat4::IDENTITY;
-    contents.parts =
-        vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
+    contents.parts.push(FilePart { positions, corners, polygons, ..FilePart::default() });
     Ok(contents)
 }
 
@@ -247,27 +241,26 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
     parallel::map(shares.len(), |share| read(shares[share]))
 }
 
-/// Triangles in text that are merged by one thread.
-const TEXT_SHARE: usize = 1 << 17;
-
 /// Reads triangles in text, of which each `solid` becomes a part.
-pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
-    let unread = |error: FileError| bad(path, None, error.cause);
-    let mut warnings = Warnings::default();
+pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
+    let mut contents = Contents::default();
+    let warnings = &mut contents.warnings;
     let mut parts: Vec<FilePart> = Vec::new();
     // Those of the last part.
-    let mut shares: Vec<Corners<f64>> = Vec::new();
-    let end = |part: Option<&mut FilePart>, shares: &mut Vec<Corners<f64>>| {
+    let mut corners = Corners::with_capacity(0);
+    let end = |part: Option<&mut FilePart>, corners: &mut Corners<f64>| {
         if let Some(part) = part {
-            (part.positions, part.corners) = merged(&std::mem::take(shares));
+            let corners = std::mem::replace(corners, Corners::with_capacity(0));
+            (part.positions, part.corners) = merged(&[corners]);
         }
     };
     let mut points: Vec<[f64; 3]> = Vec::new();
-    let (mut number, mut triangles) = (0, 0u64);
+    let mut triangles = 0u64;
     // The first line of a facet that has not ended, and whether a solid has not.
     let (mut open, mut is_open) = (None, false);
-    while let Some(line) = text.next_line().map_err(unread)? {
-        number += 1;
+    loop {
+        let number = file.line + 1;
+        let Some(line) = file.next_line()? else { break };
         let mut wrong = None;
         let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let mut words = words.peekable();
@@ -284,7 +277,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
             if is("vertex") {
                 let numbers = [(); 3].map_array(|()| words.next().unwrap_or_default());
                 let is_last = words.peek().is_none_or(|word| begins(word));
-                match numbers.map_array(crate::text::number) {
+                match numbers.map_array(records::number) {
                     [Some(_), Some(_), Some(_)] if is_last && points.len() == 3 => {
                         wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
                     }
@@ -299,7 +292,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
                 if let (None, Some(word)) =
                     (&wrong, numbers.iter().find(|word| word.contains(&b',')))
                 {
-                    warnings.add(path, Some(number), "lines", &crate::text::comma(word));
+                    warnings.add(path, Some(number), "lines", &records::comma(word));
                 }
             } else if is("facet") && points.is_empty() {
                 open = Some(number);
@@ -311,28 +304,23 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
                     ));
                 }
                 if parts.is_empty() {
-                    parts.push(FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() });
+                    parts.push(FilePart::default());
                 }
                 if let (None, Some(part)) = (&wrong, parts.last_mut()) {
-                    if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
-                        shares.push(Corners::with_capacity(0));
-                    }
-                    if let Some(share) = shares.last_mut() {
-                        points.drain(..).for_each(|point| share.push(point));
-                    }
+                    points.drain(..).for_each(|point| corners.push(point));
                     part.polygons.push(3, open.unwrap_or(number) as u32, 0);
                     triangles += 1;
                     // Where no `endfacet` is before it.
                     open = is("facet").then_some(number);
                 }
             } else if is("solid") {
-                end(parts.last_mut(), &mut shares);
+                end(parts.last_mut(), &mut corners);
                 let name = name(&mut words, &["facet", "endsolid"]);
                 // A line is six bytes, and a part hundreds.
                 if parts.last().is_some_and(|part| part.polygons.len() == 0) {
                     parts.pop();
                 }
-                parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
+                parts.push(FilePart { name, ..FilePart::default() });
                 is_open = true;
             } else if is("endsolid") {
                 is_open = false;
@@ -347,7 +335,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         }
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
-        if text.next_line().map_err(unread)?.is_some() {
+        if file.next_line()?.is_some() {
             return Err(bad(path, Some(number), cause));
         }
         open = open.or(Some(number));
@@ -364,8 +352,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
             format!("ends without 'endsolid' after {triangles} triangles: it may be truncated");
         warnings.add(path, None, "ends", &text);
     }
-    end(parts.last_mut(), &mut shares);
-    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
+    end(parts.last_mut(), &mut corners);
     for part in parts {
         contents.add(part).map_err(|cause| bad(path, None, cause))?;
     }
@@ -392,7 +379,7 @@ fn name<'a>(words: &mut Peekable<impl Iterator<Item = &'a [u8]> + Clone>, next: 
     {
         name.push(String::from_utf8_lossy(word));
     }
-    crate::text::name(&name.join(" ")).to_owned()
+    records::name(&name.join(" ")).to_owned()
 }
 
 fn shown(line: &[u8]) -> String {

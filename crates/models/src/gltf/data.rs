@@ -11,43 +11,18 @@ use rasterproof_host::text::printable_short;
 
 use super::document::{Accessor, Compressed, Root};
 use super::meshopt;
+use crate::records::Kind;
 use crate::textures::find;
 use crate::{outside, read_bytes};
 
 /// Elements of an accessor without bytes, which are zeros.
 const MOST_ZEROS: usize = 1 << 24;
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum ComponentType {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
-}
-
-impl ComponentType {
-    /// The type that a file names by its number in OpenGL; nothing where glTF has no such type.
-    fn of(number: u64) -> Option<Self> {
-        Some(match number {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
+/// The type that a file names by its number in OpenGL; nothing where glTF has no such type.
+fn kind_of(number: u64) -> Option<Kind> {
+    let kinds = [Kind::I8, Kind::U8, Kind::I16, Kind::U16, Kind::I32, Kind::U32, Kind::F32];
+    let kind = kinds.get(usize::try_from(number.checked_sub(5120)?).ok()?).copied();
+    kind.filter(|kind| *kind != Kind::I32)
 }
 
 /// How many numbers an element of this type has; nothing where glTF has no such type.
@@ -81,7 +56,7 @@ struct Column<'a> {
     count: usize,
     stride: usize,
     width: usize,
-    kind: ComponentType,
+    kind: Kind,
     normalized: bool,
 }
 
@@ -191,7 +166,7 @@ impl<'a> Data<'a> {
     fn column(&self, number: usize) -> Result<Column<'_>, String> {
         let accessor = self.accessor(number)?;
         let failed = |cause: &str| format!("accessors[{number}]: {cause}");
-        let Some(kind) = ComponentType::of(accessor.component_type) else {
+        let Some(kind) = kind_of(accessor.component_type) else {
             return Err(failed("the component type is not one of glTF"));
         };
         let Some(width) = width_of(&accessor.form) else {
@@ -239,8 +214,8 @@ impl<'a> Data<'a> {
         let mut vectors = column.read::<N>();
         let Some(sparse) = &self.accessor(number)?.sparse else { return Ok(vectors) };
         let failed = |cause: &str| format!("accessors[{number}].sparse: {cause}");
-        let kind = ComponentType::of(sparse.indices.component_type);
-        let of_indices = [ComponentType::U8, ComponentType::U16, ComponentType::U32];
+        let kind = kind_of(sparse.indices.component_type);
+        let of_indices = [Kind::U8, Kind::U16, Kind::U32];
         let Some(kind) = kind.filter(|kind| of_indices.contains(kind)) else {
             return Err(failed("the component type of the indices is not one of glTF"));
         };
@@ -275,9 +250,7 @@ impl<'a> Data<'a> {
         mut vectors: Vec<[f64; N]>,
     ) -> Result<Vec<[f64; N]>, String> {
         let accessor = self.accessor(number)?;
-        if let (Some(kind), true) =
-            (ComponentType::of(accessor.component_type), accessor.normalized)
-        {
+        if let (Some(kind), true) = (kind_of(accessor.component_type), accessor.normalized) {
             for value in vectors.as_flattened_mut() {
                 *value = (*value / most(kind)).max(-1.0);
             }
@@ -289,24 +262,21 @@ impl<'a> Data<'a> {
     pub(super) fn indices(&self, number: usize) -> Result<Vec<u32>, String> {
         let accessor = self.accessor(number)?;
         let column = self.column(number)?;
-        if column.kind == ComponentType::F32 || column.width != 1 {
+        if column.kind == Kind::F32 || column.width != 1 {
             return Err(format!("accessors[{number}] holds no indices"));
         }
-        if accessor.sparse.is_some() || column.stride != column.kind.size() {
+        let Some(bytes) = column.bytes.filter(|_| accessor.sparse.is_none()) else {
             let read = self.vectors::<1>(number)?;
             return Ok(read.into_iter().map(|[index]| index as u32).collect());
-        }
-        let Some(bytes) = column.bytes else { return Ok(vec![0; column.count]) };
-        let bytes = &bytes[..column.count * column.stride];
-        Ok(match column.kind {
-            ComponentType::I8 | ComponentType::U8 => bytes.iter().map(|&b| b.into()).collect(),
-            ComponentType::I16 | ComponentType::U16 => {
-                bytes.as_chunks::<2>().0.iter().map(|&b| u16::from_le_bytes(b).into()).collect()
-            }
-            ComponentType::U32 | ComponentType::F32 => {
-                bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b)).collect()
-            }
-        })
+        };
+        // No index is below 0, whatever the file says.
+        let kind = match column.kind {
+            Kind::I8 => Kind::U8,
+            Kind::I16 => Kind::U16,
+            kind => kind,
+        };
+        let index = |at: usize| kind.number(&bytes[at * column.stride..], false) as u32;
+        Ok((0..column.count).map(index).collect())
     }
 }
 
@@ -314,7 +284,7 @@ impl Column<'_> {
     /// The first N numbers of each element.
     fn read<const N: usize>(&self) -> Vec<[f64; N]> {
         let Some(bytes) = self.bytes else { return vec![[0.0; N]; self.count] };
-        if self.kind == ComponentType::F32 && self.stride == 4 * N && self.count > 0 {
+        if self.kind == Kind::F32 && self.stride == 4 * N && self.count > 0 {
             let number = |bytes: [u8; 4]| f64::from(f32::from_le_bytes(bytes));
             let element = |words: &[[u8; 4]; N]| words.map(number);
             let words = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
@@ -331,30 +301,20 @@ impl Column<'_> {
     /// The number at the beginning of these bytes. Normalized ones are in [-1, 1].
     #[inline]
     fn number(&self, bytes: &[u8]) -> f64 {
-        let value = match (self.kind, bytes) {
-            (ComponentType::F32, &[a, b, c, d, ..]) => {
-                return f64::from(f32::from_le_bytes([a, b, c, d]));
-            }
-            (ComponentType::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
-            (ComponentType::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
-            (ComponentType::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
-            (ComponentType::I8, &[a, ..]) => f64::from(a as i8),
-            (ComponentType::U8, &[a, ..]) => f64::from(a),
-            _ => return 0.0,
-        };
+        let value = self.kind.number(bytes, false);
         if self.normalized { (value / most(self.kind)).max(-1.0) } else { value }
     }
 }
 
 /// The largest number of a kind, which stands for 1 where numbers are normalized.
-fn most(kind: ComponentType) -> f64 {
+fn most(kind: Kind) -> f64 {
     match kind {
-        ComponentType::I8 => f64::from(i8::MAX),
-        ComponentType::U8 => f64::from(u8::MAX),
-        ComponentType::I16 => f64::from(i16::MAX),
-        ComponentType::U16 => f64::from(u16::MAX),
-        ComponentType::U32 => f64::from(u32::MAX),
-        ComponentType::F32 => 1.0,
+        Kind::I8 => f64::from(i8::MAX),
+        Kind::U8 => f64::from(u8::MAX),
+        Kind::I16 => f64::from(i16::MAX),
+        Kind::U16 => f64::from(u16::MAX),
+        Kind::U32 => f64::from(u32::MAX),
+        _ => 1.0,
     }
 }
 
@@ -442,7 +402,7 @@ mod tests {
     fn types_of_numbers_are_those_of_opengl() {
         let read = |number| {
             let (bytes, count, stride, width) = (Some(&[0xfe, 0xff, 0x7f, 0x3f][..]), 1, 4, 1);
-            let kind = ComponentType::of(number)?;
+            let kind = kind_of(number)?;
             let column = Column { bytes, count, stride, width, kind, normalized: false };
             Some(column.read::<1>()[0][0])
         };

@@ -3,38 +3,48 @@
 
 use std::collections::HashMap;
 
+use serde::Deserialize;
 use serde::de::IgnoredAny;
-use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-/// The default of a member that is missing or null.
-fn or_default<'de, D: Deserializer<'de>, T: Deserialize<'de> + Default>(
-    from: D,
-) -> Result<T, D::Error> {
-    Ok(Option::deserialize(from)?.unwrap_or_default())
+/// The version of a document, where it says one.
+pub(super) fn version(json: &[u8]) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Head {
+        asset: Asset<Value>,
+    }
+    let Head { asset } = serde_json::from_slice(json).ok()?;
+    Some(asset.version.as_str().map_or_else(|| asset.version.to_string(), str::to_owned))
 }
 
-/// Reads a document. Some programs write whole numbers with a fraction, as `3.0`, which JavaScript does not tell from `3`. Those
-/// are written again and read once more: reading the value itself would compile all that is read a second time.
+#[derive(Deserialize)]
+struct Asset<V> {
+    version: V,
+}
+
+/// Reads a document. Some programs write whole numbers with a fraction, as `3.0`, which JavaScript does not tell from `3`, and
+/// `null` for what is missing. Those are written again and read once more: reading the value itself would compile all that is
+/// read a second time.
 pub(super) fn read(json: &[u8]) -> Result<Root, serde_json::Error> {
     serde_json::from_slice(json).or_else(|error| {
-        let whole = serde_json::from_slice(json).map(whole_numbers);
-        let json = whole.and_then(|document| serde_json::to_vec(&document));
+        let usual = serde_json::from_slice(json).map(usual);
+        let json = usual.and_then(|document| serde_json::to_vec(&document));
         json.and_then(|json| serde_json::from_slice(&json)).map_err(|_| error)
     })
 }
 
-/// The same value with whole numbers where a fraction is 0.
-fn whole_numbers(value: Value) -> Value {
+/// The same value with whole numbers where a fraction is 0, and without members that are null.
+fn usual(value: Value) -> Value {
     match value {
         Value::Number(number) => {
             let whole = number.as_f64().filter(|of| of.fract() == 0.0 && of.abs() < 1e15);
             // Others are whole already.
             whole.filter(|_| number.is_f64()).map_or(number.into(), |of| (of as i64).into())
         }
-        Value::Array(values) => values.into_iter().map(whole_numbers).collect(),
+        Value::Array(values) => values.into_iter().map(usual).collect(),
         Value::Object(members) => {
-            members.into_iter().map(|(name, value)| (name, whole_numbers(value))).collect()
+            let there = members.into_iter().filter(|(_, value)| !value.is_null());
+            there.map(|(name, value)| (name, usual(value))).collect()
         }
         other => other,
     }
@@ -45,58 +55,52 @@ fn whole_numbers(value: Value) -> Value {
 pub(super) struct Root {
     /// Every document has it, and no other JSON.
     #[serde(rename = "asset")]
-    _asset: Asset,
+    _asset: Asset<IgnoredAny>,
     pub scene: Option<usize>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub scenes: Vec<Scene>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub nodes: Vec<Node>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub meshes: Vec<Mesh>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub skins: Vec<Skin>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub materials: Vec<Material>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub textures: Vec<Texture>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub images: Vec<Image>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub samplers: Vec<Sampler>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub accessors: Vec<Accessor>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub buffer_views: Vec<View>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub buffers: Vec<Buffer>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub cameras: Vec<Camera>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub animations: Vec<Value>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions: Value,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions_used: Vec<String>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions_required: Vec<String>,
 }
 
-#[derive(Deserialize)]
-struct Asset {
-    #[serde(rename = "version")]
-    _version: IgnoredAny,
-}
-
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Scene {
-    #[serde(default)]
     pub nodes: Vec<usize>,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Node {
     pub name: Option<String>,
-    #[serde(default, deserialize_with = "or_default")]
     pub children: Vec<usize>,
     pub mesh: Option<usize>,
     pub skin: Option<usize>,
@@ -106,7 +110,6 @@ pub(super) struct Node {
     pub rotation: Option<[f32; 4]>,
     pub scale: Option<[f32; 3]>,
     pub weights: Option<Vec<f32>>,
-    #[serde(default, deserialize_with = "or_default")]
     pub extensions: Extensions,
 }
 
@@ -127,9 +130,9 @@ pub(super) struct Extensions {
     #[serde(rename = "KHR_materials_common")]
     pub common: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_emissive_strength")]
-    pub emissive: Option<EmissiveStrength>,
+    pub emissive: Option<OneNumber>,
     #[serde(rename = "KHR_materials_ior")]
-    pub refraction: Option<Refraction>,
+    pub refraction: Option<OneNumber>,
     #[serde(rename = "KHR_materials_specular")]
     pub specular: Option<Specular>,
 }
@@ -143,8 +146,7 @@ pub(super) struct Light {
     pub color: Option<[f32; 3]>,
     pub intensity: Option<f32>,
     pub range: Option<f32>,
-    #[serde(deserialize_with = "or_default")]
-    pub spot: Spot,
+    pub spot: Option<Spot>,
 }
 
 #[derive(Default, Deserialize)]
@@ -163,24 +165,18 @@ pub(super) struct Instances {
 #[derive(Deserialize)]
 pub(super) struct Camera {
     pub name: Option<String>,
-    pub perspective: Option<Perspective>,
-    pub orthographic: Option<Orthographic>,
+    pub perspective: Option<Lens>,
+    pub orthographic: Option<Lens>,
 }
 
+/// The numbers of either projection.
 #[derive(Default, Deserialize)]
 #[serde(default)]
-pub(super) struct Perspective {
+pub(super) struct Lens {
     pub yfov: f64,
-    pub znear: f64,
-    pub zfar: Option<f64>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Orthographic {
     pub ymag: f64,
     pub znear: f64,
-    pub zfar: f64,
+    pub zfar: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -196,9 +192,9 @@ pub(super) struct Primitive {
     pub material: Option<usize>,
     /// [`TRIANGLES`] where there is none.
     pub mode: Option<u64>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub targets: Vec<Target>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions: Extensions,
 }
 
@@ -226,67 +222,38 @@ pub(super) struct Skin {
 }
 
 #[derive(Default, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", default)]
 pub(super) struct Material {
     pub name: Option<String>,
-    #[serde(default, deserialize_with = "or_default")]
     pub alpha_mode: String,
     pub alpha_cutoff: Option<f32>,
-    #[serde(default, deserialize_with = "or_default")]
     pub double_sided: bool,
-    #[serde(default, deserialize_with = "or_default")]
     pub pbr_metallic_roughness: Metallic,
     pub normal_texture: Option<Info>,
     pub occlusion_texture: Option<Info>,
     pub emissive_texture: Option<Info>,
-    #[serde(default, deserialize_with = "or_default")]
     pub emissive_factor: [f32; 3],
-    #[serde(default, deserialize_with = "or_default")]
     pub extensions: Extensions,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Metallic {
-    pub base_color_factor: [f32; 4],
+    pub base_color_factor: Option<[f32; 4]>,
     pub base_color_texture: Option<Info>,
-    pub metallic_factor: f32,
-    pub roughness_factor: f32,
+    pub metallic_factor: Option<f32>,
+    pub roughness_factor: Option<f32>,
     pub metallic_roughness_texture: Option<Info>,
 }
 
-impl Default for Metallic {
-    fn default() -> Self {
-        Self {
-            base_color_factor: [1.0; 4],
-            base_color_texture: None,
-            metallic_factor: 1.0,
-            roughness_factor: 1.0,
-            metallic_roughness_texture: None,
-        }
-    }
-}
-
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Glossiness {
-    pub diffuse_factor: [f32; 4],
+    pub diffuse_factor: Option<[f32; 4]>,
     pub diffuse_texture: Option<Info>,
-    pub specular_factor: [f32; 3],
-    pub glossiness_factor: f32,
+    pub specular_factor: Option<[f32; 3]>,
+    pub glossiness_factor: Option<f32>,
     pub specular_glossiness_texture: Option<IgnoredAny>,
-}
-
-impl Default for Glossiness {
-    fn default() -> Self {
-        Self {
-            diffuse_factor: [1.0; 4],
-            diffuse_texture: None,
-            specular_factor: [1.0; 3],
-            glossiness_factor: 1.0,
-            specular_glossiness_texture: None,
-        }
-    }
 }
 
 /// Which texture a material reads, and by which texture coordinates.
@@ -300,85 +267,54 @@ pub(super) struct Info {
     pub scale: Option<f32>,
     /// Of an occlusion map, from 0 to 1.
     pub strength: Option<f32>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions: InfoExtensions,
 }
 
-#[derive(Deserialize)]
+/// The one number of an extension of materials.
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub(super) struct EmissiveStrength {
-    pub emissive_strength: f32,
+pub(super) struct OneNumber {
+    pub emissive_strength: Option<f32>,
+    pub ior: Option<f32>,
 }
 
-impl Default for EmissiveStrength {
-    fn default() -> Self {
-        Self { emissive_strength: 1.0 }
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(default)]
-pub(super) struct Refraction {
-    pub ior: f32,
-}
-
-impl Default for Refraction {
-    fn default() -> Self {
-        Self { ior: 1.5 }
-    }
-}
-
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Specular {
-    pub specular_factor: f32,
-    pub specular_color_factor: [f32; 3],
+    pub specular_factor: Option<f32>,
+    pub specular_color_factor: Option<[f32; 3]>,
     pub specular_texture: Option<IgnoredAny>,
     pub specular_color_texture: Option<IgnoredAny>,
 }
 
-impl Default for Specular {
-    fn default() -> Self {
-        Self {
-            specular_factor: 1.0,
-            specular_color_factor: [1.0; 3],
-            specular_texture: None,
-            specular_color_texture: None,
-        }
-    }
-}
-
 #[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct InfoExtensions {
     #[serde(rename = "KHR_texture_transform")]
     pub transform: Option<Transform>,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Transform {
     pub offset: [f32; 2],
     pub rotation: f32,
-    pub scale: [f32; 2],
+    pub scale: Option<[f32; 2]>,
     pub tex_coord: Option<u32>,
 }
 
-impl Default for Transform {
-    fn default() -> Self {
-        Self { offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2], tex_coord: None }
-    }
-}
-
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Texture {
     pub sampler: Option<usize>,
     /// None where an extension names a picture of another kind.
     pub source: Option<usize>,
-    #[serde(default, deserialize_with = "or_default")]
     pub extensions: TextureExtensions,
 }
 
 #[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct TextureExtensions {
     #[serde(rename = "EXT_texture_webp")]
     pub webp: Option<Source>,
@@ -398,7 +334,7 @@ pub(super) struct Image {
 
 /// How a texture is read; filters and wrapping are numbers of OpenGL.
 #[derive(Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", default)]
 pub(super) struct Sampler {
     pub mag_filter: Option<u64>,
     pub min_filter: Option<u64>,
@@ -419,7 +355,7 @@ pub(super) const MIRRORED_REPEAT: u64 = 33_648;
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
     pub buffer_view: Option<usize>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub byte_offset: u64,
     pub component_type: u64,
     #[serde(default)]
@@ -454,14 +390,15 @@ pub(super) struct SparsePart {
 pub(super) struct View {
     pub buffer: usize,
     pub byte_length: u64,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub byte_offset: u64,
     pub byte_stride: Option<usize>,
-    #[serde(default, deserialize_with = "or_default")]
+    #[serde(default)]
     pub extensions: ViewExtensions,
 }
 
 #[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct ViewExtensions {
     #[serde(rename = "EXT_meshopt_compression")]
     pub compressed: Option<Compressed>,
@@ -484,23 +421,4 @@ pub(super) struct Compressed {
 #[derive(Deserialize)]
 pub(super) struct Buffer {
     pub uri: Option<String>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_a_material_leaves_out_is_as_in_the_specification() {
-        let glossiness: Glossiness = serde_json::from_str("{}").unwrap();
-        assert_eq!((glossiness.diffuse_factor, glossiness.glossiness_factor), ([1.0; 4], 1.0));
-        assert_eq!(glossiness.specular_factor, [1.0; 3]);
-        let metallic: Metallic = serde_json::from_str("{}").unwrap();
-        assert_eq!((metallic.metallic_factor, metallic.roughness_factor), (1.0, 1.0));
-        let transform: Transform = serde_json::from_str("{}").unwrap();
-        assert_eq!((transform.offset, transform.scale), ([0.0; 2], [1.0; 2]));
-        assert_eq!((transform.rotation, transform.tex_coord), (0.0, None));
-        let node: Node = serde_json::from_str(r#"{"children": null, "extensions": null}"#).unwrap();
-        assert!(node.children.is_empty() && node.extensions.light.is_none());
-    }
 }

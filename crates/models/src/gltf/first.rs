@@ -1,218 +1,189 @@
-//! Documents of version 1.0, of which there are still many, as documents of version 2.0.
+//! Documents of version 1.0, of which there are still some, as documents of version 2.0.
 //!
 //! Version 1.0 names things where 2.0 counts them. A node has several meshes, an accessor the distance of its elements,
 //! and a material the values of its shader.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
-use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
-#[derive(Deserialize)]
-struct Head {
-    asset: Option<Asset>,
+use crate::contents::Contents;
+
+/// The lists of a document, with the members of their entries that mean the same in both versions.
+const LISTS: [(&str, &[&str]); 11] = [
+    ("accessors", &["bufferView", "byteOffset", "componentType", "count", "normalized", "type"]),
+    ("bufferViews", &["buffer", "byteLength", "byteOffset"]),
+    ("buffers", &["byteLength", "uri"]),
+    ("cameras", &["name", "orthographic", "perspective"]),
+    ("images", &["name", "uri"]),
+    ("materials", &["name"]),
+    ("meshes", &["name"]),
+    ("nodes", &["camera", "children", "matrix", "name", "rotation", "scale", "translation"]),
+    ("samplers", &["magFilter", "minFilter", "wrapS", "wrapT"]),
+    ("scenes", &["nodes"]),
+    ("textures", &["sampler", "source"]),
+];
+
+/// Members that name entries of a list, with that list.
+const NAMES: [(&str, &str); 10] = [
+    ("buffer", "buffers"),
+    ("bufferView", "bufferViews"),
+    ("camera", "cameras"),
+    ("children", "nodes"),
+    ("indices", "accessors"),
+    ("material", "materials"),
+    ("meshes", "meshes"),
+    ("nodes", "nodes"),
+    ("sampler", "samplers"),
+    ("source", "images"),
+];
+
+/// A document of version 1.0, with the number of each name in its list.
+struct First<'a> {
+    document: &'a Value,
+    numbers: HashMap<(&'static str, &'a str), usize>,
 }
 
-#[derive(Deserialize)]
-struct Asset {
-    version: Option<Value>,
-}
-
-/// A list of version 2.0, with the number of each name of version 1.0.
-#[derive(Default)]
-struct List<'a> {
-    values: Vec<&'a Value>,
-    names: Vec<&'a str>,
-    numbers: HashMap<&'a str, usize>,
-}
-
-impl<'a> List<'a> {
-    fn of(document: &'a Value, key: &str) -> Self {
-        let mut list = Self::default();
-        for (name, value) in document.get(key).and_then(Value::as_object).into_iter().flatten() {
-            list.numbers.insert(name, list.values.len());
-            list.names.push(name);
-            list.values.push(value);
+impl<'a> First<'a> {
+    fn of(document: &'a Value) -> Self {
+        let mut first = Self { document, numbers: HashMap::new() };
+        for (list, _) in LISTS {
+            for (number, (name, _)) in first.list(list).enumerate() {
+                first.numbers.insert((list, name), number);
+            }
         }
-        list
+        first
     }
 
-    fn number(&self, value: &Value, key: &str) -> Option<usize> {
-        self.numbers.get(value.get(key)?.as_str()?).copied()
+    fn list(&self, list: &str) -> impl Iterator<Item = (&'a String, &'a Value)> + use<'a> {
+        self.document.get(list).and_then(Value::as_object).into_iter().flatten()
     }
 
-    /// The numbers of all that a member names.
-    fn all(&self, value: &Value, key: &str) -> Vec<usize> {
-        let names = value.get(key).and_then(Value::as_array).into_iter().flatten();
-        names.filter_map(|name| self.numbers.get(name.as_str()?).copied()).collect()
+    /// The number of an entry by its name.
+    fn number(&self, list: &'static str, name: &Value) -> Option<Value> {
+        self.numbers.get(&(list, name.as_str()?)).map(|&number| number.into())
+    }
+
+    /// An object with some members of another one, and with numbers where that has names.
+    fn members(&self, value: &Value, names: &[&str]) -> Value {
+        let member = |name: &&str| {
+            let of = value.get(name)?;
+            let list = NAMES.iter().find(|(member, _)| member == name);
+            let made = match (list, of) {
+                (None, of) => of.clone(),
+                (Some((_, list)), Value::Array(all)) => {
+                    all.iter().filter_map(|one| self.number(list, one)).collect()
+                }
+                (Some((_, list)), one) => self.number(list, one)?,
+            };
+            Some(((*name).to_owned(), made))
+        };
+        Value::Object(names.iter().filter_map(member).collect())
+    }
+
+    /// The triangles of a mesh. The first set of each kind of attribute had no number.
+    fn primitive(&self, primitive: &Value) -> Value {
+        let mut made = self.members(primitive, &["indices", "material", "mode"]);
+        let mut attributes = Map::new();
+        let all = primitive.get("attributes").and_then(Value::as_object);
+        for (name, accessor) in all.into_iter().flatten() {
+            let name = match name.as_str() {
+                "COLOR" | "TEXCOORD" => format!("{name}_0"),
+                "JOINT" => "JOINTS_0".to_owned(),
+                "WEIGHT" => "WEIGHTS_0".to_owned(),
+                _ => name.clone(),
+            };
+            attributes.extend(self.number("accessors", accessor).map(|number| (name, number)));
+        }
+        made["attributes"] = attributes.into();
+        made
     }
 }
 
-/// An object with those members of another one that have one of the names.
-fn members(value: &Value, names: &[&str]) -> Value {
-    let member = |name: &&str| Some(((*name).to_owned(), value.get(name)?.clone()));
-    Value::Object(names.iter().filter_map(member).collect())
-}
-
-/// Sets a member of an object, where there is a value for it.
-fn put(object: &mut Value, name: &str, value: Option<usize>) {
-    if let Some(value) = value {
-        object[name] = value.into();
+/// The document as one of version 2.0. What is not drawn of it is counted.
+pub(super) fn upgraded(json: &[u8], contents: &mut Contents) -> Result<Vec<u8>, serde_json::Error> {
+    let document: Value = serde_json::from_slice(json)?;
+    let first = First::of(&document);
+    let mut lists: HashMap<&str, Vec<Value>> = HashMap::new();
+    for (list, members) in LISTS {
+        let made = first.list(list).map(|(_, value)| first.members(value, members));
+        lists.insert(list, made.collect());
     }
-}
-
-/// The document as one of version 2.0; nothing where it is one, or is no document. What is not drawn of it is counted.
-pub(super) fn upgraded(
-    json: &[u8],
-    not_drawn: &mut BTreeMap<String, u64>,
-) -> Result<Option<Vec<u8>>, String> {
-    let head: Result<Head, _> = serde_json::from_slice(json);
-    let version = head.ok().and_then(|head| head.asset).and_then(|asset| asset.version);
-    let version = match version {
-        Some(Value::String(version)) => version,
-        Some(version) => version.to_string(),
-        None => return Ok(None),
+    // Calls a function with each entry of a list and what is made of it.
+    let mut each = |list: &str, change: &mut dyn FnMut(&str, &Value, &mut Value)| {
+        let made = lists.get_mut(list).into_iter().flatten();
+        first.list(list).zip(made).for_each(|((name, value), made)| change(name, value, made));
     };
-    if !version.trim().starts_with('1') {
-        return Ok(None);
-    }
-    let document: Value = serde_json::from_slice(json).map_err(|error| error.to_string())?;
-    let list = |key| List::of(&document, key);
-    let (buffers, views, accessors) = (list("buffers"), list("bufferViews"), list("accessors"));
-    let (images, samplers, textures) = (list("images"), list("samplers"), list("textures"));
-    let (materials, meshes, nodes) = (list("materials"), list("meshes"), list("nodes"));
-    let (cameras, scenes) = (list("cameras"), list("scenes"));
-    let mut out = json!({ "asset": { "version": "2.0" } });
-    let made = buffers.names.iter().zip(&buffers.values).map(|(name, buffer)| {
-        let is_whole = *name == "binary_glTF" || *name == "KHR_binary_glTF";
-        members(buffer, if is_whole { &["byteLength"] } else { &["byteLength", "uri"] })
+    each("buffers", &mut |name, _, made| {
+        // The one that is in the same file.
+        if name == "binary_glTF" || name == "KHR_binary_glTF" {
+            made["uri"] = Value::Null;
+        }
     });
-    insert(&mut out, "buffers", made.collect());
-    let (made_views, made_accessors) = columns(&accessors, &views, &buffers);
-    insert(&mut out, "bufferViews", made_views);
-    insert(&mut out, "accessors", made_accessors);
-    let made = images.values.iter().map(|image| {
-        let binary = image.get("extensions").and_then(|all| all.get("KHR_binary_glTF"));
-        let Some(binary) = binary else { return members(image, &["uri", "name"]) };
-        let mut made = members(binary, &["mimeType"]);
-        put(&mut made, "bufferView", views.number(binary, "bufferView"));
-        made
+    each("images", &mut |_, image, made| {
+        if let Some(binary) = image.get("extensions").and_then(|all| all.get("KHR_binary_glTF")) {
+            *made = first.members(binary, &["bufferView", "mimeType"]);
+        }
     });
-    insert(&mut out, "images", made.collect());
-    let made = samplers.values.iter();
-    let made = made.map(|s| members(s, &["magFilter", "minFilter", "wrapS", "wrapT"]));
-    insert(&mut out, "samplers", made.collect());
-    let made = textures.values.iter().map(|texture| {
-        let mut made = json!({});
-        put(&mut made, "sampler", samplers.number(texture, "sampler"));
-        put(&mut made, "source", images.number(texture, "source"));
-        made
-    });
-    insert(&mut out, "textures", made.collect());
-    let made = materials.values.iter().map(|value| material(value, &textures, not_drawn));
-    insert(&mut out, "materials", made.collect());
-    let made = meshes.values.iter().map(|mesh| {
+    each("materials", &mut |_, value, made| material(&first, value, made, contents));
+    each("meshes", &mut |_, mesh, made| {
         let all = mesh.get("primitives").and_then(Value::as_array).into_iter().flatten();
-        let primitives: Vec<Value> = all
-            .map(|primitive| {
-                let names = primitive.get("attributes").and_then(Value::as_object);
-                let attribute = |(name, accessor): (&String, &Value)| {
-                    // The first set of each kind had no number.
-                    let name = match name.as_str() {
-                        "COLOR" | "TEXCOORD" => format!("{name}_0"),
-                        "JOINT" => "JOINTS_0".to_owned(),
-                        "WEIGHT" => "WEIGHTS_0".to_owned(),
-                        _ => name.clone(),
-                    };
-                    Some((name, accessors.numbers.get(accessor.as_str()?).copied()?.into()))
-                };
-                let mut made = members(primitive, &["mode"]);
-                let attributes: Map<String, Value> =
-                    names.into_iter().flatten().filter_map(attribute).collect();
-                made["attributes"] = attributes.into();
-                put(&mut made, "indices", accessors.number(primitive, "indices"));
-                put(&mut made, "material", materials.number(primitive, "material"));
-                made
-            })
-            .collect();
-        let mut made = members(mesh, &["name"]);
-        made["primitives"] = primitives.into();
-        made
+        made["primitives"] = all.map(|one| first.primitive(one)).collect();
     });
-    insert(&mut out, "meshes", made.collect());
-    let mut made_nodes: Vec<Value> = Vec::new();
-    let mut more: Vec<Value> = Vec::new();
-    for node in &nodes.values {
-        let mut made = members(node, &["name", "matrix", "rotation", "scale", "translation"]);
-        let mut children = nodes.all(node, "children");
-        let shown = meshes.all(node, "meshes");
-        put(&mut made, "mesh", shown.first().copied());
-        for mesh in shown.iter().skip(1) {
-            children.push(nodes.values.len() + more.len());
-            more.push(json!({ "mesh": mesh }));
-        }
-        if !children.is_empty() {
-            made["children"] = children.into();
-        }
-        put(&mut made, "camera", cameras.number(node, "camera"));
-        if node.get("skin").is_some() {
-            *not_drawn.entry("skin".to_owned()).or_default() += 1;
-        }
-        made_nodes.push(made);
-    }
-    made_nodes.extend(more);
-    insert(&mut out, "nodes", made_nodes);
-    let lens = |camera: &Value| members(camera, &["name", "perspective", "orthographic"]);
-    insert(&mut out, "cameras", cameras.values.iter().copied().map(lens).collect());
-    let made = scenes.values.iter().map(|scene| json!({ "nodes": nodes.all(scene, "nodes") }));
-    insert(&mut out, "scenes", made.collect());
-    put(&mut out, "scene", scenes.number(&document, "scene"));
-    let animations = document.get("animations").and_then(Value::as_object).map_or(0, Map::len);
-    if animations > 0 {
-        *not_drawn.entry("animation".to_owned()).or_default() += animations as u64;
-    }
-    serde_json::to_vec(&out).map(Some).map_err(|error| error.to_string())
-}
-
-fn insert(out: &mut Value, name: &str, list: Vec<Value>) {
-    if !list.is_empty() {
-        out[name] = list.into();
-    }
-}
-
-/// Buffer views and accessors. An accessor whose elements are apart gets a view of its own.
-fn columns(accessors: &List<'_>, views: &List<'_>, buffers: &List<'_>) -> (Vec<Value>, Vec<Value>) {
-    let view = |view: &Value| {
-        let mut made = members(view, &["byteLength", "byteOffset"]);
-        put(&mut made, "buffer", buffers.number(view, "buffer"));
-        made
-    };
-    let mut made_views: Vec<Value> = views.values.iter().map(|&value| view(value)).collect();
-    let made = accessors.values.iter().map(|accessor| {
-        let kept = ["byteOffset", "componentType", "count", "normalized", "type"];
-        let mut made = members(accessor, &kept);
-        let mut number = views.number(accessor, "bufferView");
+    // An accessor whose elements are apart gets a view of its own.
+    let shared: Vec<&Value> = first.list("bufferViews").map(|(_, view)| view).collect();
+    let mut views = Vec::new();
+    each("accessors", &mut |_, accessor, made| {
         let stride = accessor.get("byteStride").and_then(Value::as_u64).filter(|&s| s > 0);
-        if let (Some(stride), Some(of)) = (stride, number) {
-            let mut apart = view(views.values[of]);
+        if let (Some(stride), Some(of)) = (stride, made["bufferView"].as_u64()) {
+            let mut apart = first.members(shared[of as usize], LISTS[1].1);
             apart["byteStride"] = stride.into();
-            number = Some(made_views.len());
-            made_views.push(apart);
+            made["bufferView"] = (shared.len() + views.len()).into();
+            views.push(apart);
         }
-        put(&mut made, "bufferView", number);
-        made
     });
-    let made = made.collect();
-    (made_views, made)
+    // A node with several meshes gets children that have one each.
+    let mut nodes: Vec<Value> = Vec::new();
+    let count = first.list("nodes").count();
+    each("nodes", &mut |_, node, made| {
+        contents.count("skin", node.get("skin").is_some().into());
+        let shown = first.members(node, &["meshes"])["meshes"].take();
+        for (at, mesh) in shown.as_array().into_iter().flatten().enumerate() {
+            if at == 0 {
+                made["mesh"] = mesh.clone();
+                continue;
+            }
+            let child = (count + nodes.len()).into();
+            match made.get_mut("children").and_then(Value::as_array_mut) {
+                Some(children) => children.push(child),
+                None => made["children"] = json!([child]),
+            }
+            nodes.push(json!({ "mesh": mesh }));
+        }
+    });
+    lists.entry("bufferViews").or_default().extend(views);
+    lists.entry("nodes").or_default().extend(nodes);
+    let animations = document.get("animations").and_then(Value::as_object).map_or(0, Map::len);
+    contents.count("animation", animations as u64);
+    let mut out = json!({ "asset": { "version": "2.0" } });
+    for (list, made) in lists {
+        out[list] = made.into();
+    }
+    if let Some(scene) = document.get("scene").and_then(|name| first.number("scenes", name)) {
+        out["scene"] = scene;
+    }
+    serde_json::to_vec(&out)
 }
 
-fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String, u64>) -> Value {
+/// A material of the values of its shader.
+fn material(first: &First<'_>, value: &Value, made: &mut Value, contents: &mut Contents) {
     let common = value.get("extensions").and_then(|all| all.get("KHR_materials_common"));
     let values = common.unwrap_or(value).get("values").unwrap_or(&Value::Null);
     let mut pbr = json!({ "metallicFactor": 0 });
-    if let Some(number) = textures.number(values, "diffuse") {
+    let diffuse = values.get("diffuse");
+    if let Some(number) = diffuse.and_then(|name| first.number("textures", name)) {
         pbr["baseColorTexture"] = json!({ "index": number });
-    } else if let Some(colour) = values.get("diffuse").and_then(Value::as_array) {
+    } else if let Some(colour) = diffuse.and_then(Value::as_array) {
         // Its colours are those of the screen.
         let channel = |at: usize| {
             let channel = colour.get(at).and_then(Value::as_f64).unwrap_or(1.0);
@@ -234,22 +205,17 @@ fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String,
             value => value.is_string(),
         };
         let is_drawn = member == "specular" && shiny.is_some();
-        if !is_drawn && values.get(member).is_some_and(is_lit) {
-            *not_drawn.entry(key.to_owned()).or_default() += 1;
-        }
+        let is_left_out = !is_drawn && values.get(member).is_some_and(is_lit);
+        contents.count(key, is_left_out.into());
     }
-    let mut made = members(value, &["name"]);
     made["pbrMetallicRoughness"] = pbr;
-    if let Some(shiny) = shiny {
-        made["extensions"] = json!({ "KHR_materials_pbrSpecularGlossiness": shiny });
-    }
-    if made.get("extensions").is_none() {
+    made["extensions"] = match shiny {
+        Some(shiny) => json!({ "KHR_materials_pbrSpecularGlossiness": shiny }),
         // Its light is not that of glTF 2.0.
-        made["extensions"] = json!({ "KHR_materials_common": {} });
-    }
+        None => json!({ "KHR_materials_common": {} }),
+    };
     // Culling is a state of the technique, which is not read.
     made["doubleSided"] = true.into();
-    made
 }
 
 /// A material with a specular colour and an exponent as one of the extension that has gloss, with the diffuse part of

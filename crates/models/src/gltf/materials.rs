@@ -1,6 +1,6 @@
 //! What is drawn of the materials of a glTF, and what is not.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,10 +16,9 @@ use super::document::{
     CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
     Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform,
 };
-use crate::Warnings;
-use crate::contents::{Sides, Surface};
+use crate::contents::{Contents, Sides, Surface};
 use crate::outside;
-use crate::text;
+use crate::records;
 use crate::textures::{Decoded, Pictures};
 use rasterproof_core::arrays::MapArray as _;
 
@@ -88,31 +87,30 @@ pub(super) fn describe(
     data: &Data<'_>,
     number: Option<usize>,
     images: &mut Images<'_>,
-    not_drawn: &mut BTreeMap<String, u64>,
-    warnings: &mut Warnings,
+    contents: &mut Contents,
 ) -> Option<Described> {
     let mut missing = Material::default();
-    missing.pbr_metallic_roughness.metallic_factor = 0.0;
+    missing.pbr_metallic_roughness.metallic_factor = Some(0.0);
     let material = match number {
         Some(number) => data.root.materials.get(number)?,
         None => &missing,
     };
+    let Contents { not_drawn, warnings, .. } = contents;
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
     let pbr = &material.pbr_metallic_roughness;
     let other = material.extensions.glossiness.as_ref();
     let unlit = material.extensions.unlit.is_some();
     let info = colour_texture(material);
-    let [r, g, b, alpha] = match other {
-        Some(other) => other.diffuse_factor,
-        None => pbr.base_color_factor,
-    };
+    let factor = other.map_or(pbr.base_color_factor, |other| other.diffuse_factor);
+    let [r, g, b, alpha] = factor.unwrap_or([1.0; 4]);
     let mut specular = Specular::default();
     if let Some(other) = other {
-        let is_shiny = other.specular_factor.iter().any(|&channel| channel > 0.0);
+        let colour = other.specular_factor.unwrap_or([1.0; 3]);
+        let is_shiny = colour.iter().any(|&channel| channel > 0.0);
         if is_shiny && other.specular_glossiness_texture.is_some() {
             count("specular colour with a map of material");
         } else if is_shiny {
-            specular = glossy(other.specular_factor, other.glossiness_factor);
+            specular = glossy(colour, other.glossiness_factor.unwrap_or(1.0));
             if specular.shininess <= 0.0 {
                 count("specular colour without gloss of material");
             }
@@ -135,7 +133,7 @@ pub(super) fn describe(
     }
     let mode = alpha_mode(material);
     let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
-    let name = material.name.as_deref().map(|name| text::name(name).to_owned());
+    let name = material.name.as_deref().map(|name| records::name(name).to_owned());
     let name = name.unwrap_or_else(numbered);
     let decoded = info.and_then(|info| {
         let read = texture(data, info, images);
@@ -265,7 +263,7 @@ fn of_info(info: &Info) -> Coordinates {
 /// What is reflected where there is no metal, from straight ahead and at grazing angles, as two extensions state it.
 fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) {
     let extensions = &material.extensions;
-    let ior = extensions.refraction.as_ref().map(|of| f64::from(of.ior));
+    let ior = extensions.refraction.as_ref().map(|of| f64::from(of.ior.unwrap_or(1.5)));
     let straight = match ior {
         // The one of the format.
         None | Some(1.5) => 0.04,
@@ -277,10 +275,9 @@ fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) 
     if of.specular_texture.is_some() || of.specular_color_texture.is_some() {
         count("map of what is reflected of material");
     }
-    let colour = DVec3::from_array(
-        of.specular_color_factor.map_array(|channel| f64::from(channel).max(0.0)),
-    );
-    let part = f64::from(of.specular_factor).clamp(0.0, 1.0);
+    let colour = of.specular_color_factor.unwrap_or([1.0; 3]);
+    let colour = DVec3::from_array(colour.map_array(|channel| f64::from(channel).max(0.0)));
+    let part = f64::from(of.specular_factor.unwrap_or(1.0)).clamp(0.0, 1.0);
     ((straight * colour).min(DVec3::ONE) * part, part)
 }
 
@@ -293,9 +290,9 @@ fn physical(
     missing: &mut dyn FnMut(Map, String),
 ) -> Physical {
     let pbr = &material.pbr_metallic_roughness;
-    let strength = material.extensions.emissive.as_ref().map_or(1.0, |of| of.emissive_strength);
+    let strength = material.extensions.emissive.as_ref().and_then(|of| of.emissive_strength);
     let [r, g, b] = material.emissive_factor.map_array(|channel| f64::from(channel).max(0.0));
-    let share = |number: f32| f64::from(number).clamp(0.0, 1.0);
+    let share = |number: Option<f32>| f64::from(number.unwrap_or(1.0)).clamp(0.0, 1.0);
     let info = |map: Map| maps(material)[map as usize].1;
     let (straight, grazing) = reflected(material, count);
     let mut surface = Physical {
@@ -303,8 +300,8 @@ fn physical(
         grazing,
         metal: share(pbr.metallic_factor),
         roughness: share(pbr.roughness_factor),
-        emission: DVec3::new(r, g, b) * f64::from(strength).max(0.0),
-        occlusion: share(info(Map::Occlusion).and_then(|info| info.strength).unwrap_or(1.0)),
+        emission: DVec3::new(r, g, b) * f64::from(strength.unwrap_or(1.0)).max(0.0),
+        occlusion: share(info(Map::Occlusion).and_then(|info| info.strength)),
         bumps: info(Map::Normal).and_then(|info| info.scale).unwrap_or(1.0).into(),
         ..Physical::default()
     };
@@ -380,9 +377,43 @@ fn sampled(texture: Texture, sampler: Sampler) -> Texture {
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.
 fn affine(transform: &Transform) -> DAffine2 {
-    let [scale, offset] = [transform.scale, transform.offset]
+    let [scale, offset] = [transform.scale.unwrap_or([1.0; 2]), transform.offset]
         .map_array(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
     let angle = f64::from(transform.rotation);
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     DAffine2::from_cols(DVec2::new(cos, -sin) * scale.x, DVec2::new(sin, cos) * scale.y, offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::read;
+    use super::*;
+
+    #[test]
+    fn what_a_material_leaves_out_is_as_in_the_specification() {
+        let json = br#"{"asset": {"version": "2.0"}, "nodes": [{"children": null}], "materials": [
+            {"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {}}},
+            {"extensions": {"KHR_materials_pbrSpecularGlossiness": {}}},
+            {"extensions": {"KHR_materials_ior": {}}},
+            {"extensions": {"KHR_materials_specular": {}}}
+        ]}"#;
+        let root = read(json).unwrap();
+        assert!(root.nodes[0].children.is_empty());
+        let data = Data::new(root, Path::new(""), None).unwrap();
+        let mut images = Images::new(Path::new("a.gltf"));
+        let mut described = |number| {
+            describe(&data, Some(number), &mut images, &mut Contents::default()).unwrap().surface
+        };
+        let physical = |surface: &Surface| surface.physical.clone().unwrap();
+        let (colour, metal) = physical(&described(0));
+        assert_eq!((colour, metal.metal, metal.roughness), (DVec3::ONE, 1.0, 1.0));
+        assert_eq!((metal.emission, metal.straight), (DVec3::ONE, DVec3::splat(0.04)));
+        let glossy = described(1);
+        assert_eq!((glossy.colour, glossy.specular.colour), (DVec3::ONE, DVec3::ONE));
+        assert_eq!(glossy.specular.shininess, f64::MAX);
+        let straight = [2, 3].map(|number| physical(&described(number)).1);
+        let reflected = straight.map(|of| (of.straight, of.grazing));
+        assert_eq!(reflected, [(DVec3::splat(0.04), 1.0); 2]);
+        assert_eq!(affine(&Transform::default()), DAffine2::IDENTITY);
+    }
 }

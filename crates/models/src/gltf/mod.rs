@@ -28,9 +28,9 @@ use serde::Deserialize as _;
 use serde_json::Value;
 
 use crate::cameras::{Camera, Lens};
-use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface, of_normals};
-use crate::text::{self, without_mark};
-use crate::{BadFile, Pose, Warnings, bad};
+use crate::contents::{Contents, FilePart, Polygons, Surface, Vectors, of_normals};
+use crate::records::{self, without_mark};
+use crate::{BadFile, Pose, bad};
 use data::Data;
 use document::{
     Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
@@ -105,16 +105,16 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
     let end = json.iter().rposition(|byte| !is_filling(byte)).map_or(0, |last| last + 1);
     let json = without_mark(&json[..end]);
     let mut contents = Contents::default();
-    let json = match first::upgraded(json, &mut contents.not_drawn) {
-        Ok(Some(upgraded)) => Cow::Owned(upgraded),
-        Ok(None) => Cow::Borrowed(json),
-        Err(cause) => return Err(failed(cause)),
-    };
-    let root = document::read(&json).map_err(|error| {
+    let no_gltf = |error: serde_json::Error| {
         let line = (!is_glb(bytes)).then(|| error.line()).filter(|&line| line > 0);
-        let cause = format!("is no glTF that can be read: {error}");
-        bad(path, line, cause)
-    })?;
+        bad(path, line, format!("is no glTF that can be read: {error}"))
+    };
+    let is_first = document::version(json).is_some_and(|version| version.trim().starts_with('1'));
+    let json = match is_first {
+        true => Cow::Owned(first::upgraded(json, &mut contents).map_err(no_gltf)?),
+        false => Cow::Borrowed(json),
+    };
+    let root = document::read(&json).map_err(no_gltf)?;
     let compressed = root.extensions_required.iter().find(|name| COMPRESSED.contains(&&***name));
     if let Some(name) = compressed {
         let remedy = "export the model without compression";
@@ -127,13 +127,13 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
     if let Some(pose) = pose {
         animation::apply(&mut data, pose).map_err(failed)?;
     }
-    let name = |animation: &Value| text::name(animation["name"].as_str().unwrap_or("")).to_owned();
+    let name =
+        |animation: &Value| records::name(animation["name"].as_str().unwrap_or("")).to_owned();
     contents.animations = data.root.animations.iter().map(name).collect();
     let mut reader = Reader {
         path,
         data: &data,
         contents,
-        warnings: Warnings::default(),
         images: Images::new(path),
         described: HashMap::new(),
         see_through: HashMap::new(),
@@ -147,8 +147,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
     }
     reader.scene().map_err(failed)?;
     reader.count_the_rest();
-    let Reader { mut contents, warnings, .. } = reader;
-    contents.warnings = warnings.finish();
+    let mut contents = reader.contents;
     contents.other_bytes = data.len();
     Ok(contents)
 }
@@ -219,7 +218,6 @@ struct Reader<'a> {
     path: &'a Path,
     data: &'a Data<'a>,
     contents: Contents,
-    warnings: Warnings,
     images: Images<'a>,
     /// By the numbers of the materials that are used; nothing is that of primitives that name none.
     described: HashMap<Option<usize>, Option<UsedMaterial>>,
@@ -236,9 +234,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn count(&mut self, key: &str, count: u64) {
-        if count > 0 {
-            *self.contents.not_drawn.entry(key.to_owned()).or_default() += count;
-        }
+        self.contents.count(key, count);
     }
 
     fn has_outside_buffer(&self) -> bool {
@@ -246,7 +242,7 @@ impl Reader<'_> {
     }
 
     fn warn(&mut self, kind: &str, text: &str) {
-        self.warnings.add(self.path, None, kind, text);
+        self.contents.warnings.add(self.path, None, kind, text);
     }
 
     /// Reads the meshes of all nodes of the scene.
@@ -302,13 +298,12 @@ impl Reader<'_> {
         let Some(at) = node.camera else { return };
         let camera = self.data.root.cameras.get(at);
         let lens = camera.and_then(|camera| match camera {
-            document::Camera { perspective: Some(lens), .. } => {
-                let angle_rad = lens.yfov;
-                Some((Lens::Perspective { angle_rad }, lens.znear, lens.zfar))
+            document::Camera { perspective: Some(of), .. } => {
+                Some((Lens::Perspective { angle_rad: of.yfov }, of.znear, of.zfar))
             }
-            document::Camera { orthographic: Some(lens), .. } => {
-                let half_height = lens.ymag;
-                Some((Lens::Parallel { half_height }, lens.znear, Some(lens.zfar)))
+            document::Camera { orthographic: Some(of), .. } => {
+                let far = Some(of.zfar.unwrap_or_default());
+                Some((Lens::Parallel { half_height: of.ymag }, of.znear, far))
             }
             _ => None,
         });
@@ -317,7 +312,7 @@ impl Reader<'_> {
             return;
         };
         let name = node.name.as_deref().or(camera.name.as_deref());
-        let name = text::name(name.unwrap_or_default()).to_owned();
+        let name = records::name(name.unwrap_or_default()).to_owned();
         let (eye, ahead, up) = (DVec3::ZERO, DVec3::NEG_Z, DVec3::Y);
         let mut camera = Camera { name, eye, ahead, up, lens, near, far };
         camera.place(world);
@@ -337,11 +332,12 @@ impl Reader<'_> {
             match light.kind.as_str() {
                 "directional" => Some(Kind::Directional),
                 "point" => Some(Kind::Point { range }),
-                "spot" => Some(Kind::Spot {
-                    range,
-                    inner_rad: light.spot.inner_cone_angle.unwrap_or(inner),
-                    outer_rad: light.spot.outer_cone_angle.unwrap_or(outer),
-                }),
+                "spot" => {
+                    let spot = light.spot.as_ref();
+                    let inner_rad = spot.and_then(|of| of.inner_cone_angle).unwrap_or(inner);
+                    let outer_rad = spot.and_then(|of| of.outer_cone_angle).unwrap_or(outer);
+                    Some(Kind::Spot { range, inner_rad, outer_rad })
+                }
                 _ => None,
             }
         });
@@ -578,21 +574,16 @@ impl Reader<'_> {
             let used = (*number, first.is_some());
             *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
-        let numbers = |is_empty: bool| {
-            if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
-        };
-        let name = text::name(node.name.as_deref().unwrap_or(""));
+        let name = records::name(node.name.as_deref().unwrap_or(""));
         let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),
             to_file,
             polygons: Polygons::triangles(triangles.len() / 3),
             corners: triangles,
-            normal_numbers: numbers(normals.is_empty()),
-            uv_numbers: numbers(uvs.is_empty()),
             positions,
-            normals,
-            uvs,
+            normals: Vectors::of_positions(normals),
+            uvs: Vectors::of_positions(uvs),
             second_uvs,
             colours,
             tangents,
@@ -724,13 +715,8 @@ impl Reader<'_> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
-        let described = materials::describe(
-            self.data,
-            number,
-            &mut self.images,
-            &mut self.contents.not_drawn,
-            &mut self.warnings,
-        );
+        let (images, contents) = (&mut self.images, &mut self.contents);
+        let described = materials::describe(self.data, number, images, contents);
         let known = described.map(|Described { surface, uvs }| {
             self.contents.materials.push(surface);
             (self.contents.materials.len() - 1, uvs)

@@ -8,8 +8,7 @@ use super::assembled::Assembled;
 use super::conditions::{self, Facts, shadows};
 use super::parts::{Constants, Part, Whole};
 use super::plan::{
-    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples,
-    SceneDigest, VERSION,
+    Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples, SceneDigest, VERSION,
 };
 use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
@@ -41,90 +40,25 @@ impl Rendered {
     }
 }
 
-/// Why a plan cannot be followed. Nothing was drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PlanError {
-    /// The scene cannot be drawn by any plan.
-    Scene(BadScene),
-    /// The plan has another form, or does not name its form.
-    Version(Option<u64>),
-    /// The plan is for another scene, or does not say for which.
-    OtherScene { planned: Option<SceneDigest>, there: SceneDigest },
-    /// The plan contradicts itself: a piece interpolates what its item does not carry.
-    NotCarried {
-        item: usize,
-        /// What it does not carry.
-        attributes: Attributes,
-    },
-    /// The plan is for another target.
-    Canvas { planned: Canvas, there: Canvas },
-    /// The plan is for a scene with another number of items.
-    Items {
-        /// Items of the plan.
-        planned: usize,
-        /// Items of the scene.
-        there: usize,
-    },
-    /// The plan lists another number of pieces than the item has.
-    Pieces {
-        item: usize,
-        /// Pieces of the plan.
-        planned: u64,
-        /// Pieces of the item.
-        there: u64,
-    },
-    /// A tile to be cleared does not lie in the window.
-    Tile(rasterproof_core::grid::PixelRect),
+/// Why a plan cannot be followed, in words. Nothing was drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanError(String);
+
+impl PlanError {
+    /// The plan has the form of another version, or does not name its form.
+    #[must_use]
+    pub fn of_version(version: Option<u64>) -> Self {
+        let planned = match version {
+            Some(version) => format!("the plan has the form of version {version}"),
+            None => "the plan does not name its version".to_owned(),
+        };
+        Self(format!("{planned}, and this program reads version {VERSION}; plan again with it"))
+    }
 }
 
 impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Scene(bad) => write!(f, "{bad}"),
-            Self::Version(planned) => {
-                match planned {
-                    Some(planned) => write!(f, "the plan has the form of version {planned}")?,
-                    None => f.write_str("the plan does not name its version")?,
-                }
-                write!(f, ", and this program reads version {VERSION}; plan again with it")
-            }
-            Self::OtherScene { planned: Some(planned), there } => write!(
-                f,
-                "the plan is for another scene, or for the same one seen otherwise: its scene has \
-                 the digest {planned}, and this one {there}; plan again with the options of this \
-                 picture"
-            ),
-            Self::OtherScene { planned: None, there } => write!(
-                f,
-                "the plan does not say which scene it is for (\"scene\"), and this one has the \
-                 digest {there}; plan again"
-            ),
-            Self::NotCarried { item, attributes } => write!(
-                f,
-                "the plan contradicts itself: pieces of item {item} interpolate {attributes}, which \
-                 is not in its \"carries\"; add it there, or remove it from \"interpolates\""
-            ),
-            Self::Canvas { planned, there } => write!(
-                f,
-                "the plan is for {planned}, and this is {there}, {}; plan again, or draw the same",
-                differences(planned, there)
-            ),
-            Self::Items { planned, there } => {
-                write!(f, "the plan has {planned} items, and the scene {there}")
-            }
-            Self::Pieces { item, planned, there } => {
-                write!(
-                    f,
-                    "the plan lists {planned} pieces of item {item}, which has {there}; a rule, \
-                     \"as-they-come\", fits any number"
-                )
-            }
-            Self::Tile(tile) => write!(
-                f,
-                "the plan clears a tile from ({}, {}) to ({}, {}), which is not in the window",
-                tile.x0, tile.y0, tile.x1, tile.y1
-            ),
-        }
+        f.write_str(&self.0)
     }
 }
 
@@ -148,7 +82,7 @@ impl std::error::Error for PlanError {}
 
 impl From<BadScene> for PlanError {
     fn from(bad: BadScene) -> Self {
-        Self::Scene(bad)
+        Self(bad.to_string())
     }
 }
 
@@ -170,21 +104,28 @@ pub(super) fn fit<'a>(
     scene: &'a Scene,
     target: &Target,
 ) -> Result<Assembled<'a>, PlanError> {
+    let failed = |cause: String| Err(PlanError(cause));
     if plan.version != VERSION {
-        return Err(PlanError::Version(Some(plan.version.into())));
+        return Err(PlanError::of_version(Some(plan.version.into())));
     }
     let there = Canvas { watched: plan.canvas.watched, ..Canvas::of(target) };
     if plan.canvas != there {
-        return Err(PlanError::Canvas { planned: plan.canvas, there });
+        let (planned, differences) = (plan.canvas, differences(&plan.canvas, &there));
+        return failed(format!(
+            "the plan is for {planned}, and this is {there}, {differences}; plan again, or draw the same"
+        ));
     }
     let (planned, there) = (plan.items.len(), scene.items.len());
     if planned != there {
-        return Err(PlanError::Items { planned, there });
+        return failed(format!("the plan has {planned} items, and the scene {there}"));
     }
     for (item, plan) in plan.items.iter().enumerate() {
         let attributes = plan.interpolates().without(plan.carries);
         if !attributes.is_empty() {
-            return Err(PlanError::NotCarried { item, attributes });
+            return failed(format!(
+                "the plan contradicts itself: pieces of item {item} interpolate {attributes}, which \
+                 is not in its \"carries\"; add it there, or remove it from \"interpolates\""
+            ));
         }
     }
     let window = plan.drawn().window();
@@ -192,12 +133,28 @@ pub(super) fn fit<'a>(
         && let Some(tile) =
             tiles.iter().find(|tile| tile.is_empty() || tile.intersect(&window) != **tile)
     {
-        return Err(PlanError::Tile(*tile));
+        let PixelRect { x0, y0, x1, y1 } = tile;
+        return failed(format!(
+            "the plan clears a tile from ({x0}, {y0}) to ({x1}, {y1}), which is not in the window"
+        ));
     }
     let mut assembled = Assembled::new(scene, plan)?;
     let there = SceneDigest::of(scene);
-    if plan.scene != Some(there) {
-        return Err(PlanError::OtherScene { planned: plan.scene, there });
+    match plan.scene {
+        Some(planned) if planned == there => {}
+        Some(planned) => {
+            return failed(format!(
+                "the plan is for another scene, or for the same one seen otherwise: its scene has \
+                 the digest {planned}, and this one {there}; plan again with the options of this \
+                 picture"
+            ));
+        }
+        None => {
+            return failed(format!(
+                "the plan does not say which scene it is for (\"scene\"), and this one has the \
+                 digest {there}; plan again"
+            ));
+        }
     }
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
@@ -228,7 +185,10 @@ pub(super) fn plans(
                 let planned =
                     runs.iter().fold(0, |sum: u64, (count, _)| sum.saturating_add(*count));
                 if planned != there {
-                    return Err(PlanError::Pieces { item, planned, there });
+                    return Err(PlanError(format!(
+                        "the plan lists {planned} pieces of item {item}, which has {there}; a rule, \
+                         \"as-they-come\", fits any number"
+                    )));
                 }
                 for (count, plan) in runs {
                     plans.extend((0..*count).map(|_| *plan));

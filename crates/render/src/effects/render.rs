@@ -138,7 +138,7 @@ pub struct StagedPieces {
 /// The list of stages of each piece that the plan of a frame makes, in the order of the items.
 ///
 /// # Errors
-/// [`PlanError::Scene`].
+/// [`PlanError`] of a scene that cannot be drawn.
 pub fn stages(
     scene: &Scene,
     engine: &impl Interpolate,

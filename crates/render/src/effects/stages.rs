@@ -347,24 +347,20 @@ impl<'a> Builder<'a, '_> {
     /// The light of a surface that is not physical; its colour where all fragments have the same.
     fn light(&mut self, product: Option<DVec3>, lit: Option<u32>) -> Option<Colour> {
         let light = &self.item.light;
-        let product = match (self.varies(Attributes::NORMAL), lit) {
-            (true, Some(TAPS)) => {
-                let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
-                self.push(Stage::Light { from, light, normal });
-                return None;
-            }
-            (true, _) | (false, None) => {
-                let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
-                self.push(Stage::PartOfLight { from, light, normal });
-                return None;
-            }
-            (false, Some(lit)) if self.item.carries.has(Attributes::NORMAL) => {
-                self.counters.lights += 1;
-                let intensity = light.intensity_in(self.first.normal, lit);
-                self.multiply(product, DVec3::splat(intensity))
-            }
-            (false, Some(_)) => product,
+        let Some(lit) = lit.filter(|_| !self.varies(Attributes::NORMAL)) else {
+            let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
+            self.push(match lit {
+                Some(TAPS) => Stage::Light { from, light, normal },
+                _ => Stage::PartOfLight { from, light, normal },
+            });
+            return None;
         };
+        let mut product = product;
+        if self.item.carries.has(Attributes::NORMAL) {
+            self.counters.lights += 1;
+            let intensity = light.intensity_in(self.first.normal, lit);
+            product = self.multiply(product, DVec3::splat(intensity));
+        }
         if product.is_none() {
             self.push(Stage::Round);
         }

@@ -178,7 +178,10 @@ fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> St
     let how = formula(&guarded.crossing, guarded.ends, is_line).join(" and ");
     match &guarded.when {
         Some(when) => {
-            format!("It computes {what} as if {how}, where {}.", any(when, &vocabulary.of_borders()))
+            format!(
+                "It computes {what} as if {how}, where {}.",
+                any(when, &vocabulary.of_borders())
+            )
         }
         None => format!("It computes {what} as if {how}."),
     }
