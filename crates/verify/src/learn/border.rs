@@ -118,8 +118,6 @@ pub(super) struct Crossing {
     pub(super) from_window: bool,
     /// Whether its two ends have each other's place along the row.
     pub(super) exchanged: bool,
-    /// Whether it starts at the place along the row that its other end has.
-    pub(super) from_other: bool,
     /// What is added to the distance and to the result.
     pub(super) later: i64,
     pub(super) shift: i64,
@@ -140,7 +138,6 @@ impl Crossing {
         product: Product::Exact,
         from_window: false,
         exchanged: false,
-        from_other: false,
         later: 0,
         shift: 0,
         sum: None,
@@ -162,7 +159,6 @@ impl Crossing {
             self.product != right.product,
             self.from_window,
             self.exchanged,
-            self.from_other,
             self.later != 0,
             self.shift != 0,
             self.sum.is_some(),
@@ -203,7 +199,6 @@ impl Crossing {
         with(&|c| c.product = right.product);
         with(&|c| c.from_window = right.from_window);
         with(&|c| c.exchanged = right.exchanged);
-        with(&|c| c.from_other = right.from_other);
         with(&|c| c.later = right.later);
         with(&|c| c.shift = right.shift);
         with(&|c| c.sum = right.sum);
@@ -241,7 +236,6 @@ impl Crossing {
         }
         with(&|c| c.from_window = true);
         with(&|c| c.exchanged = true);
-        with(&|c| c.from_other = true);
         for bits in [16, 20, 24, 28, 31, 32] {
             with(&|c| c.product = Product::Word(bits));
         }
@@ -342,8 +336,7 @@ impl Site {
         if rise == 0 {
             return None;
         }
-        let side = if formula.from_other { b[along] } else { a[along] };
-        let start = [snapped(side, formula.start[0]), snapped(a[axis], formula.start[1])];
+        let start = [snapped(a[along], formula.start[0]), snapped(a[axis], formula.start[1])];
         let at = i128::from(self.place * 256 + sample[axis]);
         // The place of the start: the first sample that is not before it.
         let place = -(i128::from(sample[axis]) - start[1]).div_euclid(256);

@@ -278,9 +278,6 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     if crossing.from_window {
         said.push(format!("the part of {edge} before the window were left out"));
     }
-    if crossing.from_other {
-        said.push(format!("{edge} began at the {side} coordinate of its other end"));
-    }
     if crossing.exchanged {
         said.push(format!("the ends of {edge} had exchanged their {side} coordinates"));
     }
