@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::ask::Subject;
+use super::ask::{Question, Subject};
 use super::check::Truth;
 use super::failures::{self, Failure};
 use super::recognise::{self, Recognised, Why};
@@ -87,12 +87,22 @@ pub fn explain(
         progress(Step::Cause);
     }
     let mut asked = patience.limit(program, spent);
-    let (causes, was_cut) = recognise::mistakes(&mut asked, &checks, truth, recognised);
+    let (causes, was_cut) =
+        recognise::mistakes(&mut asked, &checks, truth, recognised, &failing(&failures));
     let mut left_out = left_out(found, options);
     left_out.convention = recognised.is_some_and(|found| found.is_late);
     left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     left_out.cause = was_cut;
     Explained { failures, causes, left_out }
+}
+
+/// The questions of failing cases.
+fn failing(failures: &[Failure]) -> Vec<Question> {
+    let mut all = Vec::new();
+    for failure in failures {
+        all.extend(failure.evidence.exchanges.iter().map(|exchange| exchange.question.clone()));
+    }
+    all
 }
 
 /// The failing cases, made smaller, and how long the answers took meanwhile.

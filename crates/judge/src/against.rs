@@ -183,7 +183,8 @@ fn explain(
     {
         let rows = found.rows.iter().filter(|row| row.sides.as_ref().is_some_and(is_wrong));
         let mut asked = patience.limit(&mut **side, spent);
-        let (why, was_cut) = recognise::mistakes(&mut asked, &run::checks_of(rows), truth, None);
+        let (why, was_cut) =
+            recognise::mistakes(&mut asked, &run::checks_of(rows), truth, None, &[]);
         spent = patience.spent(&asked);
         left_out.cause |= was_cut;
         causes.extend(why.into_iter().map(|why| Why { by: name.clone(), ..why }));

@@ -242,12 +242,14 @@ fn known(declared: &Declared) -> Declarations {
 }
 
 /// Why a program is wrong in each kind of check, where no convention explains it; and whether the time was up before this was
-/// known. The time that is left is shared among the checks, so that what is found of one depends less on the others.
+/// known. The time that is left is shared among the checks, so that what is found of one depends less on the others. `failing` are
+/// questions whose answers are wrong.
 pub fn mistakes(
     program: &mut Timed<'_>,
     checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
+    failing: &[Question],
 ) -> (Vec<Why>, bool) {
     let known = known(&truth.declared);
     let (mut all, mut was_cut) = (Vec::new(), false);
@@ -255,7 +257,7 @@ pub fn mistakes(
         let share = program.rest().map(|rest| rest / to_do);
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
-        let mut bench = Bench::new(part);
+        let mut bench = Bench { failing, ..Bench::new(part) };
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
@@ -376,11 +378,13 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 struct Bench<'a> {
     program: Timed<'a>,
     deaths_left: u64,
+    /// Questions whose answers are known to be wrong.
+    failing: &'a [Question],
 }
 
 impl<'a> Bench<'a> {
     fn new(program: Timed<'a>) -> Self {
-        Self { program, deaths_left: MOST_DEATHS }
+        Self { program, deaths_left: MOST_DEATHS, failing: &[] }
     }
 
     /// Limits its answers from the first wrong one on.
@@ -437,6 +441,17 @@ impl convention::Ask for Bench<'_> {
         self.program.at_most(convention::MOST_TO_LEARN)
     }
 
+    fn failing(&self) -> Vec<convention::TriangleQuestion> {
+        let mut all = Vec::new();
+        for &Question { width, height, ref of } in self.failing {
+            if let Asked::Coverage(corners) = *of {
+                let window = PixelRect::window(width, height);
+                all.push(convention::TriangleQuestion { corners, window });
+            }
+        }
+        all
+    }
+
     fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
@@ -447,6 +462,17 @@ impl convention::Ask for Bench<'_> {
 impl convention::AskLine for Bench<'_> {
     fn most_to_learn(&self) -> usize {
         self.program.at_most(convention::MOST_TO_LEARN)
+    }
+
+    fn failing(&self) -> Vec<LineQuestion> {
+        let mut all = Vec::new();
+        for &Question { width, height, ref of } in self.failing {
+            if let Asked::Line { ends, .. } = *of {
+                let window = PixelRect::window(width, height);
+                all.push(LineQuestion { ends: ends.map(|end| [end.x, end.y]), window });
+            }
+        }
+        all
     }
 
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {

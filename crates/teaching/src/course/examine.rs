@@ -198,7 +198,7 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     }
     let checks = [failing.exercise.check.of_its_cause()];
     let mut asked = Timed::new(program, None).within(Some(patience));
-    let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None);
+    let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None, &[]);
     Some(found.into_iter().next()?.why)
 }
 

@@ -35,6 +35,11 @@ pub trait Ask {
         MOST_TO_LEARN
     }
 
+    /// Questions whose answers are known to be wrong: what goes wrong rarely is learned of beside these.
+    fn failing(&self) -> Vec<TriangleQuestion> {
+        Vec::new()
+    }
+
     /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
     fn is_abandoned(&self) -> bool {
         false

@@ -24,6 +24,11 @@ pub trait AskLine {
     fn most_to_learn(&self) -> usize {
         super::MOST_TO_LEARN
     }
+
+    /// As [`super::Ask::failing`].
+    fn failing(&self) -> Vec<LineQuestion> {
+        Vec::new()
+    }
 }
 
 impl<F: FnMut(&[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>> AskLine for F {

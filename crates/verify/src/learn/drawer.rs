@@ -31,6 +31,8 @@ pub(super) trait Drawer {
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture>;
     /// The answers; what is not answered is an empty picture.
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture>;
+    /// Questions whose answers are known to be wrong.
+    fn failing(&self) -> Vec<AnyQuestion>;
     /// How many questions may be asked.
     fn most_to_learn(&self) -> usize;
     /// Whether the answers come later, and all is asked again.
@@ -186,6 +188,15 @@ impl Drawer for Triangles<'_> {
         questions.iter().zip(answers).map(picture).collect()
     }
 
+    fn failing(&self) -> Vec<AnyQuestion> {
+        let mut all = Vec::new();
+        for TriangleQuestion { corners, window } in self.ask.failing() {
+            let points = corners.map(|c| [c.x.into(), c.y.into()]).into();
+            all.push(AnyQuestion { points, side: [window.x1, window.y1] });
+        }
+        all
+    }
+
     fn most_to_learn(&self) -> usize {
         self.ask.most_to_learn()
     }
@@ -234,7 +245,7 @@ impl<'a> Lines<'a> {
             is_line: true,
             side: [width, height].map(i64::from),
             grain: 1,
-            most: known.range_px.clamp(1, 1 << 20).into(),
+            most: known.range_px.clamp(1, 1 << 30).into(),
         };
         let mut conventions = vec![*expected];
         let mut rules = vec![String::new()];
@@ -260,7 +271,7 @@ impl Drawer for Lines<'_> {
             let ends = [0, 1].map(|i| {
                 [0, 1].map(|axis| {
                     let moved = question.points[i][axis] - i64::from(block[axis]);
-                    moved.clamp(-(1 << 22), 1 << 22) as i32
+                    moved.clamp(-(1 << 30), 1 << 30) as i32
                 })
             });
             let pixels = self.conventions[rule].pixels(&LineQuestion { ends, window })?;
@@ -289,6 +300,15 @@ impl Drawer for Lines<'_> {
             picture
         };
         questions.iter().zip(answers).map(picture).collect()
+    }
+
+    fn failing(&self) -> Vec<AnyQuestion> {
+        let mut all = Vec::new();
+        for LineQuestion { ends, window } in self.ask.failing() {
+            let points = ends.map(|end| end.map(i64::from)).into();
+            all.push(AnyQuestion { points, side: [window.x1, window.y1] });
+        }
+        all
     }
 
     fn most_to_learn(&self) -> usize {

@@ -273,6 +273,10 @@ impl<'a> Learner<'a> {
 
     /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
     fn ask_first(&mut self) -> Option<()> {
+        let mut failing = self.drawer.failing();
+        let room = self.drawer.room();
+        failing.retain(|question| room.may_ask(question));
+        self.ask(failing)?;
         while self.answered.len() < MOST_FIRST && self.left > 0 {
             let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {

@@ -7,9 +7,10 @@ use super::question::AnyQuestion;
 use super::trial::Work;
 use super::{Learned, SEED, Start, of_lines, of_triangles};
 use crate::convention::{
-    AskLine, Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
+    Ask, AskLine, Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
 };
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 
 /// The right picture of a question by a rule: 0 is the right one.
 type Right<'a> = &'a dyn Fn(&AnyQuestion, usize) -> Picture;
@@ -62,6 +63,58 @@ pub(super) fn learn_triangles(
         questions.iter().map(answer).collect()
     };
     of_triangles(&mut ask, &known, &[Start { convention: &expected, is_right: true }])
+}
+
+/// A rasterizer of which some wrong answers are known.
+struct WithFailing<'a> {
+    ask: &'a mut dyn Ask,
+    failing: Vec<TriangleQuestion>,
+}
+
+impl Ask for WithFailing<'_> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
+        self.ask.ask(questions)
+    }
+
+    fn failing(&self) -> Vec<TriangleQuestion> {
+        self.failing.clone()
+    }
+}
+
+/// What goes wrong too rarely to be met by chance is learned beside a case that failed.
+#[test]
+fn rare_mistakes_are_learned_beside_failing_cases() {
+    let convention = TriangleConvention::default();
+    // It draws nothing where an edge is nearly level and long: a slope that is no number of 16 bits.
+    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
+        let answer = |q: &TriangleQuestion| {
+            let mut coverage = Coverage::new(q.window, 0);
+            let is_steep = (0..3).any(|i| {
+                let (a, b) = (q.corners[i], q.corners[(i + 1) % 3]);
+                let [dx, dy] = [b.x - a.x, b.y - a.y].map(|v| i64::from(v).abs());
+                dy > 0 && dx >= 32_768 * dy
+            });
+            let mask = convention.mask(&q.corners, q.window).filter(|_| !is_steep);
+            for y in 0..q.window.y1 {
+                for x in 0..q.window.x1 {
+                    let is_drawn = mask.is_some_and(|mask| mask.row(y) >> x & 1 == 1);
+                    coverage.row_mut(y)[x as usize] = u8::from(is_drawn);
+                }
+            }
+            Some(coverage)
+        };
+        questions.iter().map(answer).collect()
+    };
+    let window = PixelRect::window(4, 4);
+    let corners =
+        [[-60_000, 384], [150_000, 390], [512, 2000]].map(|[x, y]| SubpixelPoint::new(x, y));
+    let known = Declarations { window_px: (24, 24), ..Declarations::default() };
+    let starts = [Start { convention: &convention, is_right: true }];
+    assert_eq!(of_triangles(&mut ask, &known, &starts), None);
+    let failing = vec![TriangleQuestion { corners, window }];
+    let learned = of_triangles(&mut WithFailing { ask: &mut ask, failing }, &known, &starts);
+    let said = learned.unwrap().sentences().join(" ");
+    assert!(said.contains("the largest |dx|/|dy| of its edges is"), "{said}");
 }
 
 /// What is learned of a line drawer that draws so.

@@ -99,7 +99,7 @@ pub(super) struct Room {
 
 /// Most long lines reach less than this power of two.
 const MOST_LINES_REACH: u32 = 10;
-/// The longest line that is asked, so that products of its sides need more than 32 bits: some programs walk each of its pixels.
+/// The longest line that is asked where no longer one is known to be wrong, so that products of its sides need more than 32 bits: some programs walk each of its pixels.
 const LONGEST_LINE_PX: i64 = 1 << 17;
 
 impl Room {
@@ -130,7 +130,12 @@ impl Room {
             (_, true) => self.line(side, near),
             (_, false) => self.triangle(side, near),
         };
-        self.fitted(AnyQuestion { points, side })
+        let mut question = AnyQuestion { points, side };
+        if self.is_line {
+            let near = |v: i64| v.clamp(-LONGEST_LINE_PX / 2, LONGEST_LINE_PX / 2);
+            question.points.iter_mut().for_each(|point| *point = point.map(near));
+        }
+        self.fitted(question)
     }
 
     /// A point up to so many pixels beyond the window, on a grid of so many steps to a pixel.
@@ -214,10 +219,6 @@ impl Room {
     fn fitted(&self, mut q: AnyQuestion) -> AnyQuestion {
         let fit = |v: i64| (v.div_euclid(self.grain) * self.grain).clamp(-self.most, self.most);
         q.points.iter_mut().for_each(|point| *point = point.map(fit));
-        if self.is_line {
-            let near = |v: i64| v.clamp(-LONGEST_LINE_PX / 2, LONGEST_LINE_PX / 2);
-            q.points.iter_mut().for_each(|point| *point = point.map(near));
-        }
         q
     }
 

@@ -418,9 +418,21 @@ pub fn of_triangles(
             why = why.map(|why| Mistakes { causes, lead: None, common: Vec::new(), ..why });
         }
     }
-    let why = with_limits(why, answered.len(), limits)?;
+    let why = with_limits(why, answered.len(), limits);
     let starts = learn::starts(expected, found);
-    Some(why.or_learned(|| learn?(ask, known, &starts)))
+    or_learned(why, answered.len(), || learn?(ask, known, &starts))
+}
+
+/// What was learned where no mistake explains it, also where none of so many answers is wrong: others are.
+fn or_learned(
+    found: Option<Mistakes>,
+    answers: usize,
+    learn: impl FnOnce() -> Option<Learned>,
+) -> Option<Mistakes> {
+    let is_found = found.is_some();
+    let wrong = Count { drawn: 0, of: answers as u64 };
+    let why = found.unwrap_or(Mistakes { wrong, ..Mistakes::default() }).or_learned(learn);
+    (is_found || why.learned.is_some()).then_some(why)
 }
 
 /// The mistake that explains answers about triangles.
@@ -630,9 +642,9 @@ pub fn of_lines(
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
     let why = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
     let limits = thresholds::of_lines(ask, known, expected);
-    let why = with_limits(why, is_wrong.len(), limits)?;
+    let why = with_limits(why, is_wrong.len(), limits);
     let starts = learn::starts(expected, found);
-    Some(why.or_learned(|| learn::of_lines(ask, known, &starts)))
+    or_learned(why, is_wrong.len(), || learn::of_lines(ask, known, &starts))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
