@@ -2182,11 +2182,15 @@ fn mistakes_that_are_planted_are_named() {
 }
 
 /// Planted faults that no answer of the line protocol tells, and why.
-const UNTOLD: [(&str, &str); 5] = [
+const UNTOLD: [(&str, &str); 6] = [
     ("panics-on-flat-bottom", "the judge stops asking after three panics, and shows their message"),
     ("truncates-towards-zero", "windows begin at the origin, so no column is negative"),
     ("seam-between-tiles", "windows are narrower than two of its tiles"),
     ("naive-barycentric", "its values lie within the tolerance"),
+    (
+        "line-truncates",
+        "lines of more than 65,536 px are left to another rule, which too few answers show",
+    ),
     ("line-weights-from-clip", "lines have no values in the protocol"),
 ];
 

@@ -1,7 +1,7 @@
 //! Who answers and who knows the right answer: triangles and lines behind one trait.
 
 use super::picture::{MARGIN, Picture};
-use super::question::{AnyQuestion, Room};
+use super::question::{AnyQuestion, LONGEST_LINE_PX, Room};
 use super::trial::Work;
 use crate::convention::{
     Ask, AskLine, Declarations, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
@@ -117,6 +117,8 @@ impl<'a> Triangles<'a> {
             side: [width, height].map(i64::from),
             grain: grain.into(),
             most: i64::from(known.range_px.clamp(1, 1 << 20)) * 256,
+            longest: LONGEST_LINE_PX,
+            is_far: false,
         };
         let sample = match expected.shape {
             Shape::Point { x, y }
@@ -246,6 +248,8 @@ impl<'a> Lines<'a> {
             side: [width, height].map(i64::from),
             grain: 1,
             most: known.range_px.clamp(1, 1 << 30).into(),
+            longest: LONGEST_LINE_PX,
+            is_far: false,
         };
         let mut conventions = vec![*expected];
         let mut rules = vec![String::new()];

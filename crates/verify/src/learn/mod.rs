@@ -275,6 +275,7 @@ impl<'a> Learner<'a> {
     fn ask_first(&mut self) -> Option<()> {
         let mut failing = self.drawer.failing();
         let room = self.drawer.room();
+        room.reach(&failing);
         failing.retain(|question| room.may_ask(question));
         self.ask(failing)?;
         while self.answered.len() < MOST_FIRST && self.left > 0 {

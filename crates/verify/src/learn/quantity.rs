@@ -133,7 +133,7 @@ fn of_line(q: &AnyQuestion, out: &mut Quantities) {
     out.number(Unit::Pixels, dx, &["dx"]);
     out.number(Unit::Pixels, dy, &["dy"]);
     out.number(Unit::Pixels, du - 2 * dv, &["the longer less twice the shorter of |dx| and |dy|"]);
-    out.number(Unit::Area, 131_072 * dx * dy, &["dx dy"]);
+    out.number(Unit::Area, dx.saturating_mul(dy).saturating_mul(131_072), &["dx dy"]);
     out.flag(is_steep, &["it is steep"], "it is not steep");
     out.flag(
         major < 0,

@@ -95,14 +95,26 @@ pub(super) struct Room {
     pub(super) grain: i64,
     /// The largest coordinate.
     pub(super) most: i64,
+    /// The longest line that is asked, and whether most long lines are: where such lines are known to be wrong.
+    pub(super) longest: i64,
+    pub(super) is_far: bool,
 }
 
 /// Most long lines reach less than this power of two.
 const MOST_LINES_REACH: u32 = 10;
 /// The longest line that is asked where no longer one is known to be wrong, so that products of its sides need more than 32 bits: some programs walk each of its pixels.
-const LONGEST_LINE_PX: i64 = 1 << 17;
+pub(super) const LONGEST_LINE_PX: i64 = 1 << 17;
 
 impl Room {
+    /// Reaches as far as some questions that are known to be wrong.
+    pub(super) fn reach(&mut self, failing: &[AnyQuestion]) {
+        let all = failing.iter().flat_map(|question| question.points.as_flattened());
+        let farthest = all.map(|v| v.abs()).max().unwrap_or(0);
+        self.most = self.most.max(farthest);
+        self.longest = self.longest.max(4 * farthest);
+        self.is_far = self.is_line && farthest >> MOST_LINES_REACH > 0;
+    }
+
     fn one(&self) -> i64 {
         if self.is_line { 1 } else { 256 }
     }
@@ -132,7 +144,8 @@ impl Room {
         };
         let mut question = AnyQuestion { points, side };
         if self.is_line {
-            let near = |v: i64| v.clamp(-LONGEST_LINE_PX / 2, LONGEST_LINE_PX / 2);
+            let longest = self.longest;
+            let near = |v: i64| v.clamp(-longest / 2, longest / 2);
             question.points.iter_mut().for_each(|point| *point = point.map(near));
         }
         self.fitted(question)
@@ -150,7 +163,7 @@ impl Room {
     fn far(&mut self, side: [i32; 2]) -> Vec<[i64; 2]> {
         let one = self.one();
         let mut most = (self.most / one / 2).max(32).ilog2();
-        if self.is_line && !self.rng.chance(8) {
+        if self.is_line && !self.is_far && !self.rng.chance(8) {
             most = most.min(MOST_LINES_REACH);
         }
         let reach = one << self.rng.int(5, most.into());

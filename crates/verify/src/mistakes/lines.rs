@@ -722,6 +722,11 @@ fn is_forward([a, b]: Ends) -> bool {
 /// Longer lines are not expected: their steps are walked one by one.
 const MOST_STEPS: i64 = 1 << 16;
 
+/// Whether a line is short enough that each mistake says what it draws.
+pub(super) fn is_walked([from, to]: Ends) -> bool {
+    (0..2).all(|axis| (to[axis] - from[axis]).abs() <= MOST_STEPS)
+}
+
 /// The ends, seen from the left one if that is asked; for upright ones from the upper.
 fn from_left(ends: Ends, left: bool) -> Ends {
     if left && ends[0] > ends[1] { [ends[1], ends[0]] } else { ends }

@@ -567,8 +567,9 @@ pub fn of_lines(
             }
             let answers = ask.ask_lines(questions);
             for (question, answer) in questions.iter().zip(answers) {
-                let right = lines::of_convention(expected, wide(question.ends), question.window);
-                let Some(right) = right else { continue };
+                let ends = wide(question.ends);
+                let right = lines::of_convention(expected, ends, question.window);
+                let Some(right) = right.filter(|_| lines::is_walked(ends)) else { continue };
                 given += u64::from(answer.is_some());
                 let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
                 answered.push(AnsweredQuestion { question: *question, drawn, twice, right });
