@@ -9,6 +9,7 @@ mod against;
 mod boards;
 mod book;
 mod by_hand;
+mod checkpoint;
 mod circles;
 mod commands;
 mod convention;
