@@ -392,7 +392,7 @@ const DIFFERENCES: [(Rgb<u8>, &str); 3] = [
 ];
 
 impl ProgramPicture {
-    /// Dark where both agree; else one of [`DIFFERENCES`].
+    /// Dark where both agree; else one of the colours of the differences.
     pub fn difference(&self) -> RgbImage {
         let ground = |image: &RgbImage, x, y| *image.get_pixel(x, y) == BACKGROUND;
         picture::painted(self.right.width(), self.right.height(), |x, y| {
