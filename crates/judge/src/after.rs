@@ -96,7 +96,7 @@ pub fn explain(
     Explained { failures, causes, left_out }
 }
 
-/// The questions of failing cases.
+/// The questions of the cases that are shown, whose answers are wrong.
 fn failing(failures: &[Failure]) -> Vec<Question> {
     let mut all = Vec::new();
     for failure in failures {

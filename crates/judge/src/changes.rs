@@ -163,6 +163,7 @@ fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
         faults.push("requests that it refuses".to_owned());
     }
     let mut is_explained = false;
+    let failing = baseline::failing_cases(found);
     for check in [Check::Coverage, Check::Line] {
         let of_it: Vec<&str> =
             rows().filter(|row| row.check == Some(check)).map(|row| row.name).collect();
@@ -172,7 +173,6 @@ fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
         is_explained = true;
         let wrong: Vec<Failing> =
             found.failing.iter().filter(|f| of_it.contains(&f.property)).cloned().collect();
-        let failing = baseline::failing_cases(found);
         let judged = found.judged.iter().filter(|(name, ..)| of_it.contains(name));
         let mut right = Vec::new();
         for &(property, family, index) in judged {

@@ -191,12 +191,7 @@ impl Drawer for Triangles<'_> {
     }
 
     fn failing(&self) -> Vec<AnyQuestion> {
-        let mut all = Vec::new();
-        for TriangleQuestion { corners, window } in self.ask.failing() {
-            let points = corners.map(|c| [c.x.into(), c.y.into()]).into();
-            all.push(AnyQuestion { points, side: [window.x1, window.y1] });
-        }
-        all
+        self.ask.failing().iter().map(AnyQuestion::from).collect()
     }
 
     fn most_to_learn(&self) -> usize {
@@ -307,12 +302,7 @@ impl Drawer for Lines<'_> {
     }
 
     fn failing(&self) -> Vec<AnyQuestion> {
-        let mut all = Vec::new();
-        for LineQuestion { ends, window } in self.ask.failing() {
-            let points = ends.map(|end| end.map(i64::from)).into();
-            all.push(AnyQuestion { points, side: [window.x1, window.y1] });
-        }
-        all
+        self.ask.failing().iter().map(AnyQuestion::from).collect()
     }
 
     fn most_to_learn(&self) -> usize {

@@ -51,8 +51,7 @@ pub(super) fn learn_triangles(
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
         let answer = |asked: &TriangleQuestion| {
-            let points = asked.corners.map(|c| [c.x.into(), c.y.into()]).into();
-            let q = AnyQuestion { points, side: [asked.window.x1, asked.window.y1] };
+            let q = AnyQuestion::from(asked);
             let picture = draw(&q, &right);
             let mut coverage = Coverage::new(asked.window, 0);
             for at in picture.pixels() {
@@ -126,8 +125,7 @@ pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> 
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
         let answer = |asked: &LineQuestion| {
-            let points = asked.ends.map(|end| end.map(i64::from)).into();
-            let q = AnyQuestion { points, side: [asked.window.x1, asked.window.y1] };
+            let q = AnyQuestion::from(asked);
             let picture = draw(&q, &right);
             Some(picture.pixels().filter(|at| picture.has(*at)).collect())
         };

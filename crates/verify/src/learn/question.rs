@@ -1,5 +1,6 @@
 //! Questions of either verb: what is asked first, beside another question, and at the border of a threshold.
 
+use crate::convention::{LineQuestion, TriangleQuestion};
 use rasterproof_core::geometry::greatest_divisor;
 use rasterproof_core::random::Rng;
 
@@ -82,6 +83,20 @@ impl AnyQuestion {
     pub(super) fn bulk(&self) -> i64 {
         let far = self.points.iter().flatten().map(|v| v.abs() / self.one()).sum::<i64>();
         far + i64::from(self.side[0]) + i64::from(self.side[1])
+    }
+}
+
+impl From<&TriangleQuestion> for AnyQuestion {
+    fn from(asked: &TriangleQuestion) -> Self {
+        let points = asked.corners.map(|c| [c.x.into(), c.y.into()]).into();
+        Self { points, side: [asked.window.x1, asked.window.y1] }
+    }
+}
+
+impl From<&LineQuestion> for AnyQuestion {
+    fn from(asked: &LineQuestion) -> Self {
+        let points = asked.ends.map(|end| end.map(i64::from)).into();
+        Self { points, side: [asked.window.x1, asked.window.y1] }
     }
 }
 

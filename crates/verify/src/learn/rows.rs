@@ -12,6 +12,7 @@ use super::rule::{self, Conjunction, Table, Terms, all_hold};
 use super::say;
 use super::trial::Work;
 use crate::cases::facts::{self, Topic};
+use crate::convention::TriangleQuestion;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
@@ -241,12 +242,11 @@ impl TriangleInWindow {
         window: PixelRect,
         covered: &mut dyn Iterator<Item = [i32; 2]>,
     ) -> Self {
-        let side = [window.x1, window.y1];
-        let points = corners.iter().map(|c| [c.x.into(), c.y.into()]).collect();
-        let mut picture = Picture::new(side);
+        let question = AnyQuestion::from(&TriangleQuestion { corners: *corners, window });
+        let mut picture = Picture::new(question.side);
         covered.for_each(|at| picture.set(at, 1));
         let shape = Arc::new(Shape::of(&picture));
-        Self { question: AnyQuestion { points, side }, covered: picture, shape }
+        Self { question, covered: picture, shape }
     }
 
     /// The quantities of the question.

@@ -328,30 +328,30 @@ impl Search<'_> {
             if is_line && ends != [true, false] {
                 continue;
             }
+            let seen: Vec<BordersAtEnds<'_, '_>> =
+                of_heights.iter().map(|of_ends| BordersAtEnds::of(of_ends, ends)).collect();
             // With each rounding of heights the best formula of one change, and from the best of these on.
-            let mut first: Vec<(f64, Crossing, usize)> = Vec::new();
-            for (number, of_ends) in of_heights.iter().enumerate() {
-                let [wrong, right] = wrong_and_right(of_ends, ends);
-                if wrong.len() < 2 * NEED {
+            let mut first = Vec::new();
+            for (number, seen) in seen.iter().enumerate() {
+                if seen.wrong.len() < 2 * NEED {
                     continue;
                 }
-                let ties = ties_of(&right, self.drawer.sample());
+                let ties = ties_of(&seen.right, self.drawer.sample());
                 let start = Crossing { ties, start: [None, heights[number]], ..Crossing::RIGHT };
-                let worth = |crossing: &Crossing| self.worth(crossing, &wrong, &right);
+                let worth = |crossing: &Crossing| self.worth(crossing, seen);
                 let best = start.neighbours().iter().map(worth).fold(worth(&start), f64::max);
-                first.push((best, start, number));
+                first.push(Climb { worth: best, crossing: start, number });
             }
-            first.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
-            let mut best: Vec<(f64, Crossing, usize)> = Vec::new();
-            for (_, start, number) in first.into_iter().take(GUARDED_FORMULAS) {
-                let [wrong, right] = wrong_and_right(&of_heights[number], ends);
-                let climbed = climbed(start, &|crossing| self.worth(crossing, &wrong, &right));
-                best.extend(climbed.into_iter().map(|(worth, c)| (worth, c, number)));
+            first.sort_by(Climb::highest_first);
+            let mut best = Vec::new();
+            for Climb { crossing: start, number, .. } in first.into_iter().take(GUARDED_FORMULAS) {
+                for (worth, crossing) in climbed(start, &|c| self.worth(c, &seen[number])) {
+                    best.push(Climb { worth, crossing, number });
+                }
             }
-            best.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
-            for (_, crossing, number) in best.into_iter().take(GUARDED_FORMULAS) {
-                let [wrong, right] = wrong_and_right(&of_heights[number], ends);
-                if let Some(border) = self.guarded_border(crossing, ends, &wrong, &right) {
+            best.sort_by(Climb::highest_first);
+            for Climb { crossing, number, .. } in best.into_iter().take(GUARDED_FORMULAS) {
+                if let Some(border) = self.guarded_border(crossing, ends, &seen[number]) {
                     let mut more = model.clone();
                     more.borders.push(border);
                     more.rows.heights = heights[number];
@@ -362,14 +362,9 @@ impl Search<'_> {
         all
     }
 
-    /// How many of some wrong borders a formula gives, as a part of them, less those of the right ones that it breaks.
-    fn worth(
-        &self,
-        crossing: &Crossing,
-        wrong: &[&BorderSeen<'_>],
-        right: &[&BorderSeen<'_>],
-    ) -> f64 {
-        let (wrong, right) = (spread(wrong, 120), spread(right, 60));
+    /// How many of some wrong borders a formula gives, less a part of the right ones that it breaks.
+    fn worth(&self, crossing: &Crossing, seen: &BordersAtEnds<'_, '_>) -> f64 {
+        let [wrong, right] = &seen.some;
         let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(crossing, self.drawer.sample());
         // Most formulas give none of a few.
         self.drawer.work().spend(BORDER * FEW_BORDERS);
@@ -388,9 +383,9 @@ impl Search<'_> {
         &self,
         crossing: Crossing,
         ends: [bool; 2],
-        wrong: &[&BorderSeen<'_>],
-        right: &[&BorderSeen<'_>],
+        seen: &BordersAtEnds<'_, '_>,
     ) -> Option<GuardedBorder> {
+        let BordersAtEnds { wrong, right, .. } = seen;
         let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(&crossing, self.drawer.sample());
         let mut table = Table::default();
         for seen in wrong.iter().filter(is_drawn) {
@@ -732,18 +727,39 @@ fn ties_of(right: &[&BorderSeen<'_>], sample: [i64; 2]) -> [Tie; 2] {
     })
 }
 
-/// The borders of some ends that a model predicts wrongly, and those that it predicts well.
-fn wrong_and_right<'a, 'b>(
-    of_ends: &'b [Vec<BorderSeen<'a>>; 2],
-    ends: [bool; 2],
-) -> [Vec<&'b BorderSeen<'a>>; 2] {
-    let mut all = [Vec::new(), Vec::new()];
-    for end in (0..2).filter(|end| ends[*end]) {
-        for seen in &of_ends[end] {
-            all[usize::from(seen.drawn == seen.predicted)].push(seen);
+/// The borders of some ends, with heights rounded in one way.
+struct BordersAtEnds<'a, 'b> {
+    /// Those that a model predicts wrongly, and those that it predicts well.
+    wrong: Vec<&'b BorderSeen<'a>>,
+    right: Vec<&'b BorderSeen<'a>>,
+    /// Some of both, which formulas are compared by.
+    some: [Vec<&'b BorderSeen<'a>>; 2],
+}
+
+impl<'a, 'b> BordersAtEnds<'a, 'b> {
+    fn of(of_ends: &'b [Vec<BorderSeen<'a>>; 2], ends: [bool; 2]) -> Self {
+        let (mut wrong, mut right) = (Vec::new(), Vec::new());
+        for end in (0..2).filter(|end| ends[*end]) {
+            for seen in &of_ends[end] {
+                if seen.drawn == seen.predicted { &mut right } else { &mut wrong }.push(seen);
+            }
         }
+        let some = [spread(&wrong, 120), spread(&right, 60)];
+        Self { wrong, right, some }
     }
-    all
+}
+
+/// A formula with its worth, and the number of the rounding of heights that it is for.
+struct Climb {
+    worth: f64,
+    crossing: Crossing,
+    number: usize,
+}
+
+impl Climb {
+    fn highest_first(a: &Self, b: &Self) -> std::cmp::Ordering {
+        b.worth.total_cmp(&a.worth)
+    }
 }
 
 /// Formulas of the largest worth: the best of one change, those of the best with another one, and so on while they get better.
