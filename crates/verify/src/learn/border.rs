@@ -74,6 +74,10 @@ pub(super) enum Slope {
     Float {
         bits: u32,
     },
+    /// A float of so many bits that is added row by row, or column by column.
+    Added {
+        bits: u32,
+    },
     /// It is as if the edge went straight.
     None,
     /// The other way.
@@ -123,6 +127,8 @@ pub(super) struct Crossing {
     pub(super) shift: i64,
     /// The multiple of so many 1/256 px that the result is rounded to.
     pub(super) sum: Option<(i64, Toward)>,
+    /// The multiple of so many pixels that the pixel is rounded to.
+    pub(super) group: Option<(i64, Toward)>,
     /// Of the first and of the last end of a row; a line has the first alone.
     pub(super) ties: [Tie; 2],
 }
@@ -141,6 +147,7 @@ impl Crossing {
         later: 0,
         shift: 0,
         sum: None,
+        group: None,
         ties: [Tie::Down; 2],
     };
 
@@ -162,6 +169,7 @@ impl Crossing {
             self.later != 0,
             self.shift != 0,
             self.sum.is_some(),
+            self.group.is_some(),
         ]
         .into_iter()
         .filter(|is_changed| *is_changed)
@@ -202,6 +210,12 @@ impl Crossing {
         with(&|c| c.later = right.later);
         with(&|c| c.shift = right.shift);
         with(&|c| c.sum = right.sum);
+        with(&|c| c.group = right.group);
+        for pixels in [2, 4, 8, 16] {
+            for toward in [Toward::Down, Toward::Up] {
+                with(&|c| c.group = Some((pixels, toward)));
+            }
+        }
         for from in [From::After, From::First, From::Second] {
             with(&|c| c.from = from);
         }
@@ -214,7 +228,8 @@ impl Crossing {
         for rise in [-2, -1, 1, 2] {
             with(&|c| c.rise = rise);
         }
-        let floats = [24, 53].map(|bits| Slope::Float { bits });
+        let floats =
+            [24, 53].into_iter().flat_map(|bits| [Slope::Float { bits }, Slope::Added { bits }]);
         for slope in [Slope::None, Slope::Reversed, Slope::Twice].into_iter().chain(floats) {
             with(&|c| c.slope = slope);
         }
@@ -275,18 +290,21 @@ pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
 }
 
 /// A number as a float of 24 or 53 bits.
-fn float(v: f64, bits: u32) -> f64 {
+pub(super) fn float(v: f64, bits: u32) -> f64 {
     if bits == 24 { f64::from(v as f32) } else { v }
 }
 
 /// Bits of fraction that a float's value is taken with: all that a number of at least 1/256 px has.
 const FRACTION: u32 = 60;
 
+/// Rows after which a slope is no longer added.
+const MOST_ADDED: i128 = 1 << 13;
+
 fn fraction_of(v: f64) -> i128 {
     (v * (1_u64 << FRACTION) as f64) as i128
 }
 
-fn wrap(v: i128, bits: u32) -> i128 {
+pub(super) fn wrap(v: i128, bits: u32) -> i128 {
     let half = 1 << (bits - 1);
     (v + half).rem_euclid(1 << bits) - half
 }
@@ -345,9 +363,10 @@ impl Site {
             Distance::Rows => 256 * (i128::from(self.place) - place),
             Distance::FromTop => at - i128::from(q.range(axis)[0] * one),
         } + i128::from(formula.later);
+        let mut first = place;
         if formula.from_window {
-            let seen = place.clamp(0, i128::from(q.side[axis]) - 1);
-            distance -= 256 * (seen - place);
+            first = place.clamp(0, i128::from(q.side[axis]) - 1);
+            distance -= 256 * (first - place);
         }
         let (num, den) = match formula.slope {
             Slope::Exact => (run * distance, rise),
@@ -360,6 +379,21 @@ impl Site {
                 let slope = float(px(run) / px(rise), bits);
                 let way = float(slope * px(distance), bits);
                 let sum = float(float(px(start[0]), bits) + way, bits);
+                (fraction_of(sum) - (start[0] << (FRACTION - 8)), 1 << (FRACTION - 8))
+            }
+            Slope::Added { bits } => {
+                let px = |v: i128| v as f64 / 256.0;
+                let slope = float(px(run) / px(rise), bits);
+                // From the first row on; what lies before it is one product.
+                let rows = i128::from(self.place) - first;
+                let way = distance - 256 * rows;
+                if !(0..=MOST_ADDED).contains(&rows) {
+                    return None;
+                }
+                let mut sum = float(float(px(start[0]), bits) + float(slope * px(way), bits), bits);
+                for _ in 0..rows {
+                    sum = float(sum + slope, bits);
+                }
                 (fraction_of(sum) - (start[0] << (FRACTION - 8)), 1 << (FRACTION - 8))
             }
             Slope::Word { bits, is_signed } => {
@@ -416,6 +450,10 @@ impl Site {
             (true, false) => (value - sample * den).div_euclid(256 * den) + 1,
             (false, _) => -(sample * den - value).div_euclid(256 * den),
         };
+        let pixel = formula.group.map_or(pixel, |(pixels, toward)| {
+            let pixels = i128::from(pixels);
+            round(pixel, pixels, toward) * pixels
+        });
         i64::try_from(pixel).ok()
     }
 

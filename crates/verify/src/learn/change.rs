@@ -5,8 +5,10 @@
 
 use super::border::{self, Toward};
 use super::drawer::{Drawer, LearnedAnswer};
+use super::edges::EdgeTest;
 use super::picture::Picture;
 use super::question::AnyQuestion;
+use super::walk::Walk;
 
 /// Which points are changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +31,8 @@ pub(super) enum How {
     AtMostSide(i64),
     /// Both of [`How::AtLeast`] 0 and [`How::AtMostSide`].
     IntoWindow(i64),
+    /// Not farther from the window than so many of its sides.
+    Around(i64),
     /// A word of so many bits, which may be signed.
     Wrap(u32, bool),
     /// Limited to a signed word of so many bits.
@@ -51,6 +55,11 @@ pub(super) enum Change {
         axes: [bool; 2],
         how: How,
     },
+    /// Each pixel has the answer of another one.
+    Read {
+        axes: [bool; 2],
+        how: How,
+    },
     /// Each pixel is written elsewhere.
     Write {
         axes: [bool; 2],
@@ -65,17 +74,48 @@ pub(super) enum Change {
         toward: Toward,
         all_sides: bool,
     },
+    /// The ends come to the borders of the window one after another, in whole numbers, as Cohen and Sutherland do: at each
+    /// step the end that lies beyond it, along the line between both ends as they are then.
+    Clip(Clip),
     /// All points become one, so that nothing is drawn.
     Nothing,
     /// The points come in the other order.
     Reverse,
 }
 
-/// The right picture of a question after some changes, by a rule.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// By what a changed question is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rule {
+    /// One of the conventions of a [`Drawer`]; the right one is number 0.
+    Convention(usize),
+    /// Of triangles.
+    Edges(EdgeTest),
+    /// Of lines.
+    Walk(Walk),
+}
+
+impl Rule {
+    pub(super) const RIGHT: Self = Self::Convention(0);
+}
+
+/// How a line is clipped, step by step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Clip {
+    /// The borders in the order in which they are looked at: left, right, upper, lower.
+    pub(super) order: [usize; 4],
+    /// Where the way along a border is rounded to.
+    pub(super) toward: Toward,
+    /// Whether the second end comes first where both lie beyond the window.
+    pub(super) last_first: bool,
+    /// Pixels between the last one of the window and its border.
+    pub(super) margin: i64,
+}
+
+/// The picture of a question after some changes, by a rule.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Base {
     pub(super) changes: Vec<Change>,
-    pub(super) rule: usize,
+    pub(super) rule: Rule,
 }
 
 /// A coordinate that no window has.
@@ -89,6 +129,7 @@ impl How {
             Self::AtLeast(least) => v.max(least),
             Self::AtMostSide(less) => v.min(side * one - less),
             Self::IntoWindow(less) => v.max(0).min(side * one - less),
+            Self::Around(sides) => v.clamp(-sides * side * one, (sides + 1) * side * one),
             Self::Wrap(bits, true) => {
                 let half = 1 << (bits - 1);
                 (v + half).rem_euclid(1 << bits) - half
@@ -113,8 +154,9 @@ impl Change {
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
             // It is the picture that changes.
-            Self::Write { .. } => {}
+            Self::Write { .. } | Self::Read { .. } => {}
             Self::Cut { points, toward, all_sides } => cut(q, points, toward, all_sides),
+            Self::Clip(clip) => clip.apply(q),
             Self::Move { points, axes, how } => {
                 let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
                 let first = q.points[0];
@@ -169,27 +211,98 @@ fn cut(q: &mut AnyQuestion, points: Points, toward: Toward, all_sides: bool) {
     }
 }
 
+impl Clip {
+    fn apply(&self, q: &mut AnyQuestion) {
+        let most = q.side.map(|side| i64::from(side) - 1 + self.margin);
+        // Which borders an end lies beyond, in order.
+        let beyond = |p: [i64; 2]| {
+            self.order.map(|border| match border {
+                0 => p[0] < 0,
+                1 => p[0] > most[0],
+                2 => p[1] < 0,
+                _ => p[1] > most[1],
+            })
+        };
+        // Each end crosses each border once at most, but for rounding.
+        for _ in 0..MOST_CUTS {
+            let of_ends = [beyond(q.points[0]), beyond(q.points[1])];
+            if (0..4).any(|i| of_ends[0][i] && of_ends[1][i]) {
+                return Change::Nothing.apply(q);
+            }
+            let turns = if self.last_first { [1, 0] } else { [0, 1] };
+            let Some(end) = turns.into_iter().find(|end| of_ends[*end].contains(&true)) else {
+                return;
+            };
+            let place = (0..4).find(|i| of_ends[end][*i]).unwrap_or(0);
+            let (axis, is_far) = (self.order[place] / 2, self.order[place] % 2 == 1);
+            let limit = if is_far { most[axis] } else { 0 };
+            let [a, b] = [q.points[0], q.points[1]];
+            let by = b[axis] - a[axis];
+            if by == 0 {
+                return;
+            }
+            let way = (b[1 - axis] - a[1 - axis]) * (limit - a[axis]);
+            let along = a[1 - axis] + border::round(way.into(), by.into(), self.toward) as i64;
+            q.points[end][axis] = limit;
+            q.points[end][1 - axis] = along;
+        }
+    }
+}
+
+/// Steps after which a line is as it is.
+const MOST_CUTS: usize = 8;
+
+/// Where a pixel is written to, or read from.
+fn elsewhere(at: [i32; 2], axes: [bool; 2], how: How, side: [i32; 2]) -> [i32; 2] {
+    [0, 1].map(|axis| match axes[axis] {
+        true => how.apply(at[axis].into(), side[axis].into(), 1, 0) as i32,
+        false => at[axis],
+    })
+}
+
+/// A picture whose pixels have the answers of others.
+fn read(before: &Picture, axes: [bool; 2], how: How) -> Picture {
+    let mut after = Picture::new(before.side);
+    for at in before.all() {
+        after.set(at, before.hits(elsewhere(at, axes, how, before.side)));
+    }
+    after
+}
+
 /// A picture whose pixels are written elsewhere: where two come together, the pixel is drawn twice.
 fn written(before: &Picture, axes: [bool; 2], how: How) -> Picture {
     let mut after = Picture::new(before.side);
     for at in before.pixels().filter(|at| before.has(*at)) {
-        let to = [0, 1].map(|axis| match axes[axis] {
-            true => how.apply(at[axis].into(), before.side[axis].into(), 1, 0) as i32,
-            false => at[axis],
-        });
+        let to = elsewhere(at, axes, how, before.side);
         after.set(to, (after.hits(to) + before.hits(at)).min(2));
     }
     after
 }
 
+/// Steps of [`super::trial::Work`] for a pixel that is held against three edges.
+pub(super) const EDGES_OF_A_PIXEL: usize = 4;
+
 impl Base {
     pub(super) fn draw(&self, question: &AnyQuestion, drawer: &dyn Drawer) -> Option<Picture> {
         let mut q = question.clone();
         self.changes.iter().for_each(|change| change.apply(&mut q));
-        let mut picture = drawer.right(&q, self.rule)?;
+        let mut picture = match &self.rule {
+            Rule::Convention(number) => drawer.right(&q, *number)?,
+            Rule::Edges(test) => {
+                drawer.work().spend(EDGES_OF_A_PIXEL * q.pixels());
+                test.draw(&q, drawer.sample(), &|rule| drawer.ties(rule))
+            }
+            Rule::Walk(walk) => {
+                let [width, height] = q.extent();
+                drawer.work().spend(q.pixels() / 8 + width.max(height) as usize / 4);
+                walk.draw(&q)?
+            }
+        };
         for change in &self.changes {
-            if let Change::Write { axes, how } = change {
-                picture = written(&picture, *axes, *how);
+            match change {
+                Change::Write { axes, how } => picture = written(&picture, *axes, *how),
+                Change::Read { axes, how } => picture = read(&picture, *axes, *how),
+                _ => {}
             }
         }
         Some(picture)
@@ -205,7 +318,12 @@ impl Base {
             Change::Move { points: Points::All, .. } | Change::Nothing => 1,
             _ => 2,
         });
-        moved.sum::<usize>() + usize::from(self.rule > 0)
+        let of_rule = match &self.rule {
+            Rule::Convention(number) => usize::from(*number > 0),
+            Rule::Edges(test) => test.changes(),
+            Rule::Walk(walk) => walk.changes(),
+        };
+        moved.sum::<usize>() + of_rule
     }
 }
 
@@ -222,6 +340,7 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
             .iter()
             .flat_map(|&less| [How::AtMostSide(less), How::IntoWindow(less), How::Mirror(less)]),
     );
+    hows.extend([1, 2].map(How::Around));
     let words = if is_line { 6..=16 } else { 11..=21 };
     for bits in words {
         hows.extend([How::Wrap(bits, true), How::Wrap(bits, false), How::Saturate(bits)]);
@@ -236,10 +355,12 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
     if !is_line {
         points.extend((0..3).map(Points::ByHeight));
     }
-    let mut bases: Vec<Base> = (1..rules).map(|rule| Base { rule, ..Base::default() }).collect();
+    let mut bases: Vec<Base> = (1..rules)
+        .map(|number| Base { changes: Vec::new(), rule: Rule::Convention(number) })
+        .collect();
     bases.extend(
         [Change::Nothing, Change::Exchange, Change::Reverse]
-            .map(|change| Base { changes: vec![change], rule: 0 }),
+            .map(|change| Base { changes: vec![change], rule: Rule::RIGHT }),
     );
     let ends = [Points::All, Points::Given(0), Points::Given(1)];
     for points in ends.into_iter().filter(|_| is_line) {
@@ -247,7 +368,19 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         for toward in [Down, Nearest, NearestDown, Up, Zero] {
             for all_sides in [true, false] {
                 let change = Change::Cut { points, toward, all_sides };
-                bases.push(Base { changes: vec![change], rule: 0 });
+                bases.push(Base { changes: vec![change], rule: Rule::RIGHT });
+            }
+        }
+    }
+    if is_line {
+        for order in ORDERS {
+            for toward in [Toward::Zero, Toward::Down, Toward::Nearest, Toward::HalfAway] {
+                for last_first in [false, true] {
+                    for margin in [0, 1] {
+                        let clip = Clip { order, toward, last_first, margin };
+                        bases.push(Base { changes: vec![Change::Clip(clip)], rule: Rule::RIGHT });
+                    }
+                }
             }
         }
     }
@@ -256,18 +389,34 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         .collect();
     places.extend([How::AtMostSide(2), How::Mirror(1), How::Mirror(0)]);
     places.extend([-2, -1, 1, 2].map(How::Add));
+    for how in (1..=4).map(|bits| How::Snap(1 << bits, Toward::Down)) {
+        let all = AXES.map(|axes| Change::Read { axes, how });
+        bases.extend(all.map(|change| Base { changes: vec![change], rule: Rule::RIGHT }));
+    }
     for how in places {
         let all = AXES.map(|axes| Change::Write { axes, how });
-        bases.extend(all.map(|change| Base { changes: vec![change], rule: 0 }));
+        bases.extend(all.map(|change| Base { changes: vec![change], rule: Rule::RIGHT }));
     }
     for &how in &hows {
         for &points in &points {
             let moved = AXES.map(|axes| Change::Move { points, axes, how });
-            bases.extend(moved.map(|change| Base { changes: vec![change], rule: 0 }));
+            bases.extend(moved.map(|change| Base { changes: vec![change], rule: Rule::RIGHT }));
         }
     }
     bases
 }
+
+/// Orders of borders that programs use: one axis after the other, and either border of each first.
+const ORDERS: [[usize; 4]; 8] = [
+    [0, 1, 2, 3],
+    [0, 1, 3, 2],
+    [1, 0, 2, 3],
+    [1, 0, 3, 2],
+    [2, 3, 0, 1],
+    [2, 3, 1, 0],
+    [3, 2, 0, 1],
+    [3, 2, 1, 0],
+];
 
 /// How near a base comes to some answers: those that it predicts, and the pixels that it misses, each answer's limited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -304,7 +453,7 @@ pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Dra
         let mut of_axes = Vec::new();
         for axes in AXES {
             let change = |v: i64| Change::Move { points: Points::All, axes, how: how(v) };
-            let base = |v: i64| Base { changes: vec![change(v)], rule: 0 };
+            let base = |v: i64| Base { changes: vec![change(v)], rule: Rule::RIGHT };
             let start = if how(0) == How::Scale(0) { 256 } else { 0 };
             if how(0) == How::Scale(0) && is_line {
                 continue;
@@ -321,7 +470,7 @@ pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Dra
         }
         // Each axis by its own number.
         if let [_, x, y] = of_axes[..] {
-            out.push(Base { changes: vec![x, y], rule: 0 });
+            out.push(Base { changes: vec![x, y], rule: Rule::RIGHT });
         }
     }
     out
@@ -333,7 +482,7 @@ fn limits(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec
     let base = |v: i64| {
         let how = How::Limit(v);
         let change = Change::Move { points: Points::All, axes: [true; 2], how };
-        Base { changes: vec![change], rule: 0 }
+        Base { changes: vec![change], rule: Rule::RIGHT }
     };
     let far = |a: &&&LearnedAnswer| a.question.points.iter().flatten().any(|v| v.abs() > 16 * one);
     let answers: Vec<&LearnedAnswer> = answers.iter().filter(far).take(COARSE).copied().collect();

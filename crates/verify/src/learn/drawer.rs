@@ -39,6 +39,8 @@ pub(super) trait Drawer {
     fn is_abandoned(&self) -> bool;
     /// What is said of each rule, after 'as'; empty for the right one.
     fn rules(&self) -> &[String];
+    /// Of a rule, for each direction that an edge faces, whether samples exactly on it are drawn.
+    fn ties(&self, rule: usize) -> [bool; 8];
     /// Where samples lie in their pixel, in subpixels.
     fn sample(&self) -> [i64; 2];
     fn room(&mut self) -> &mut Room;
@@ -206,6 +208,10 @@ impl Drawer for Triangles<'_> {
         &self.rules
     }
 
+    fn ties(&self, rule: usize) -> [bool; 8] {
+        self.conventions[rule].ties.edges
+    }
+
     fn sample(&self) -> [i64; 2] {
         self.sample
     }
@@ -315,6 +321,10 @@ impl Drawer for Lines<'_> {
 
     fn rules(&self) -> &[String] {
         &self.rules
+    }
+
+    fn ties(&self, _: usize) -> [bool; 8] {
+        [false; 8]
     }
 
     fn sample(&self) -> [i64; 2] {

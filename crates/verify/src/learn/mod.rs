@@ -13,6 +13,7 @@
 mod border;
 mod change;
 mod drawer;
+mod edges;
 mod known;
 mod model;
 mod picture;
@@ -25,6 +26,7 @@ mod rule;
 mod say;
 mod search;
 pub mod trial;
+mod walk;
 
 use std::cell::OnceCell;
 

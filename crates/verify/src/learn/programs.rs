@@ -223,7 +223,7 @@ const TRIANGLES: [(&str, Draw); 18] = [
     }),
 ];
 
-const LINES: [(&str, Draw); 7] = [
+const LINES: [(&str, Draw); 10] = [
     ("the last pixel", |q, right| keep(q, right, &|_, at| at.map(i64::from) != q.points[1])),
     ("the last pixel of diagonals", |q, right| {
         let [dx, dy] = q.side_of(0, 1);
@@ -241,6 +241,50 @@ const LINES: [(&str, Draw); 7] = [
         let mut other = q.clone();
         other.points[1][axis] = q.points[0][axis] + side[axis].signum() * (side[axis].abs() & 31);
         right(&other, 0)
+    }),
+    ("the error begins with half of the shorter side", |q, _| {
+        let (mut picture, side) = (Picture::new(q.side), q.side_of(0, 1));
+        let longer = usize::from(side[1].abs() > side[0].abs());
+        let (du, dv) = (side[longer].abs(), side[1 - longer].abs());
+        let (mut at, mut error) = (q.points[0], dv / 2);
+        for _ in 0..=du {
+            picture.set(at.map(|v| v.clamp(-100, 10_000) as i32), 1);
+            error -= dv;
+            if error < 0 {
+                at[1 - longer] += side[1 - longer].signum();
+                error += du;
+            }
+            at[longer] += side[longer].signum();
+        }
+        picture
+    }),
+    ("Cohen and Sutherland in whole numbers", |q, right| {
+        let mut other = q.clone();
+        let most = q.side.map(|side| i64::from(side) - 1);
+        let code = |p: [i64; 2]| [p[0] < 0, p[0] > most[0], p[1] < 0, p[1] > most[1]];
+        loop {
+            let [a, b] = [other.points[0], other.points[1]];
+            let codes = [code(a), code(b)];
+            if (0..4).any(|i| codes[0][i] && codes[1][i]) {
+                return empty(q);
+            }
+            let Some(end) = (0..2).find(|end| codes[*end].contains(&true)) else { break };
+            // The lower border first, then the upper, the right and the left one.
+            let Some(border) = [3, 2, 1, 0].into_iter().find(|i| codes[end][*i]) else { break };
+            let (axis, limit) = (border / 2, if border % 2 == 1 { most[border / 2] } else { 0 });
+            let way = (b[1 - axis] - a[1 - axis]) * (limit - a[axis]) / (b[axis] - a[axis]);
+            other.points[end][axis] = limit;
+            other.points[end][1 - axis] = a[1 - axis] + way;
+        }
+        right(&other, 0)
+    }),
+    ("the two pixels in the middle", |q, right| {
+        let side = q.side_of(0, 1).map(i64::abs);
+        let axis = usize::from(side[1] > side[0]);
+        keep(q, right, &|_, at| {
+            let [from, to] = [0, 1].map(|end| (i64::from(at[axis]) - q.points[end][axis]).abs());
+            (from - to).abs() != 1
+        })
     }),
     ("lines that leave the window are not drawn", |q, right| {
         let is_in = |end: &[i64; 2]| (0..2).all(|i| (0..i64::from(q.side[i])).contains(&end[i]));
@@ -353,6 +397,64 @@ const WALKS: [(&str, Draw); 5] = [
         })
     }),
 ];
+
+/// A fill in the box of the corners: of each edge, `is_inside` gets its number, its edge function, positive inside, and whether
+/// samples on it belong to the triangle.
+fn by_edges(
+    q: &AnyQuestion,
+    product: &dyn Fn(i64, i64) -> i64,
+    is_inside: &dyn Fn(usize, i64, bool) -> bool,
+) -> Picture {
+    let turn = q.twice_area().signum();
+    let mut picture = Picture::new(q.side);
+    let box_of = [0, 1].map(|axis| q.range(axis).map(|v| v.div_euclid(256)));
+    for at in picture.pixels().filter(|_| turn != 0) {
+        let is_in_box = (0..2).all(|i| (box_of[i][0]..=box_of[i][1]).contains(&i64::from(at[i])));
+        let [px, py] = at.map(|v| i64::from(v) * 256 + 128);
+        let holds = (0..3).all(|i| {
+            let ([ax, ay], [dx, dy]) = (q.points[i], q.side_of(i, (i + 1) % 3));
+            let value = turn * (product(dx, py - ay) - product(dy, px - ax));
+            is_inside(i, value, turn * dy < 0 || dy == 0 && turn * dx > 0)
+        });
+        picture.set(at, u8::from(is_in_box && holds));
+    }
+    picture
+}
+
+/// Fills by edge functions, whose arithmetic is that of some library.
+const BY_EDGES: [(&str, Draw); 4] = [
+    ("products of 32 bits, where coordinates have 8 bits of fraction", |q, _| {
+        by_edges(q, &|a, b| i64::from((a * b) as i32), &|_, e, owns| e > 0 || e == 0 && owns)
+    }),
+    ("samples must lie 1/64 px² inside", |q, _| by_edges(q, &|a, b| a * b, &|_, e, _| e >= 1024)),
+    ("the third edge is not looked at", |q, _| {
+        by_edges(q, &|a, b| a * b, &|i, e, owns| i == 2 || e > 0 || e == 0 && owns)
+    }),
+    ("weights in floats of 32 bits, the third of which is the rest", |q, _| {
+        let px = |p: [i64; 2]| p.map(|v| v as f32 / 256.0);
+        let corners: Vec<[f32; 2]> = q.points.iter().map(|p| px(*p)).collect();
+        let cross = |a: [f32; 2], b: [f32; 2], p: [f32; 2]| {
+            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+        };
+        let area = cross(corners[0], corners[1], corners[2]);
+        let mut picture = Picture::new(q.side);
+        for at in picture.pixels().filter(|_| q.twice_area() != 0) {
+            let p = at.map(|v| v as f32 + 0.5);
+            let [u, v] = [1, 2].map(|i| cross(corners[i], corners[(i + 1) % 3], p) / area);
+            picture.set(at, u8::from(u >= 0.0 && v >= 0.0 && 1.0 - u - v >= 0.0));
+        }
+        picture
+    }),
+];
+
+/// Fills by edge functions are explained to the pixel.
+#[test]
+fn edge_tests_are_explained() {
+    let learned = BY_EDGES.map(|(name, draw)| (name, learn_triangles(&draw)));
+    assert_eq!(not_certain(learned), NO_NAMES);
+}
+
+const NO_NAMES: [&str; 0] = [];
 
 /// Fills row by row are explained to the pixel.
 #[test]

@@ -187,6 +187,13 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
         &["the smallest |dx|/|dy| of its edges"],
     );
     for axis in [0, 1] {
+        let [least, most] = q.range(axis);
+        let spanned = most.div_euclid(256) + (-least).div_euclid(256) + 1;
+        let noun =
+            ["the number of borders of pixels from its smallest to its largest ", AXES[axis]];
+        out.number(Unit::Involved, spanned, &noun);
+    }
+    for axis in [0, 1] {
         let of = |a: usize, b: usize| q.points[a][axis] == q.points[b][axis];
         let straight = EDGES.iter().any(|[a, b]| of(*a, *b));
         let word = ["an upright", "a level"][axis];
@@ -532,6 +539,12 @@ impl<'a> Scene<'a> {
             (to[1 - axis] - at[1 - axis]).abs(),
             &["the number of side steps to the last end"],
         );
+        let ways = [from, to].map(|end| (at[axis] - end[axis]).abs());
+        out.number(
+            Unit::Count,
+            (ways[0] - ways[1]).abs(),
+            &["twice the number of steps from the middle of the line"],
+        );
         let off = (at[1] - from[1]) * dx - (at[0] - from[0]) * dy;
         let du = dx.abs().max(dy.abs());
         let is_tie = du > 0 && 2 * off.abs() == du;
@@ -623,6 +636,26 @@ impl<'a> Scene<'a> {
                 x - cx.div_euclid(256),
                 &["the number of columns from the column that holds the ", word, " corner"],
             );
+        }
+        // A loop by groups of pixels over the box of the corners may end with the last whole one.
+        let [least, most] = q.range(0);
+        let after = |v: i64| -(self.sample[0] - v).div_euclid(256);
+        let boxes = [
+            ([least.div_euclid(256), most.div_euclid(256) + 1], "its box"),
+            ([after(least), after(most)], "the samples in its box"),
+        ];
+        for ([first, end], of_box) in boxes {
+            let first = first.max(0);
+            let columns = end.min(q.side[0].into()) - first;
+            for (of, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
+                let noun = [
+                    "the number of columns after the last whole group of ",
+                    word,
+                    " columns of ",
+                    of_box,
+                ];
+                out.number(Unit::Involved, x - first - columns.div_euclid(of) * of, &noun);
+            }
         }
         let middle = q.points[order[1]][1] - self.sample[1];
         let start = -(-middle).div_euclid(256);

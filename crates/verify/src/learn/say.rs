@@ -1,12 +1,14 @@
 //! What is said of a model, in words.
 
 use super::border::{Crossing, Distance, From, Product, Slope, Tie, Toward};
-use super::change::{Change, How, Points};
+use super::change::{Change, How, Points, Rule};
 use super::drawer::Drawer;
+use super::edges::{Cut, EdgeTest, Form, Word};
 use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::quantity::{Name, RATIO};
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
+use super::walk::{Method, Walk};
 
 /// A number of a quantity, in px or px² where it is one.
 pub(super) fn number(unit: Unit, v: i64) -> String {
@@ -143,9 +145,17 @@ fn base(
     vocabulary: &Vocabulary,
 ) -> String {
     let parts: Vec<String> = guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
-    let rule = &drawer.rules()[guarded.base.rule];
+    let rule = match &guarded.base.rule {
+        Rule::Convention(number) => drawer.rules()[*number].clone(),
+        Rule::Edges(_) | Rule::Walk(_) => String::new(),
+    };
     let is_nothing = guarded.base.is_nothing();
-    let parts = if is_nothing { Vec::new() } else { parts };
+    let mut parts = if is_nothing { Vec::new() } else { parts };
+    match &guarded.base.rule {
+        Rule::Convention(_) => {}
+        Rule::Edges(test) => parts.extend(tested(test, drawer)),
+        Rule::Walk(walk) => parts.extend(walked(walk)),
+    }
     let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
     if !rule.is_empty() {
         how += &format!(" {rule}");
@@ -160,6 +170,185 @@ fn base(
         (None, false) => format!("It {how}."),
         (None, true) => format!("Elsewhere, it {how}."),
     }
+}
+
+/// A sum of some numbers with their units, such as '2 dv - du'.
+fn sum(parts: [(i64, &str); 3]) -> String {
+    let mut said = String::new();
+    for (number, unit) in parts.into_iter().filter(|(number, _)| *number != 0) {
+        let sign = match (number < 0, said.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        let size = match number.abs() {
+            1 if !unit.is_empty() => unit.trim_start().to_owned(),
+            size => format!("{size}{unit}"),
+        };
+        said += &format!("{sign}{size}");
+    }
+    if said.is_empty() { "0".to_owned() } else { said }
+}
+
+/// How a line is walked.
+fn walked(walk: &Walk) -> Vec<String> {
+    let mut said = Vec::new();
+    let right = Walk::RIGHT;
+    match (walk.method, right.method) {
+        (Method::Error(error), Method::Error(right)) => {
+            if error.start != right.start || error.is_halved {
+                let half =
+                    if error.is_halved { ", half of an odd number rounded down" } else { "" };
+                said.push(format!(
+                    "the error term began at {}{half}, not at 2 dv - du (du is the length, dv the side way)",
+                    sum([(error.start[1], " dv"), (error.start[0], " du"), (error.start[2], "")])
+                ));
+            }
+            if error.gain != right.gain {
+                let by = sum([(error.gain[0], " dv"), (error.gain[1], ""), (0, "")]);
+                said.push(format!("the error term grew at each step by {by}, not by 2 dv"));
+            }
+            if error.loss != right.loss {
+                let by = sum([(error.loss[0], " du"), (error.loss[1], ""), (0, "")]);
+                said.push(format!("the error term shrank at each side step by {by}, not by 2 du"));
+            }
+            if said.is_empty() {
+                said.push("an error term were added up".to_owned());
+            }
+            said.push(match error.is_enough {
+                [true, true] => "a tie went on, seen from its start".to_owned(),
+                [false, false] => "a tie went back, seen from its start".to_owned(),
+                [is_on, _] => {
+                    let way = if is_on { "on" } else { "back" };
+                    format!("a tie went {way}, seen from its left or upper end")
+                }
+            });
+        }
+        (Method::BothAxes { equal, is_fresh, start }, _) => {
+            said.push("one error term decided the steps along both axes".to_owned());
+            let [of_x, of_y] = equal.map(|is| if is { "taken" } else { "not taken" });
+            said.push(format!(
+                "where twice the term equals its limit, a step in x were {of_x} and one in y {of_y}"
+            ));
+            if is_fresh {
+                said.push("the term were doubled anew after a step in x".to_owned());
+            }
+            if start != [1, -1] {
+                let [dx, dy] = start;
+                said.push(format!(
+                    "the term began with {dx} |dx| {dy:+} |dy|, where it should be 1 and -1"
+                ));
+            }
+        }
+        (Method::Added { bits, toward: way }, _) => {
+            said.push(format!("its coordinates were added up in floats of {bits} bits"));
+            said.push(format!("each pixel were rounded {}", toward(way)));
+        }
+        (Method::Error(_), _) => {}
+    }
+    if let Some(bits) = walk.bits {
+        said.push(format!("the error term were in a signed word of {bits} bits"));
+    }
+    said.push(match walk.from {
+        From::Before => "it began at its left or upper end".to_owned(),
+        From::After => "it began at its right or lower end".to_owned(),
+        From::First => "it began at its first end".to_owned(),
+        From::Second => "it began at its last end".to_owned(),
+    });
+    said
+}
+
+const ORDINALS: [&str; 3] = ["first", "second", "third"];
+
+/// What is not as it should be where a sample is held against the edges.
+fn tested(test: &EdgeTest, drawer: &dyn Drawer) -> Vec<String> {
+    let mut said = Vec::new();
+    let form = match test.form {
+        Form::FromEnd(0) if test.float.is_none() => "",
+        Form::FromEnd(0) => {
+            "a pixel were tested by the cross product of each edge with the way from its first end"
+        }
+        Form::FromEnd(_) => {
+            "a pixel were tested by the cross product of each edge with the way from its second end"
+        }
+        Form::Plane => "a pixel were tested by a x + b y + c of each edge",
+        Form::Stepped => {
+            "a pixel were tested by edge functions that are added up from the first pixel of the box"
+        }
+        Form::Weights(_) => {
+            "a pixel were tested by two weights (products over the area) and what they leave of 1"
+        }
+        Form::Dots => "a pixel were tested by weights from dot products",
+        Form::Areas => {
+            "a pixel were tested by the areas of the three triangles that it makes with the corners, compared with the whole"
+        }
+    };
+    if !form.is_empty() {
+        said.push(form.to_owned());
+    }
+    // Products of coordinates are in 1/65536 px².
+    let area = |bits: u32| format!("{} px²", f64::from(2).powi(bits as i32 - 16));
+    if let Some(bits) = test.float {
+        said.push(format!("its numbers were floats of {bits} bits"));
+    }
+    match test.word {
+        None => {}
+        Some(Word::Differences(bits)) => {
+            let most = f64::from(2).powi(bits as i32 - 9);
+            said.push(format!(
+                "differences of coordinates were in words from -{most} to {most} px"
+            ));
+        }
+        Some(Word::Products(bits)) => {
+            let most = area(bits - 1);
+            said.push(format!("products of coordinates were in words from -{most} to {most}"));
+        }
+        Some(Word::Sums(bits)) => {
+            let most = area(bits - 1);
+            said.push(format!("edge functions were in words from -{most} to {most}"));
+        }
+    }
+    match test.cut {
+        None => {}
+        Some(Cut::Products(bits, way)) => said.push(format!(
+            "products of coordinates were rounded {}, to multiples of {}",
+            toward(way),
+            area(bits)
+        )),
+        Some(Cut::Sums(bits, way)) => said.push(format!(
+            "edge functions were rounded {}, to multiples of {}, before the fill rule",
+            toward(way),
+            area(bits)
+        )),
+    }
+    if test.ties > 0 {
+        said.push(format!("a sample on an edge were decided {}", drawer.rules()[test.ties]));
+    }
+    if let Some(edge) = test.odd_tie {
+        said.push(format!("one on the {} edge the other way", ORDINALS[edge]));
+    }
+    if test.slack != 0.0 {
+        let unit = match test.form {
+            Form::Weights(_) | Form::Dots => "",
+            _ => " px²",
+        };
+        said.push(format!("a number had to be at least {}{unit}", -test.slack));
+    }
+    if let Some(edge) = test.untested {
+        said.push(format!("the {} edge were not tested", ORDINALS[edge]));
+    }
+    if let Some([a, b]) = test.exchanges {
+        let (a, b) = (ORDINALS[a], ORDINALS[b]);
+        said.push(format!("of counterclockwise ones the {a} and the {b} corner changed places"));
+    }
+    if test.turns_by_area {
+        said.push("the winding came from the area, computed likewise".to_owned());
+    }
+    if test.looks_beyond {
+        said.push("pixels beyond the box of the corners were looked at".to_owned());
+    }
+    said
 }
 
 /// Where one of some conjunctions holds.
@@ -237,6 +426,11 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
         Slope::Float { bits } => {
             said.push(format!("the slope of {edge} and its place were floats of {bits} bits"));
         }
+        Slope::Added { bits } => {
+            said.push(format!(
+                "the slope of {edge} were added up row by row in floats of {bits} bits"
+            ));
+        }
         Slope::Word { bits, is_signed } => {
             let kind = if is_signed { "a signed" } else { "an unsigned" };
             said.push(format!("the shorter side of {edge} were in {kind} word of {bits} bits"));
@@ -284,6 +478,9 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     if let Some((step, way)) = crossing.sum {
         let multiple = multiple(step, 256.0);
         said.push(format!("the result were rounded {}, to multiples of {multiple}", toward(way)));
+    }
+    if let Some((pixels, way)) = crossing.group {
+        said.push(format!("its pixel were rounded {}, to multiples of {pixels}", toward(way)));
     }
     let has_formula = crossing.changes() > 0;
     let both = if ends == [true, true] && crossing.ties[0] != crossing.ties[1] {
@@ -344,6 +541,15 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Nothing => return "nothing were given".to_owned(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Reverse => return "its ends were exchanged".to_owned(),
+        Change::Read { axes, how } => {
+            let axis = match axes {
+                [true, true] => "the column and the row",
+                [true, false] => "the column",
+                _ => "the row",
+            };
+            let how = transformed(*how, 1.0);
+            return format!("each pixel had the answer of the one whose place is {axis}, {how}");
+        }
         Change::Write { axes, how } => {
             let axis = match axes {
                 [true, true] => "the column and the row of each pixel were",
@@ -364,6 +570,17 @@ fn change(change: &Change, is_line: bool) -> String {
                 "{of}{beyond}, was replaced by the point where the line enters the window, {rounded}"
             );
         }
+        Change::Clip(clip) => {
+            let names = ["left", "right", "upper", "lower"];
+            let borders = clip.order.map(|border| names[border]).join(", ");
+            let way = toward(clip.toward);
+            let end = ["first", "last"][usize::from(clip.last_first)];
+            let margin = ["", ", which lie one pixel after its last"][usize::from(clip.margin > 0)];
+            return format!(
+                "the line was clipped in whole numbers at the borders of the window{margin}, in the order {borders}, the {end} \
+                 end first, each new end rounded {way} and the next one computed from it"
+            );
+        }
         Change::Move { points, axes, how } => (points, axes, how),
     };
     let axis = match axes {
@@ -374,7 +591,7 @@ fn change(change: &Change, is_line: bool) -> String {
     let point = if is_line { "end" } else { "corner" };
     let of = match points {
         Points::All => format!("of every {point}"),
-        Points::Given(i) => format!("of the {} {point}", ["first", "second", "third"][*i]),
+        Points::Given(i) => format!("of the {} {point}", ORDINALS[*i]),
         Points::ByHeight(i) => format!("of the {} {point}", ["top", "middle", "bottom"][*i]),
     };
     let verb = if axes == &[true, true] { "were" } else { "was" };
@@ -398,6 +615,11 @@ fn transformed(how: How, one: f64) -> String {
             "clamped to the range from 0 to the side of the window{}",
             lessened(&px(less), less)
         ),
+        How::Around(sides) => {
+            let band =
+                if sides == 1 { "the side of the window".into() } else { format!("{sides} sides") };
+            format!("clamped to a guard band as wide as {band} around the window")
+        }
         How::Wrap(bits, true) => {
             format!("wrapped into the range from -{} to {}", power(bits - 1), power(bits - 1))
         }

@@ -1,13 +1,15 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
 use super::border::{self, Crossing, RowRule, Site, Tie, Toward};
-use super::change::{self, Base, Nearness};
+use super::change::{self, Base, EDGES_OF_A_PIXEL, Nearness, Rule};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
+use super::edges::EdgeTest;
 use super::model::{ALL_OF_A_PIXEL, GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Name, Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
+use super::walk::Walk;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
@@ -108,7 +110,11 @@ impl Search<'_> {
         if let Some(model) = changed.filter(|_| may_go_on(&tried)) {
             tried.push(self.tried(self.with_steps(&model, 2, 1)));
         }
-        // A long model may be a formula in other words.
+        // Long models may be a formula in other words.
+        if may_go_on(&tried) || best(&tried).model.cost() > 5 {
+            self.test_edges(&mut tried);
+            self.walk_lines(&mut tried);
+        }
         if may_go_on(&tried) || best(&tried).model.cost() > 5 {
             self.move_borders(&mut tried);
         }
@@ -158,7 +164,7 @@ impl Search<'_> {
                 return best.filter(|_| missed.is_empty());
             }
             // The answers that are not predicted tell most apart; of the others none may be lost for them.
-            let mut variants: Vec<(usize, Model)> = variants(model)
+            let mut variants: Vec<(usize, Model)> = variants(model, self.drawer.rules().len())
                 .into_iter()
                 .map(|other| (count(&other, &missed), other))
                 .filter(|(more, _)| *more > 0)
@@ -230,7 +236,8 @@ impl Search<'_> {
         for (_, base) in ranked.iter().take(COMPOSED) {
             for other in &all {
                 let changes = base.changes.iter().chain(&other.changes).copied().collect();
-                bases.push(Base { changes, rule: base.rule.max(other.rule) });
+                let rule = if base.rule == Rule::RIGHT { other.rule } else { base.rule };
+                bases.push(Base { changes, rule });
             }
         }
         // Few answers tell which are worth a look at the others.
@@ -283,6 +290,92 @@ impl Search<'_> {
                 tried.extend(guarded.map(|model| self.tried(model)));
             }
         }
+    }
+
+    /// Other computations of whether a sample is inside.
+    fn test_edges(&self, tried: &mut Vec<Tried>) {
+        let pixels = self.pixels_seen();
+        if pixels[0].len() < 2 * NEED {
+            return;
+        }
+        let rules = self.drawer.rules().len();
+        let worth = |test: &EdgeTest| self.worth_of_test(test, &pixels);
+        let best = climbed(EdgeTest::RIGHT, &|test| test.variants(rules), &worth);
+        let base =
+            |(_, test): (f64, EdgeTest)| Base { changes: Vec::new(), rule: Rule::Edges(test) };
+        let answers = self.some(true, RANKED_BY);
+        let ranked = self.rank(best.into_iter().map(base).collect(), &answers, &Model::default());
+        self.guard_bases(&ranked, tried);
+    }
+
+    /// Other ways to walk along a line, from each method on.
+    fn walk_lines(&self, tried: &mut Vec<Tried>) {
+        let answers = self.some(true, RANKED_BY);
+        if answers.first().is_none_or(|a| !a.question.is_line()) {
+            return;
+        }
+        // Short lines tell as much, and are walked in less time.
+        let is_short = |a: &&LearnedAnswer| a.question.extent().iter().all(|v| *v < SHORT_LINE);
+        let short = |wrong: bool, most: usize| -> Vec<&LearnedAnswer> {
+            self.some(wrong, 2 * most).into_iter().filter(is_short).take(most).collect()
+        };
+        let (wrong, right) = (short(true, RANKED_BY), short(false, RANKED_BY / 2));
+        let base = |walk: &Walk| Base { changes: Vec::new(), rule: Rule::Walk(*walk) };
+        let worth = |walk: &Walk| {
+            let near = change::nearness(&base(walk), &wrong, self.drawer);
+            let kept = change::nearness(&base(walk), &right, self.drawer);
+            let exact = near.exact as f64 + 0.5 * kept.exact as f64;
+            exact + 0.002 * (near.pixels + kept.pixels) as f64 - 0.3 * walk.changes() as f64
+        };
+        let mut bases = Vec::new();
+        for start in [Walk::RIGHT, Walk::BOTH_AXES, Walk::ADDED] {
+            bases.push(base(&start));
+            bases
+                .extend(climbed(start, &Walk::variants, &worth).iter().map(|(_, walk)| base(walk)));
+        }
+        let ranked = self.rank(bases, &answers, &Model::default());
+        self.guard_bases(&ranked, tried);
+    }
+
+    /// Pixels that are drawn wrongly, and pixels beside an edge that are drawn well; of triangles.
+    fn pixels_seen(&self) -> [Vec<PixelSeen<'_>>; 2] {
+        let mut all = [Vec::new(), Vec::new()];
+        let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
+        for a in some.into_iter().flatten().filter(|a| !a.question.is_line()) {
+            let is_wrong = |at: &[i32; 2]| a.drawn.has(*at) != a.right.has(*at);
+            let is_at_edge = |at: &[i32; 2]| {
+                let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]];
+                beside.iter().any(|[x, y]| a.drawn.has([at[0] + x, at[1] + y]) != a.drawn.has(*at))
+            };
+            let (wrong, right): (Vec<_>, Vec<_>) =
+                a.drawn.pixels().filter(|at| is_wrong(at) || is_at_edge(at)).partition(is_wrong);
+            for (kind, pixels) in [wrong, right].into_iter().enumerate() {
+                let step = pixels.len().div_ceil(MOST_SEEN).max(1);
+                let seen = pixels.into_iter().step_by(step);
+                all[kind].extend(seen.map(|at| PixelSeen { answer: a, at }));
+            }
+        }
+        all
+    }
+
+    /// How many of some wrong pixels a test draws as they are, less a part of the right ones that it breaks.
+    fn worth_of_test(&self, test: &EdgeTest, [wrong, right]: &[Vec<PixelSeen<'_>>; 2]) -> f64 {
+        let sample = self.drawer.sample();
+        let owned = self.drawer.ties(test.ties);
+        let is_drawn = |seen: &&PixelSeen<'_>| {
+            let a = seen.answer;
+            test.draws(&a.question, seen.at, sample, owned) == a.drawn.has(seen.at)
+        };
+        // Most tests give none of a few.
+        self.drawer.work().spend(EDGES_OF_A_PIXEL * FEW_BORDERS);
+        let step = wrong.len().div_ceil(FEW_BORDERS).max(1);
+        if !wrong.iter().step_by(step).any(|seen| is_drawn(&seen)) {
+            return f64::MIN;
+        }
+        self.drawer.work().spend(EDGES_OF_A_PIXEL * (wrong.len() + right.len()));
+        let drawn = wrong.iter().filter(is_drawn).count() as f64;
+        let broken = right.iter().filter(|seen| !is_drawn(seen)).count() as f64;
+        drawn - 0.2 * broken - 0.3 * test.changes() as f64
     }
 
     /// Formulas of borders, one after another, and then pixel rules.
@@ -345,7 +438,9 @@ impl Search<'_> {
             first.sort_by(Climb::highest_first);
             let mut best = Vec::new();
             for Climb { crossing: start, number, .. } in first.into_iter().take(GUARDED_FORMULAS) {
-                for (worth, crossing) in climbed(start, &|c| self.worth(c, &seen[number])) {
+                for (worth, crossing) in
+                    climbed(start, &Crossing::neighbours, &|c| self.worth(c, &seen[number]))
+                {
                     best.push(Climb { worth, crossing, number });
                 }
             }
@@ -710,6 +805,18 @@ fn row_is_empty(site: &Site, picture: &Picture) -> bool {
     !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
 }
 
+/// A pixel of an answer.
+struct PixelSeen<'a> {
+    answer: &'a LearnedAnswer,
+    at: [i32; 2],
+}
+
+/// Lines by which walks are compared are shorter than this.
+const SHORT_LINE: i64 = 512;
+
+/// Pixels of an answer that tests are compared by, of wrong and of right ones.
+const MOST_SEEN: usize = 4;
+
 /// So many of some borders, evenly spread.
 fn spread<'a, 'b>(all: &[&'b BorderSeen<'a>], most: usize) -> Vec<&'b BorderSeen<'a>> {
     all.iter().step_by(all.len().div_ceil(most).max(1)).copied().collect()
@@ -763,15 +870,19 @@ impl Climb {
 }
 
 /// Formulas of the largest worth: the best of one change, those of the best with another one, and so on while they get better.
-fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<(f64, Crossing)> {
-    let mut best: Vec<(f64, Crossing)> = vec![(worth(&start), start)];
+fn climbed<F: Copy + PartialEq>(
+    start: F,
+    neighbours: &dyn Fn(&F) -> Vec<F>,
+    worth: &dyn Fn(&F) -> f64,
+) -> Vec<(f64, F)> {
+    let mut best: Vec<(f64, F)> = vec![(worth(&start), start)];
     // Of these the neighbours were looked at.
-    let mut done: Vec<Crossing> = Vec::new();
+    let mut done: Vec<F> = Vec::new();
     for wanted in FORMULAS {
         let mut more = Vec::new();
         for (_, formula) in &best {
             if !done.contains(formula) {
-                more.extend(formula.neighbours());
+                more.extend(neighbours(formula));
                 done.push(*formula);
             }
         }
@@ -784,7 +895,7 @@ fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<(f64, Cross
             break;
         }
     }
-    best.retain(|(_, crossing)| *crossing != start);
+    best.retain(|(_, formula)| *formula != start);
     best.truncate(GUARDED_FORMULAS);
     best
 }
@@ -806,8 +917,20 @@ const MENDED_PART: usize = 8;
 const MENDED_KEPT: usize = 12;
 
 /// All models with another field in one formula of borders, or with another rule for rows.
-fn variants(model: &Model) -> Vec<Model> {
+fn variants(model: &Model, rules: usize) -> Vec<Model> {
     let mut all = Vec::new();
+    for (i, guarded) in model.chain.iter().enumerate() {
+        let others: Vec<Rule> = match &guarded.base.rule {
+            Rule::Convention(_) => continue,
+            Rule::Edges(test) => test.variants(rules).into_iter().map(Rule::Edges).collect(),
+            Rule::Walk(walk) => walk.variants().into_iter().map(Rule::Walk).collect(),
+        };
+        for rule in others {
+            let mut other = model.clone();
+            other.chain[i].base.rule = rule;
+            all.push(other);
+        }
+    }
     for (i, border) in model.borders.iter().enumerate() {
         for crossing in border.crossing.variants() {
             let mut other = model.clone();
