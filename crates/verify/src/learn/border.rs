@@ -101,7 +101,7 @@ pub(super) enum Product {
     Exact,
     /// A signed word of so many bits.
     Word(u32),
-    /// A multiple of so many 1/256 px.
+    /// A multiple of so many 1/65536 px.
     Rounded(i64, Toward),
 }
 
@@ -125,7 +125,7 @@ pub(super) struct Crossing {
     /// What is added to the distance and to the result.
     pub(super) later: i64,
     pub(super) shift: i64,
-    /// The multiple of so many 1/256 px that the result is rounded to.
+    /// The multiple of so many 1/65536 px that the result is rounded to.
     pub(super) sum: Option<(i64, Toward)>,
     /// The multiple of so many pixels that the pixel is rounded to.
     pub(super) group: Option<(i64, Toward)>,
@@ -254,7 +254,7 @@ impl Crossing {
         for bits in [16, 20, 24, 28, 31, 32] {
             with(&|c| c.product = Product::Word(bits));
         }
-        for step in [1, 4, 16, 64, 256] {
+        for step in (0..=8).map(|bits| 1 << (2 * bits)) {
             for toward in Toward::ALL {
                 with(&|c| c.product = Product::Rounded(step, toward));
                 with(&|c| c.sum = Some((step, toward)));
@@ -417,7 +417,7 @@ impl Site {
             }
             Product::Rounded(step, toward) => {
                 let step = i128::from(step);
-                (round(num, den * step, toward) * step, 1)
+                (round(256 * num, den * step, toward) * step, 256)
             }
         };
         let value = start[0] * den + num + i128::from(formula.shift) * den;
@@ -425,7 +425,7 @@ impl Site {
         let (value, den) = match formula.sum {
             Some((step, toward)) => {
                 let step = i128::from(step);
-                (round(value, den * step, toward) * step, 1)
+                (round(256 * value, den * step, toward) * step, 256)
             }
             None => (value, den),
         };

@@ -460,7 +460,7 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
         Product::Rounded(step, way) => said.push(format!(
             "slope times distance were rounded {}, to multiples of {}",
             toward(way),
-            multiple(step, 256.0)
+            multiple(step, 65536.0)
         )),
     }
     if crossing.later != 0 {
@@ -476,7 +476,7 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
         said.push(format!("the ends of {edge} had exchanged their {side} coordinates"));
     }
     if let Some((step, way)) = crossing.sum {
-        let multiple = multiple(step, 256.0);
+        let multiple = multiple(step, 65536.0);
         said.push(format!("the result were rounded {}, to multiples of {multiple}", toward(way)));
     }
     if let Some((pixels, way)) = crossing.group {

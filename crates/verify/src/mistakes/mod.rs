@@ -202,10 +202,19 @@ impl Mistakes {
             .in_short()
     }
 
-    /// With what is learned where no mistake of the tables explains it.
+    /// With what is learned where no mistake of the tables explains every answer. What was learned and predicts every answer is the
+    /// cause, and not a mistake that misses some.
     fn or_learned(self, learn: impl FnOnce() -> Option<Learned>) -> Self {
-        let learned = if self.is_known() { None } else { learn() };
-        self.with_learned(learned)
+        if self.causes.iter().any(|cause| cause.missed() == 0) {
+            return self;
+        }
+        let learned = learn();
+        let is_certain = learned.as_ref().is_some_and(|learned| learned.is_certain);
+        match (self.causes.is_empty(), is_certain) {
+            (false, false) => self,
+            (false, true) => Self { causes: Vec::new(), ..self }.with_learned(learned),
+            (true, _) => self.with_learned(learned),
+        }
     }
 
     /// With what was learned.
