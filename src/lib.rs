@@ -81,6 +81,34 @@ mod docs {
             $(#[doc = include_str!(concat!("../docs/", $file, ".md"))] struct $name;)*
         };
     }
+    macro_rules! samples {
+        ($($name:ident $file:literal)*) => {
+            $(#[doc = concat!("```\n", include_str!(concat!("../docs/code/", $file, ".rs")), "```")]
+            struct $name;)*
+        };
+    }
+    samples! {
+        SampleCh01 "ch01"
+        SampleCh02 "ch02"
+        SampleCh02EdgeFunctions "ch02-edge-functions"
+        SampleCh03 "ch03"
+        SampleCh04 "ch04"
+        SampleCh05 "ch05"
+        SampleCh06 "ch06"
+        SampleCh07 "ch07"
+        SampleCh08 "ch08"
+        SampleCh09 "ch09"
+        SampleCh10 "ch10"
+        SampleCh11 "ch11"
+        SampleConventions "conventions"
+        SampleCost "cost"
+        SampleEffects "effects"
+        SampleGames101 "games101"
+        SampleGpus "gpus"
+        SampleOffgrid "offgrid"
+        SampleProtocol "protocol"
+        SampleSysu "sysu"
+    }
     pages! {
         Chapter1 "ch01"
         Chapter2 "ch02"
@@ -97,29 +125,8 @@ mod docs {
         Chapter11 "ch11"
         Samples "samples"
         Textures "textures"
-        Chapter1Evidence "ch01-evidence"
-        Chapter2Evidence "ch02-evidence"
-        Chapter2EdgeFunctionsEvidence "ch02-edge-functions-evidence"
-        Chapter2ScanlineEvidence "ch02-scanline-evidence"
-        Chapter3Evidence "ch03-evidence"
-        Chapter4Evidence "ch04-evidence"
-        Chapter5Evidence "ch05-evidence"
-        Chapter6Evidence "ch06-evidence"
-        Chapter7Evidence "ch07-evidence"
-        Chapter8Evidence "ch08-evidence"
-        Chapter9Evidence "ch09-evidence"
-        Chapter10Evidence "ch10-evidence"
-        Chapter11Evidence "ch11-evidence"
-        Conventions "conventions"
         Effects "effects"
-        EffectsEvidence "effects-evidence"
-        Gpus "gpus"
-        Games101 "games101"
         Judge "judge"
-        Cost "cost"
-        OffGrid "offgrid"
-        Protocol "protocol"
-        Sysu "sysu"
         Tessellators "tessellators"
     }
 }

@@ -232,7 +232,7 @@ fn site_accessibility_faults_are_found() {
     let site = site();
     let Some(mut browser) = browser("axe-faults", &["--disable-gpu"]) else { return };
     browser.resize(360, 740);
-    let page = "en/ch01-evidence.html";
+    let page = "en/games101.html";
     let mut found = |fault: &str| -> Vec<String> {
         go(&mut browser, &site, page);
         browser.eval(fault);

@@ -419,7 +419,7 @@ fn designs_find_faults_early() {
         }
         for ((name, _), [families, design]) in programs.iter().zip(&found) {
             let is_later = match (families, design) {
-                (Some(families), Some(design)) => *design > 2 * families,
+                (Some(families), Some(design)) => *design > (2 * families).max(10),
                 (Some(_), None) => true,
                 (None, _) => false,
             };

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec4, Vec4};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -23,8 +23,7 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::target::Antialias;
-use rasterproof_render::scene::Shadows;
-use rasterproof_render::scene::{Item, Material, Scene, shapes};
+use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::differing;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
@@ -54,27 +53,6 @@ fn pays(name: &str, effect: Effect) -> Vec<f64> {
         wrong,
     ];
     counts.map(|count| count as f64).to_vec()
-}
-
-/// Pixels of the scene `shadows` that change when the map holds depths in 16, 24 and 32 bits instead of as exactly as a double has
-/// them; and the same with a speck so high above it that the map spans a thousand times the depth.
-fn shadow_bits() -> Vec<f64> {
-    let picture = |bits: u32, height: f64| {
-        let mut scene = still("shadows");
-        scene.shadows = Some(Shadows { bits, ..Shadows::default() });
-        if height > 0.0 {
-            let place = DVec3::new(0.0, 0.0, 5.0) + scene.light.towards * height;
-            let corners = [DVec3::ZERO, DVec3::X, DVec3::Z].map(|corner| place + corner * 1e-3);
-            let speck = shapes::triangle(corners, [DVec3::ONE; 3]);
-            scene.items.push(Item::new(speck, Material::default()));
-        }
-        drawn(&scene, Antialias::None, Effects::PLANNED).picture
-    };
-    let changed = |height: f64| {
-        let exact = picture(52, height);
-        [16, 24, 32].map(|bits| differing(&picture(bits, height), &exact) as f64)
-    };
-    [changed(0.0), changed(1e4)].concat()
 }
 
 /// Of the league: the rows of triangles, those without a wrong pixel by their own convention, those that no convention
@@ -126,18 +104,9 @@ pub const ALL: &[(&str, Values)] = &[
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),
     ("apart-tilted-multisampled", || apart("tilted", Antialias::Multisample4)),
-    ("facets-counts", || {
-        let both = [Effects::ALWAYS, Effects::PLANNED];
-        let [all, planned] =
-            both.map(|effects| counted("facets", Antialias::Supersample(4), effects));
-        let counts = |c: Counters| [c.fragments, c.lights, c.cleared];
-        let pairs = counts(all).into_iter().zip(counts(planned));
-        pairs.flat_map(|(all, planned)| [all as f64, planned as f64]).collect()
-    }),
     ("pays-highlights", || pays("highlights", Effect::Specular)),
     ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps)),
     ("pays-anisotropy", || pays("anisotropy", Effect::Anisotropy)),
-    ("shadow-bits", shadow_bits),
     ("pays-shadows", || pays("shadows", Effect::Shadows)),
     ("pays-fog", || pays("fog", Effect::Fog)),
     ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest)),
@@ -239,14 +208,6 @@ pub const ALL: &[(&str, Values)] = &[
         vec![cheapest("Coverage by edge function", &f32s, 0)]
     }),
     ("engine-over-tiles", || range(8, |i| edges("engine", i) / edges(TILES, i))),
-    ("planes-errors", || {
-        let errors = |i| [PLANES, "plane"].map(|choice| cell("Interpolation", "worst", choice, i));
-        let larger = |i: &usize| errors(*i)[0] > errors(*i)[1];
-        assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [0, SLIVER, FAR]);
-        let worst = [0, 1].map(|which| range(12, |i| errors(i)[which])[1]);
-        assert_eq!(worst, errors(11), "at w 1e4");
-        [worst, errors(FAR)].concat()
-    }),
     ("f64-over-reversed", || {
         let times = |i| cell("Depth", "ns", "f64", i) / cell("Depth", "ns", "f32 reversed", i);
         vec![(0..5).map(times).sum::<f64>() / 5.0]
@@ -425,10 +386,8 @@ fn cuts_behind_the_eye() -> Vec<f64> {
 /// Columns of the tables of coverage.
 const SLIVER: usize = 3;
 const HALF: usize = 4;
-const FAR: usize = 6;
 const MESH: usize = 7;
 const TILES: &str = "tiles i32 x 16";
-const PLANES: &str = "planes f32 x 16";
 const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];
 
 /// A table of `docs/cost.md`, under a heading, whose title begins so: the names of its columns, and its rows by name.

@@ -173,9 +173,7 @@ fn site_has_one_module() {
 #[ignore = "needs docs/build"]
 fn site_tables_are_printed() {
     let mut renewal = Renewal::default();
-    for (name, words) in
-        [("differential", "verify --table"), ("planted", "verify --table --plant inclusive-edges")]
-    {
+    for name in ["differential", "planted"] {
         let mut shown = Vec::new();
         for book in ["en", "zh"] {
             let page = fs::read_to_string(site().join(format!("{book}/{name}.html"))).unwrap();
@@ -194,10 +192,13 @@ fn site_tables_are_printed() {
             shown.push(block);
         }
         assert_eq!(shown[0], shown[1], "{name}");
+        if name == "planted" {
+            continue; // It has no rows.
+        }
         // A family that is run again has the row of the page; with another seed it has not.
         let cells = |row: &str| row.split_whitespace().collect::<Vec<_>>().join(" ");
         let row = |seed: &str| {
-            let words = format!("{words} --family half-integer --cases 20000 --seed {seed}");
+            let words = format!("verify --table --family half-integer --cases 20000 --seed {seed}");
             let printed = shared().run(words).out;
             cells(
                 printed

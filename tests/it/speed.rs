@@ -16,7 +16,6 @@ struct Words {
     frames: [&'static str; 2],
     wrong: &'static str,
     by: &'static str,
-    growth: &'static str,
     /// What bounds a frame; the parts of a frame; what fills take.
     limits: [&'static str; 2],
     ends: [&'static str; 2],
@@ -26,20 +25,19 @@ const ENGLISH: Words = Words {
     made: "Made by",
     missing: "Missing there",
     centres: [
-        "One sample a pixel, ns for each triangle; behind the dot how many times as long as `list`",
+        "One sample a pixel, ns for each triangle; in brackets how many times as long as `list`",
         "Pixels missing and extra, against the oracle",
     ],
     areas: [
-        "Antialiased, ns for each triangle; behind the dot how many times as long as the fastest of ours whose errors are no larger",
+        "Antialiased, ns for each triangle; in brackets how many times as long as the fastest of ours whose errors are no larger",
         "Root of the mean square of the errors, and the largest, in steps of 1/255",
     ],
     frames: [
-        "Frames with one sample a pixel, ms; behind the dot how many times as long as the tiles on as many cores",
+        "Frames with one sample a pixel, ms; in brackets how many times as long as the tiles on as many cores",
         "The same with four samples a pixel",
     ],
     wrong: "Of these, on one core, pixels uncovered, and of another colour",
     by: "by",
-    growth: "| what grows | from, to | drawn by | ms | power of it | in the last step | MB | power of it |",
     limits: [
         "| mesh | samples | ms | instructions, millions | at the highest rate, ms | of the time | picture and mesh, MB | at the rate of a copy, ms | of the time | fetched, MB |",
         "Instructions of antialiased fills, for each triangle",
@@ -51,20 +49,19 @@ const CHINESE: Words = Words {
     made: "测得这些的命令",
     missing: "那里没有",
     centres: [
-        "每像素一个采样点，每个三角形的纳秒数；点号之后是 `list` 的多少倍",
+        "每像素一个采样点，每个三角形的纳秒数；括号里是 `list` 的多少倍",
         "与精确判定器相比，少画和多画的像素",
     ],
     areas: [
-        "抗锯齿，每个三角形的纳秒数；点号之后是我们之中误差不更大的最快者的多少倍",
+        "抗锯齿，每个三角形的纳秒数；括号里是我们之中误差不更大的最快者的多少倍",
         "误差的均方根，以及最大误差，以 1/255 为单位",
     ],
     frames: [
-        "每像素一个采样点的帧，毫秒；点号之后是同样核数的图块的多少倍",
+        "每像素一个采样点的帧，毫秒；括号里是同样核数的图块的多少倍",
         "每像素四个采样点的帧，毫秒",
     ],
     wrong: "其中一个核上，覆盖不同的像素，与颜色不同的像素",
     by: "由谁",
-    growth: "| 增长的是 | 从，到 | 由谁画 | 毫秒 | 它的几次方 | 最后一步 | MB | 它的几次方 |",
     limits: [
         "| 网格 | 采样点 | 毫秒 | 指令，百万 | 以最高速率，毫秒 | 占时间 | 画面和网格，MB | 以复制的速率，毫秒 | 占时间 | 取入，MB |",
         "抗锯齿填充的指令数，每个三角形",
@@ -120,11 +117,18 @@ fn table(
     table + "\n\n"
 }
 
-/// A median, half the distance of the quartiles in percent of it, and how many times as long as ours.
+/// Half the distance of the quartiles, in percent of the median: the largest of these rows.
+fn noise(rows: &[&Value], key: &str) -> String {
+    let percent = rows.iter().map(|row| {
+        let [low, high] = [0, 1].map(|i| number(&row[key]["quartiles"][i]));
+        (high - low) / 2.0 / number(&row[key]["median"]) * 100.0
+    });
+    format!(" (±{:.0}%)", percent.fold(0.0, f64::max))
+}
+
+/// A median, and how many times as long as ours it is.
 fn time(spread: &Value, unit: f64, ours: &Value) -> String {
     let median = number(&spread["median"]);
-    let [low, high] = [0, 1].map(|i| number(&spread["quartiles"][i]));
-    let percent = (high - low) / 2.0 / median * 100.0;
     let shown = median / unit;
     let digits = if shown >= 1000.0 {
         0
@@ -134,7 +138,7 @@ fn time(spread: &Value, unit: f64, ours: &Value) -> String {
         2
     };
     let factor = median / number(&ours["median"]);
-    format!("{shown:.digits$} ±{percent:.0}% · {factor:.2}")
+    format!("{shown:.digits$} ({factor:.2})")
 }
 
 fn machine(run: &Value, words: &Words) -> String {
@@ -216,18 +220,20 @@ fn peers(run: &Value, words: &Words) -> String {
     for (kind, heads) in [("pixels", words.centres), ("areas", words.areas)] {
         let rows: Vec<_> =
             fills.iter().copied().filter(|row| !row["errors"][kind].is_null()).collect();
-        page += &table(&rows, "class", heads[0], words, &|row| {
+        let head = heads[0].to_owned() + &noise(&rows, "ns");
+        page += &table(&rows, "class", &head, words, &|row| {
             time(&row["ns"], number(&row["triangles"]), &ours(&fills, row)["ns"])
         });
         page += &table(&rows, "class", heads[1], words, &|row| match &row["errors"][kind] {
-            pixels if kind == "pixels" => format!("{} + {}", pixels["missing"], pixels["extra"]),
+            pixels if kind == "pixels" => format!("{}+{}", pixels["missing"], pixels["extra"]),
             areas => format!("{:.1}, {:.0}", number(&areas["rms"]), number(&areas["worst"])),
         });
     }
     let frames = all("frames");
     for (samples, head) in [1, 4].into_iter().zip(words.frames) {
         let rows: Vec<_> = frames.iter().copied().filter(|row| row["samples"] == samples).collect();
-        page += &table(&rows, "mesh", head, words, &|row| {
+        let head = head.to_owned() + &noise(&rows, "ms");
+        page += &table(&rows, "mesh", &head, words, &|row| {
             time(&row["ms"], 1.0, &tiles(&rows, row)["ms"])
         });
         let alone: Vec<_> = rows.into_iter().filter(|row| row["cores"] == 1).collect();
@@ -265,40 +271,6 @@ fn curves(run: &Value) -> Vec<Curve<'_>> {
         }
     }
     curves
-}
-
-/// The power of what grows that fits best in the mean of squares of logarithms, among points with something.
-fn power(points: &[[f64; 3]], of: usize) -> f64 {
-    let points: Vec<_> =
-        points.iter().filter(|p| p[of] > 0.0).map(|p| [p[0].ln(), p[of].ln()]).collect();
-    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
-    let [x, y] = [mean(0), mean(1)];
-    let [xy, xx] = points
-        .iter()
-        .fold([0.0; 2], |[xy, xx], p| [xy + (p[0] - x) * (p[1] - y), xx + (p[0] - x) * (p[0] - x)]);
-    xy / xx
-}
-
-fn growth(run: &Value, words: &Words) -> String {
-    let mut page = machine(run, words) + words.growth + "\n|---|---|---|---|---|---|---|---|\n";
-    // The plots have all engines; two show in the table what the others do alike.
-    let shown = ["scanline", "tiles, 1 sample, 1 core"];
-    for Curve { what, engine, points } in curves(run).iter().filter(|c| shown.contains(&&*c.engine))
-    {
-        let ([from, ..], [to, ..]) = (points[0], points[points.len() - 1]);
-        let ends = |of: usize| format!("{:.1}, {:.1}", points[0][of], points[points.len() - 1][of]);
-        let last = power(&points[points.len() - 2..], 1);
-        writeln!(
-            page,
-            "| `{what}` | {from}, {to} | {engine} | {} | {:.2} | {last:.2} | {} | {:.2} |",
-            ends(1),
-            power(points, 1),
-            ends(2),
-            power(points, 2)
-        )
-        .unwrap();
-    }
-    page + "\n"
 }
 
 const PANEL: [f64; 2] = [400.0, 230.0];
@@ -391,7 +363,7 @@ fn speed_pages_hold_what_was_measured() {
         let told = with_tables(&read(page), words, "benches/peers/run --json", &tables);
         let told =
             with_tables(&told, words, "benches/peers/run --limits", &limits(&bounds, &run, words));
-        let told = with_tables(&told, words, "benches/peers/run --growth", &growth(&grown, words));
+        let told = with_tables(&told, words, "benches/peers/run --growth", &machine(&grown, words));
         renewal.is(page, &told);
     }
     let plots = [
@@ -407,12 +379,4 @@ fn speed_pages_hold_what_was_measured() {
     let page = read("docs/speed.md");
     let tables = peers(&run, &ENGLISH);
     assert_ne!(with_tables(&page, &ENGLISH, "benches/peers/run --json", &tables), page);
-}
-
-#[test]
-fn speed_powers() {
-    let points = |power: f64| [1.0, 2.0, 8.0, 64.0_f64].map(|n| [n, 3.0 * n.powf(power), 0.0]);
-    for expected in [0.0, 1.0, 1.5, -2.0] {
-        assert!((power(&points(expected), 1) - expected).abs() < 1e-12);
-    }
 }

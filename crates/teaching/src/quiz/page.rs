@@ -14,8 +14,8 @@ pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再�
 pub fn section(chapter: &Chapter, language: Language) -> String {
     let word = chapter.word();
     let (ask, extra) = match language {
-        Language::English => ("asks these in the terminal and checks what you answer.", ""),
-        Language::Chinese => ("在终端里提出这些问题，并检验你的回答。", " --language zh"),
+        Language::English => ("asks these in the terminal.", ""),
+        Language::Chinese => ("在终端里提出这些问题。", " --language zh"),
     };
     let intro = format!("`cargo run -- quiz {word}{extra}` {ask}");
     let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
