@@ -39,6 +39,8 @@ pub(super) trait Drawer {
     fn is_abandoned(&self) -> bool;
     /// What is said of each rule, after 'as'; empty for the right one.
     fn rules(&self) -> &[String];
+    /// The number of the other convention that it was given.
+    fn other(&self) -> usize;
     /// Of a rule, for each direction that an edge faces, whether samples exactly on it are drawn.
     fn ties(&self, rule: usize) -> [bool; 8];
     /// Where samples lie in their pixel, in subpixels.
@@ -93,6 +95,7 @@ pub(super) struct Triangles<'a> {
     ask: &'a mut dyn Ask,
     conventions: Vec<TriangleConvention>,
     rules: Vec<String>,
+    other: usize,
     room: Room,
     sample: [i64; 2],
     /// Whether a pixel drawn twice cannot be seen.
@@ -146,9 +149,10 @@ impl<'a> Triangles<'a> {
             conventions.push(*other);
             rules.push(by_convention(&other.words()));
         }
+        let other = conventions.iter().position(|convention| convention == other).unwrap_or(0);
         let is_plain = expected.mirror == Mirror::None;
         let is_mask = known.mask;
-        is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask, work })
+        is_plain.then_some(Self { ask, conventions, rules, other, room, sample, is_mask, work })
     }
 }
 
@@ -208,6 +212,10 @@ impl Drawer for Triangles<'_> {
         &self.rules
     }
 
+    fn other(&self) -> usize {
+        self.other
+    }
+
     fn ties(&self, rule: usize) -> [bool; 8] {
         self.conventions[rule].ties.edges
     }
@@ -230,6 +238,7 @@ pub(super) struct Lines<'a> {
     ask: &'a mut dyn AskLine,
     conventions: Vec<LineConvention>,
     rules: Vec<String>,
+    other: usize,
     room: Room,
     work: &'a Work,
 }
@@ -265,7 +274,8 @@ impl<'a> Lines<'a> {
             conventions.push(*other);
             rules.push(by_convention(&other.words()));
         }
-        Self { ask, conventions, rules, room, work }
+        let other = conventions.iter().position(|convention| convention == other).unwrap_or(0);
+        Self { ask, conventions, rules, other, room, work }
     }
 }
 
@@ -321,6 +331,10 @@ impl Drawer for Lines<'_> {
 
     fn rules(&self) -> &[String] {
         &self.rules
+    }
+
+    fn other(&self) -> usize {
+        self.other
     }
 
     fn ties(&self, _: usize) -> [bool; 8] {

@@ -31,7 +31,7 @@ mod walk;
 use std::cell::OnceCell;
 
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
-use change::Base;
+use change::{Base, Rule};
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
 use model::{Model, Vocabulary, facts_of};
@@ -60,6 +60,9 @@ pub struct Learned {
     /// Whether it is counted against another convention what is wrong and right: the first sentence says which.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub is_beyond: bool,
+    /// Whether it is an explanation by the other convention after all.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    is_by_other: bool,
     /// What is known where not every answer was predicted: when it is wrong, where, and what comes out right beside it.
     pub known: Vec<String>,
 }
@@ -162,6 +165,10 @@ fn learned_from<C>(
         let work = Work::part_of(starts.len());
         let both = [start.convention, other.convention];
         let Some(mut learned) = learn(both, &work) else { continue };
+        // From what comes nearest back to what is right is no way to say anything.
+        if !start.is_right && learned.is_by_other {
+            continue;
+        }
         if !start.is_right {
             learned.beyond(&words(start.convention));
         }
@@ -363,7 +370,9 @@ impl<'a> Learner<'a> {
             false => Vec::new(),
         };
         let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
-        Learned { is_certain, does, wrong, right, part: "", is_beyond: false, known }
+        let other = Base { changes: Vec::new(), rule: Rule::Convention(self.drawer.other()) };
+        let is_by_other = model.chain.iter().any(|step| step.when.is_none() && step.base == other);
+        Learned { is_certain, does, wrong, right, part: "", is_beyond: false, is_by_other, known }
     }
 }
 
