@@ -498,11 +498,19 @@ fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
     }
     let rows = browser.eval(
         "[...document.querySelectorAll('#about-pixel .edges')].map(t => [...t.querySelectorAll('tbody tr')]
-            .map(r => [r.children[2].textContent, r.children[3].textContent, r.children[4].textContent]))",
+            .map(r => [r.children[2].textContent, r.children[3].textContent]))",
     );
-    let upper =
-        json!([["inside", "top", "yes"], ["inside", "right", "no"], ["on it", "left", "yes"]]);
+    let upper = json!([
+        ["inside", "top edge: keeps it"],
+        ["inside", "right edge: leaves it to the neighbour"],
+        ["exactly on this edge", "left edge: keeps it"]
+    ]);
     assert_eq!(rows[0], upper);
+    // The same sentences as in the playground: of both rules that are shown, and of the right one.
+    let why = browser.eval("[...document.querySelectorAll('#about-pixel .say')].map(p => p.textContent)");
+    let why: Vec<String> = serde_json::from_value(why).unwrap();
+    let begin = ["The sample lies exactly on the edge that two triangles share: E = 0 for both. Strict", "The sample lies exactly on the edge that two triangles share: E = 0 for both. Inclusive", "The top-left rule: a sample on an edge"];
+    assert!(why.len() == 3 && why.iter().zip(begin).all(|(is, begin)| is.starts_with(begin)), "{why:?}");
     // The keyboard moves on, and the live region follows.
     browser.eval("document.querySelector('rp-view .pixels').focus()");
     browser.press("ArrowRight");
@@ -758,7 +766,7 @@ pub fn every_section() -> Report {
         figures: vec![Figure {
             caption: hostile(),
             svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
-            narrow: None,
+            others: vec![],
         }],
         diffs: vec![TextDiff {
             name: hostile(),
@@ -812,7 +820,7 @@ fn page_tells_marks_from_pictures() {
     let layers = vec![PictureLayer::new("picture", &old), PictureLayer::map("marks", &new, &marks)];
     let frames = vec![PictureView { name: "one".to_owned(), layers, ..PictureView::default() }];
     let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned();
-    let figures = vec![Figure { caption: "a plot".to_owned(), svg, narrow: None }];
+    let figures = vec![Figure { caption: "a plot".to_owned(), svg, others: vec![] }];
     let path = folder("page-marks").join("index.html");
     std::fs::write(&path, page(&Report { frames, figures, ..Report::default() })).unwrap();
     let Some(mut browser) = Browser::start("marks") else { return };

@@ -377,10 +377,9 @@ fn key(browser: &mut Browser, key: &str, code: u32) {
 #[ignore = "needs docs/build"]
 fn site_figures_do_not_wait_for_engines() {
     let Some(mut browser) = Browser::start("site-figures") else { return };
-    for (width, page) in [360, 1280]
-        .into_iter()
-        .flat_map(|width| ["en/index.html", "en/ch02.html", "zh/ch06.html"].map(|page| (width, page)))
-    {
+    for (width, page) in [360, 1280].into_iter().flat_map(|width| {
+        ["en/index.html", "en/ch02.html", "zh/ch06.html"].map(|page| (width, page))
+    }) {
         browser.resize(width, 740);
         // The first answer of the engines is withheld, as on a slow line.
         let held = json!({ "source": "Object.defineProperty(globalThis, 'rasterproofEngines', {

@@ -73,6 +73,22 @@ const watching = new IntersectionObserver((entries) => {
   }
 }, { rootMargin: '100% 0px' });
 const live = new Set();
+
+/** The numbers in the prose of the page that belong to a figure, each behind a comment `n NAME.VALUE`. */
+function numbersOf(name) {
+  const comments = document.createTreeWalker(document.body, NodeFilter.SHOW_COMMENT);
+  const found = [];
+  while (comments.nextNode()) {
+    const [, of, value] = comments.currentNode.data.match(/^n ([\w-]+)\.(\w+)$/) ?? [];
+    if (of === name) found.push({ comment: comments.currentNode, value });
+  }
+  return found.map(({ comment, value }) => {
+    const shown = make('span', { className: 'follows' }, comment.nextSibling);
+    comment.after(shown);
+    return { shown, value };
+  });
+}
+
 const redraw = () => { for (const figure of live) figure.draw(); };
 new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
@@ -162,6 +178,8 @@ class Figure extends HTMLElement {
     this.question.textContent = answer.question;
     this.says.textContent = this.isAnswered ? answer.answer : '';
     this.link.href = (own.dataset.playground ?? beside('playground.html')) + answer.link + (this.language === 'zh' ? '&lang=zh' : '');
+    if (this.isAnswered) this.numbers ??= numbersOf(this.getAttribute('scene'));
+    for (const { shown, value } of this.numbers ?? []) if (shown.textContent !== answer.values[value]) shown.textContent = answer.values[value];
     this.show();
   }
 

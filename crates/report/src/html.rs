@@ -36,6 +36,7 @@ static STYLE: LazyLock<String> =
 /// The viewer, and the modules of reports, each behind those that it uses.
 static SCRIPT: LazyLock<String> = LazyLock::new(|| {
     rasterproof_view::script(&[
+        rasterproof_view::PIXEL,
         include_str!("page/exact.js"),
         include_str!("page/items.js"),
         include_str!("page/explain.js"),
@@ -161,8 +162,8 @@ pub struct Figure {
     /// An SVG document with a size, shown as an image: scripts in it do not run. Colours for a dark
     /// page go into its own `prefers-color-scheme` style.
     pub svg: String,
-    /// The same for narrow pages, where it differs.
-    pub narrow: Option<String>,
+    /// The same for other pages, each with the condition of a style sheet that says which.
+    pub others: Vec<(&'static str, String)>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -524,12 +525,13 @@ fn rows(table: &Table) -> String {
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
-    let narrow = figure.narrow.as_ref().map_or(String::new(), |svg| {
-        format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
+    let others = figure.others.iter().map(|(media, svg)| {
+        format!("<source media=\"{media}\" srcset=\"{}\">", address(svg))
     });
+    let others: String = others.collect();
     format!(
         "<figure class=\"plot\"><button type=\"button\" class=\"enlarge\" title=\"as large as the window, and back\">\
-         <picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
+         <picture>{others}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
          <figcaption>{caption}</figcaption></figure>\n",
         address(&figure.svg)
     )
