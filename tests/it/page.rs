@@ -17,8 +17,8 @@ use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
     Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
 };
-use rasterproof_report::picture;
 use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::{canvas, picture};
 use serde_json::{Value, json};
 
 use crate::program::{Run, shared};
@@ -507,10 +507,18 @@ fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
     ]);
     assert_eq!(rows[0], upper);
     // The same sentences as in the playground: of both rules that are shown, and of the right one.
-    let why = browser.eval("[...document.querySelectorAll('#about-pixel .say')].map(p => p.textContent)");
+    let why =
+        browser.eval("[...document.querySelectorAll('#about-pixel .say')].map(p => p.textContent)");
     let why: Vec<String> = serde_json::from_value(why).unwrap();
-    let begin = ["The sample lies exactly on the edge that two triangles share: E = 0 for both. Strict", "The sample lies exactly on the edge that two triangles share: E = 0 for both. Inclusive", "The top-left rule: a sample on an edge"];
-    assert!(why.len() == 3 && why.iter().zip(begin).all(|(is, begin)| is.starts_with(begin)), "{why:?}");
+    let begin = [
+        "The sample lies exactly on the edge that two triangles share: E = 0 for both. Strict",
+        "The sample lies exactly on the edge that two triangles share: E = 0 for both. Inclusive",
+        "The top-left rule: a sample on an edge",
+    ];
+    assert!(
+        why.len() == 3 && why.iter().zip(begin).all(|(is, begin)| is.starts_with(begin)),
+        "{why:?}"
+    );
     // The keyboard moves on, and the live region follows.
     browser.eval("document.querySelector('rp-view .pixels').focus()");
     browser.press("ArrowRight");
@@ -813,6 +821,25 @@ fn page_takes_every_section_and_any_text() {
 
 /// What marks pixels of another picture is not compared with it, and the page says what its colours mean. A plot fills the
 /// window and leaves it again. On paper nothing blinks, and no tool is printed.
+/// A plot is drawn for the width of its page: wide, usual, and for a phone.
+#[test]
+fn page_has_plots_of_its_width() {
+    let drawn = [1200.0, 800.0, 400.0].map(|width| canvas::Drawing::new("a plot", [width, 90.0]));
+    let report = Report { figures: vec![canvas::figure("a plot", drawn)], ..Report::default() };
+    let path = folder("page-plots").join("index.html");
+    std::fs::write(&path, page(&report)).unwrap();
+    let Some(mut browser) = Browser::start("plots") else { return };
+    browser.open(&path, "");
+    for (width, drawn) in [(1280, 1200), (900, 800), (360, 400)] {
+        browser.resize(width, 800);
+        browser.wait_for(&format!("document.querySelector('.plot img').naturalWidth === {drawn}"));
+        fits_the_width(&mut browser);
+        let shown =
+            browser.eval("document.querySelector('.plot img').clientWidth").as_f64().unwrap();
+        assert!(shown > 0.8 * f64::from(width), "{shown} of {width} px");
+    }
+}
+
 #[test]
 fn page_tells_marks_from_pictures() {
     let [old, new] = [[10, 20, 30], [200, 20, 30]].map(|c| RgbImage::from_pixel(7, 5, Rgb(c)));

@@ -525,9 +525,10 @@ fn rows(table: &Table) -> String {
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
-    let others = figure.others.iter().map(|(media, svg)| {
-        format!("<source media=\"{media}\" srcset=\"{}\">", address(svg))
-    });
+    let others = figure
+        .others
+        .iter()
+        .map(|(media, svg)| format!("<source media=\"{media}\" srcset=\"{}\">", address(svg)));
     let others: String = others.collect();
     format!(
         "<figure class=\"plot\"><button type=\"button\" class=\"enlarge\" title=\"as large as the window, and back\">\
