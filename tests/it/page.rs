@@ -502,7 +502,7 @@ fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
     );
     let upper = json!([
         ["inside", "top edge: keeps it"],
-        ["inside", "right edge: leaves it to the neighbour"],
+        ["inside", "right edge: leaves it"],
         ["exactly on this edge", "left edge: keeps it"]
     ]);
     assert_eq!(rows[0], upper);

@@ -468,10 +468,15 @@ fn table(table: &Table, is_folded: bool) -> String {
 }
 
 fn rows(table: &Table) -> String {
+    // A table without a caption belongs to the one above it, and has the name of its rows.
+    let name = match (&*table.caption, table.columns.first()) {
+        ("", Some(column)) => &column.label,
+        (caption, _) => caption,
+    };
     let mut out = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" \
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" \
          aria-label=\"{0}\"><table class=\"counts\" aria-label=\"{0}\">\n<thead><tr>",
-        escape(&table.caption)
+        escape(name)
     );
     for column in &table.columns {
         let class = if column.is_number { " class=\"number\"" } else { "" };
@@ -509,6 +514,7 @@ fn rows(table: &Table) -> String {
                     "<th scope=\"row\"><button type=\"button\" class=\"find\" data-search=\"{}\">{text}</button></th>",
                     escape(search)
                 ),
+                (0, None) if text.is_empty() => write!(out, "<td></td>"),
                 (0, None) => write!(out, "<th scope=\"row\">{text}</th>"),
                 _ => write!(out, "<td{number}>{}</td>", text.replace('\n', "<br>")),
             };

@@ -6,7 +6,7 @@ const PIXEL_WORDS = {
   en: {
     edge: 'Edge', value: 'E', sample: 'The sample is', ifOn: 'A sample on it', ofTriangle: 'Triangle', belongs: 'Belongs', yes: 'yes', no: 'no', degenerate: 'without area: covers nothing',
     strict: 'strict (E > 0)', inclusive: 'inclusive (E \u2265 0)', tl: 'top-left', onEdge: 'exactly on this edge', inside: 'inside', outside: 'outside', byExact: ', decided exactly: floats cannot tell',
-    keeps: 'keeps it', leaves: 'leaves it to the neighbour', left: 'left', right: 'right', top: 'top', bottom: 'bottom',
+    keeps: 'keeps it', leaves: 'leaves it', left: 'left', right: 'right', top: 'top', bottom: 'bottom',
     isOf: (kind, what) => `${kind} edge: ${what}`, more: (n) => `And ${n} more at this sample.`, unit: (bits) => `E is twice an area in ${bits ? `1/${4 ** bits}` : ''} px\u00b2`.replace('  ', ' '),
     hole: 'The sample lies exactly on the edge that two triangles share: E = 0 for both. Strict asks for E > 0, so neither gets it, and that is a hole.',
     missed: 'The sample lies exactly on an edge, E = 0. Strict asks for E > 0, so this triangle does not get it.',

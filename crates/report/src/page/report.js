@@ -378,7 +378,8 @@ const open = async (item, settings = {}) => {
   within('#case-command code').textContent = item.command;
   if (MODES.some(([mode]) => mode === settings.mode)) state.chosen = settings.mode;
   // Where there is room, what is expected, what is drawn and the difference stand side by side.
-  setMode(state.chosen ?? (item.isCase && innerWidth >= WIDE_PX ? 'side' : 'blink'));
+  const isSmall = item.isCase || (Math.max(...item.box) < SMALL_FRAME_PX && !item.start.some((i) => item.layers[i].is_map));
+  setMode(state.chosen ?? (isSmall && innerWidth >= WIDE_PX ? 'side' : 'blink'));
   fillPickers();
   fillList();
   pairChanged();
