@@ -611,6 +611,20 @@ fn page_shows_a_planted_fault_first() {
         "[...document.querySelectorAll('table.counts tbody tr')].slice(0, 2).map(r => r.className)",
     );
     assert_eq!(marks, json!(["sum", "wrong"]));
+    // Each family has a bar, the worst the longest, and all tables but the first are folded.
+    let bars = browser.eval(
+        "[...document.querySelectorAll('tr.wrong th')].map(head => parseFloat(getComputedStyle(head).getPropertyValue('--share')))",
+    );
+    let bars: Vec<f64> = serde_json::from_value(bars).unwrap();
+    assert!(bars.len() > 5 && bars[0] == 100.0 && bars.is_sorted_by(|a, b| a >= b), "{bars:?}");
+    let folded = browser.eval("[...document.querySelectorAll('table.counts')].map(table => table.closest('details')?.open ?? null)");
+    let folded: Vec<Option<bool>> = serde_json::from_value(folded).unwrap();
+    assert!(
+        folded.len() > 1
+            && folded[0].is_none()
+            && folded[1..].iter().all(|open| *open == Some(false)),
+        "{folded:?}"
+    );
     let first = &json["failures"][0];
     let name = format!("{}#{}", first["family"].as_str().unwrap(), first["index"]);
     assert_eq!(browser.text("#case-title"), name);

@@ -256,8 +256,13 @@ pub fn page(report: &Report) -> String {
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
     let head = head(report);
+    // A page begins with one picture or one table; all other rows are folded.
     let is_folded = report.pictured.is_some();
-    let tables: String = report.tables.iter().map(|one| table(one, is_folded)).collect();
+    let (mut tables, mut has_rows) = (String::new(), false);
+    for one in &report.tables {
+        tables += &table(one, is_folded || has_rows && !one.rows.is_empty());
+        has_rows |= !one.rows.is_empty();
+    }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {

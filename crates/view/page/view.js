@@ -131,8 +131,13 @@ class View extends HTMLElement {
     if (key === this.laidOut) return;
     this.laidOut = key;
     const axis = numbers ? axisWide(part) : 0;
+    // Panels that are much wider than high stand below one another, where that shows them larger.
+    const [all, tall] = [this.body.clientWidth, Math.max(200, innerHeight * high)];
+    const [beside, below] = [[all / panels.length, tall], [all, tall / panels.length]].map(([w, h]) => Math.min(most, w / width, h / height));
+    const isStacked = all / panels.length > 240 && below > 1.3 * beside;
+    this.body.classList.toggle('is-stacked', isStacked);
     const rows = Math.ceil(panels.length / getComputedStyle(this.body).gridTemplateColumns.split(' ').length);
-    const room = this.isWide ? (innerHeight - 90) / rows - 60 : Math.max(200, innerHeight * high);
+    const room = this.isWide ? (innerHeight - 90) / rows - 60 : isStacked ? tall / panels.length : tall;
     const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2); // its frame
     const fits = Math.min(this.isWide ? Infinity : most, wide / width, room / height);
     this.cell = fits >= 4 ? Math.floor(fits) : fits;

@@ -446,6 +446,17 @@ const foldTables = () => {
   }
 };
 
+/** Bars beside the families in a table: the wrong pixels of each, as a share of the most. A press on the name shows its cases. */
+const drawBars = () => {
+  for (const table of all('table.counts')) {
+    const wrong = all('thead th', table).flatMap((head, i) => (head.textContent.includes(' : ') ? [i] : []));
+    const rows = all('tbody tr:has(button.find)', table);
+    const sums = rows.map(({ cells }) => wrong.reduce((sum, i) => sum + (parseInt(cells[i]?.textContent, 10) || 0), 0));
+    const most = Math.max(...sums);
+    if (most > 0) rows.forEach(({ cells }, i) => { cells[0].style.setProperty('--share', `${(100 * sums[i]) / most}%`); });
+  }
+};
+
 const listen = () => {
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.find');
@@ -483,6 +494,7 @@ const listen = () => {
 
 const start = async () => {
   foldTables();
+  drawBars();
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.copy');
     if (pressed) copy(pressed);
