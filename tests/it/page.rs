@@ -18,6 +18,7 @@ use rasterproof_report::html::{
     Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
 };
 use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::words::thousands;
 use rasterproof_report::{canvas, picture};
 use serde_json::{Value, json};
 
@@ -281,7 +282,7 @@ fn cells(browser: &mut Browser) -> Vec<(String, String, String)> {
         "[...document.querySelectorAll('table.counts')].flatMap(table => {
             const heads = [...table.querySelectorAll('thead th')].map(h => h.textContent);
             return [...table.querySelectorAll('tbody tr')].flatMap(row => {
-                const texts = [...row.children].map(c => c.textContent);
+                const texts = [...row.children].map(c => c.textContent.replace(/(\\d),(?=\\d{3})/g, '$1'));
                 return texts.slice(1).map((text, i) => [texts[0], heads[i + 1], text]);
             });
         })",
@@ -603,7 +604,8 @@ fn page_shows_a_planted_fault_first() {
     browser.open(&page, "");
     let json: Value = serde_json::from_str(&printed).unwrap();
     let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
-    let wrong = format!("{} wrong pixels in ", json["mismatches"]);
+    // Thousands are apart, also in the tables.
+    let wrong = format!("{} wrong pixels in ", thousands(json["mismatches"].as_u64().unwrap()));
     assert!(verdict.contains("DISAGREES") && verdict.contains(&wrong), "{verdict}");
     counts_equal_the_json(&mut browser, &json);
     // The worst row first after the sum, and the failing case is open.

@@ -21,10 +21,12 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 use super::table::{Mark, Table};
-use super::words::{same, word};
+use super::words::{grouped, same, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
+/// More below a table are folded.
+const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
@@ -250,6 +252,11 @@ pub fn escape(text: &str) -> String {
     out
 }
 
+/// Text that people read, with thousands apart in its numbers.
+fn prose(text: &str) -> String {
+    escape(&grouped(text))
+}
+
 /// The whole page, below [`limits::PAGE_BYTES`]; the same for the same report.
 pub fn page(report: &Report) -> String {
     let mut room =
@@ -355,17 +362,17 @@ fn head(report: &Report) -> String {
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
     if let Some(outcome) = &report.outcome {
         let class = if outcome.good { "good" } else { "bad" };
-        let (word, first) = (escape(&outcome.word), escape(outcome.first()));
+        let (word, first) = (escape(&outcome.word), prose(outcome.first()));
         let _ = writeln!(
             out,
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{first}</span></p>"
         );
         if outcome.first() != outcome.sentence {
-            let _ = writeln!(out, "<p id=\"counts\">{}</p>", escape(&outcome.sentence));
+            let _ = writeln!(out, "<p id=\"counts\">{}</p>", prose(&outcome.sentence));
         }
     }
     if let Some(PicturedAnswer { sentence, figure: shown }) = &report.pictured {
-        let _ = writeln!(out, "<p class=\"pictured\">{}</p>", escape(sentence));
+        let _ = writeln!(out, "<p class=\"pictured\">{}</p>", prose(sentence));
         out += &figure(shown);
     }
     for line in report.about.lines() {
@@ -375,7 +382,7 @@ fn head(report: &Report) -> String {
     for Statement { about, sentence, command: more } in &report.answers {
         // What stands above the picture is not said again.
         let sentence = sentence.strip_prefix(said).unwrap_or(sentence).trim_start();
-        let (about, sentence) = (escape(about), escape(sentence));
+        let (about, sentence) = (escape(about), prose(sentence));
         let _ = writeln!(out, "<p class=\"answer\"><strong>{about}:</strong> {sentence}</p>");
         out += &command(more);
     }
@@ -436,7 +443,7 @@ fn command(text: &str) -> String {
 }
 
 fn notes(notes: &[String], left_out: &[String]) -> String {
-    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", escape(note))).collect();
+    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", prose(note))).collect();
     if !left_out.is_empty() {
         let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
         if left_out.len() > names.len() {
@@ -461,9 +468,13 @@ fn table(table: &Table, is_folded: bool) -> String {
     if !table.rows.is_empty() {
         out += &rows(table);
     }
+    let mut notes = String::new();
     for note in &table.notes {
-        let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(note));
+        let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", prose(note));
     }
+    // A list of notes is longer than the table.
+    let is_long = table.notes.len() > MOST_NOTES && !table.rows.is_empty();
+    out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
         // Notes that stand for themselves.
         _ if table.caption.is_empty() => out,
@@ -507,7 +518,7 @@ fn rows(table: &Table) -> String {
         let _ = write!(out, "<tr{class}>");
         let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
-            let text = escape(cell);
+            let text = if column.is_number { prose(cell) } else { escape(cell) };
             let number = match column.is_number {
                 _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
                 true => " class=\"number\"".to_owned(),

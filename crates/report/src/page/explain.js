@@ -4,7 +4,7 @@ import { decimal, judgeLinePixel, judgeSample } from './exact.js';
 import { colourOf, hex, hitsOf } from './items.js';
 import { aboutTriangles } from './pixel.js';
 
-export const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
+export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 
 /** The run of hit pixels around a column of a row. */
 export const spanOf = (item, layer, x, y) => {

@@ -136,7 +136,7 @@ const describePair = () => {
   const refused = [la, lb].find((layer) => layer.refused);
   const [width, height] = [item.box[2] - item.box[0], item.box[3] - item.box[1]];
   const count = pixelsWhere(item, differIn(item, la, lb)).length;
-  let text = `A and B differ in ${plural(count, 'pixel')} of ${width * height}.`;
+  let text = `A and B differ in ${plural(count, 'pixel')} of ${(width * height).toLocaleString('en')}.`;
   const map = [la, lb].find((layer) => layer.is_map);
   if (map) text = `${map.label}: its colours mark pixels, so it is not compared.`;
   else if (refused) text = `${refused.label} draws nothing: ${refused.refused}`;
@@ -451,7 +451,7 @@ const drawBars = () => {
   for (const table of all('table.counts')) {
     const wrong = all('thead th', table).flatMap((head, i) => (head.textContent.includes(' : ') ? [i] : []));
     const rows = all('tbody tr:has(button.find)', table);
-    const sums = rows.map(({ cells }) => wrong.reduce((sum, i) => sum + (parseInt(cells[i]?.textContent, 10) || 0), 0));
+    const sums = rows.map(({ cells }) => wrong.reduce((sum, i) => sum + (parseInt(cells[i]?.textContent.replaceAll(',', ''), 10) || 0), 0));
     const most = Math.max(...sums);
     if (most > 0) rows.forEach(({ cells }, i) => { cells[0].style.setProperty('--share', `${(100 * sums[i]) / most}%`); });
   }
