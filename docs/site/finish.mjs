@@ -163,13 +163,13 @@ function ask(question) {
   return JSON.parse(new TextDecoder().decode(new Uint8Array(engines.memory.buffer, engines.text(), length)));
 }
 
-/** The beginning of a live figure with its first answer on a light and on a dark page. */
+/** The beginning of a live figure behind its first answer on a light and on a dark page: it is painted with that, however slowly the page is read. */
 function withFirstAnswer(page, book, start, name, open) {
   if (!engines) return start;
   const of = (isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark });
   const first = { light: of(false), dark: of(true) };
   if (first.light.error) wrong.push(`${page}: the figure ${name}: ${first.light.error}`);
-  return `${start}<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>`;
+  return `<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>${start}`;
 }
 
 /** The names by which links reach the headings of a text, in their order. */

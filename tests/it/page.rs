@@ -337,7 +337,13 @@ fn page_shows_a_verdict_and_its_cases() {
     let json: Value = serde_json::from_str(&printed).unwrap();
     let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
     assert!(verdict.contains("AGREES") && verdict.contains(", 0 wrong pixels"), "{verdict}");
-    assert!(verdict.contains(&format!("{} triangles and ", json["triangles"])), "{verdict}");
+    assert!(
+        verdict.contains(&format!(
+            "{} triangles and ",
+            thousands(json["triangles"].as_u64().unwrap())
+        )),
+        "{verdict}"
+    );
     counts_equal_the_json(&mut browser, &json);
     // The page evaluates the rule by itself, in exact arithmetic, for every pixel of every case.
     assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));

@@ -3,7 +3,7 @@
 // loaded before the first figure comes into view, from engines.js beside this script, which calls
 // rasterproofEngines with the module in base64: so it works from disk, too. data-playground on the script's own
 // element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
-// inside a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
+// before a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
 // A figure that is `open` begins with its answer.
 import { arrowOf, button, make } from './dom.js';
 
@@ -115,21 +115,11 @@ class Figure extends HTMLElement {
     this.covers = [];
     this.isAnswered = this.hasAttribute('open');
     watching.observe(this);
-    if (this.takeFirst() || document.readyState !== 'loading') return;
-    // The page is still being read, and what is inside the figure comes behind its beginning.
-    const reading = new MutationObserver(() => { if (this.takeFirst()) reading.disconnect(); });
-    reading.observe(this, { childList: true });
-  }
-
-  /** Shows the first answer that the page holds; whether it holds one. */
-  takeFirst() {
-    const first = this.querySelector('script[type="application/json"]');
-    // A page that is being read may hold only the beginning of it.
-    if (!first || (!first.nextSibling && document.readyState === 'loading')) return false;
-    this.first = JSON.parse(first.textContent);
+    const before = this.previousElementSibling;
+    if (!before?.matches('script[type="application/json"]')) return;
+    this.first = JSON.parse(before.textContent);
     live.add(this);
     this.begun();
-    return true;
   }
 
   /** Loads the engines; whether they are there. */
