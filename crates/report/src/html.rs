@@ -473,7 +473,7 @@ fn table(table: &Table, is_folded: bool) -> String {
         let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", prose(note));
     }
     // A list of notes is longer than the table.
-    let is_long = table.notes.len() > MOST_NOTES && !table.rows.is_empty();
+    let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
     out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
         // Notes that stand for themselves.
