@@ -25,7 +25,7 @@ use super::words::{grouped, same, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
-/// More below a table are folded.
+/// Below a table with more notes than these, they are folded: a list of them is longer than the table.
 const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
 
@@ -472,7 +472,6 @@ fn table(table: &Table, is_folded: bool) -> String {
     for note in &table.notes {
         let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", prose(note));
     }
-    // A list of notes is longer than the table.
     let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
     out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
