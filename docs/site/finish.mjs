@@ -163,13 +163,13 @@ function ask(question) {
   return JSON.parse(new TextDecoder().decode(new Uint8Array(engines.memory.buffer, engines.text(), length)));
 }
 
-/** The beginning of a live figure with its first answer on a light and on a dark page. */
+/** The beginning of a live figure behind its first answer on a light and on a dark page: it is painted with that, however slowly the page is read. */
 function withFirstAnswer(page, book, start, name, open) {
   if (!engines) return start;
   const of = (isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark });
   const first = { light: of(false), dark: of(true) };
   if (first.light.error) wrong.push(`${page}: the figure ${name}: ${first.light.error}`);
-  return `${start}<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>`;
+  return `<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>${start}`;
 }
 
 /** The names by which links reach the headings of a text, in their order. */
@@ -246,6 +246,8 @@ for (const font of fs.readdirSync(path.join(dist, 'fonts')).filter((name) => nam
   fs.copyFileSync(path.join(dist, 'fonts', font), path.join(site, 'katex/fonts', font));
 }
 
+const TEXT_IS_READ = "<script>document.documentElement.classList.add('is-read'); document.dispatchEvent(new Event('text-is-read'));</script>";
+
 // What is above the text of each chapter, the text, and what is below, by the place of the chapter in the site.
 const parts = {};
 const chaptersOf = {};
@@ -271,8 +273,11 @@ for (const book of ['en', 'zh']) {
     let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
     // Before the text is read, so that no figure is shown first as its still picture.
     if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
-    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + foot);
+    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + once(foot, '</main>', `</main>\n${TEXT_IS_READ}`));
   }
+  // The headings of a page come into the contents when the text is there, before these are shown, and not after the last script.
+  const contents = path.join(site, book, asset(book, /^toc-.*\.js$/));
+  write(contents, read(contents).replaceAll("addEventListener('DOMContentLoaded'", "addEventListener('text-is-read'"));
 }
 // The contents alone, for readers without scripts, are a page like others.
 for (const [book, title] of [['en', 'Table of contents'], ['zh', '目录']]) {

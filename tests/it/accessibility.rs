@@ -12,8 +12,9 @@ use rasterproof_report::html;
 use serde_json::json;
 
 use crate::page::{Browser, Tab as _, every_section, folder};
-use crate::pages::root;
+use crate::pages::{read, root};
 use crate::playground::{SCENES, settle};
+use crate::program::{Folder, PROGRAM};
 use crate::site::{go, names, site};
 use crate::your_gpu::SWIFTSHADER;
 
@@ -108,7 +109,7 @@ fn site_pages_are_accessible() {
 }
 
 /// What a reader may do on a page of a book, and how the page shows that it was done.
-const ACTIONS: [(&str, &str); 5] = [
+const ACTIONS: [(&str, &str); 6] = [
     (
         "document.getElementById('mdbook-sidebar-toggle').click()",
         "document.getElementById('mdbook-sidebar').getBoundingClientRect().left === 0",
@@ -126,6 +127,15 @@ const ACTIONS: [(&str, &str); 5] = [
         "null",
         "(document.querySelector('rp-figure').scrollIntoView({ block: 'center', behavior: 'instant' }),
             document.querySelector('rp-figure').shadowRoot.querySelector('.controls').childElementCount > 0)",
+    ),
+    // With the engines: it is answered, and can be dragged.
+    (
+        "(async () => {
+            const figure = document.querySelector('rp-figure');
+            figure.scrollIntoView({ block: 'center', behavior: 'instant' });
+            await figure.reveal('');
+        })()",
+        "document.querySelector('rp-figure').shadowRoot.querySelector('[role=slider]') !== null",
     ),
 ];
 
@@ -182,17 +192,31 @@ fn site_has_accessible_tools() {
 
     let every = folder("axe-report").join("index.html");
     fs::write(&every, html::page(&every_section())).unwrap();
-    for (page, fragment) in [
+    // Of the pages that the program writes, one of each command.
+    let local = Folder::new("axe-local");
+    local.put("m.obj", read("tests/data/ties.obj"));
+    let mut pages = vec![
         (tools.join("inclusive-edges.html"), "#case-T2&px=2,5"),
         (tools.join("verify.html"), "#case-T2&mode=side&a=games101-strict&b=sysu-inclusive&px=2,5"),
         (every, ""),
+    ];
+    for (name, words) in [
+        ("judge", "judge --cases 20 --report --out . -- PROGRAM engine games101-strict"),
+        ("study", "study m.obj --once --size 64x48 --report --out ."),
+        ("cost", "cost m.obj --once --size 64x48 --report --out ."),
+        ("specimens", "specimens --cases 1 --report --out ."),
+        ("course-fans", "course show fans --out . -- PROGRAM engine exclusive-edges"),
     ] {
+        local.run(words.replace("PROGRAM", PROGRAM));
+        pages.push((local.join(format!("{name}.html")), ""));
+    }
+    for (page, fragment) in pages {
         for _ in 0..2 {
             let view = next(&mut browser);
             browser.open(&page, fragment);
             browser.eval(unfold);
             browser.eval(
-                "for (let i = 0; i < 9; i++) document.querySelector('[data-tool=zoomIn]').click()",
+                "for (let i = 0; i < 9; i++) document.querySelector('#cases:not([hidden]) [data-tool=zoomIn]')?.click()",
             );
             wrong.extend(violations(&mut browser, &format!("{}, {view}", page.display())));
         }

@@ -157,14 +157,15 @@ fn cost_from_the_command_line() {
     }
 }
 
-/// Every choice that ran has its label in the plot, and no label leaves the drawing.
+/// Every choice that ran has its label in the plot, no label leaves the drawing, and none lies over another.
 #[test]
 fn cost_plots_name_every_choice() {
     let board = timed(1);
     let boards = std::slice::from_ref(&board);
-    let drawings = [cost_plots::pareto(boards, 2), cost_plots::pareto(boards, 1)];
-    assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
+    let drawings = [3, 2, 1].map(|in_row| cost_plots::pareto(boards, in_row));
+    assert_eq!(drawings.each_ref().map(|drawing| drawing.size[0]), cost_plots::WIDTHS);
     for drawing in drawings {
+        let mut taken: Vec<[f64; 4]> = Vec::new();
         let svg = canvas::svg(&drawing);
         for (number, choice) in board.choices.iter().enumerate() {
             let ran = board.columns_run().filter(|&c| board.run(number, c).is_some()).count();
@@ -178,6 +179,12 @@ fn cost_plots_name_every_choice() {
             };
             let (left, length) = (number("x"), number("textLength"));
             assert!(left >= 0.0 && left + length <= drawing.size[0], "{text}");
+            let (right, y) = (left + length, number("y"));
+            let is_free = |[a, top, b, bottom]: &[f64; 4]| {
+                right <= *a || *b <= left || y <= *top || *bottom <= y - 9.0
+            };
+            assert!(taken.iter().all(is_free), "{text} lies over another");
+            taken.push([left, y - 9.0, right, y]);
         }
     }
 }

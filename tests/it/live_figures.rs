@@ -136,7 +136,10 @@ fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
         let block = figure.block(if language == "zh" { Language::Zh } else { Language::En });
         // As Markdown becomes HTML, but for the picture.
         let open = block.unwrap().replacen("\n\n**", "\n\n<p><strong>", 1);
-        open.replacen("**", "</strong>", 1).replacen("\n\n</rp", "</p></rp", 1)
+        let figured = open.replacen("**", "</strong>", 1).replacen("\n\n</rp", "</p></rp", 1);
+        let numbers = figure.numbers().unwrap().into_iter();
+        let numbers = numbers.map(|(of, _)| format!("<!--n {}.{of}-->?<!--/n--> ", figure.name));
+        format!("{figured}<p>In the prose: {}</p>", numbers.collect::<String>())
     };
     let figures: Vec<_> = ALL.iter().map(still).collect();
     let page = format!(
@@ -189,10 +192,18 @@ const PIXELS: &str = r"(svg => [...svg.querySelectorAll('.px')].flatMap(e =>
 /// What is wrong with a figure as it stands in the browser, beside the oracle for the state that it says.
 fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
     let of = of(figure);
-    let shown = browser.eval(&format!("({{ at: JSON.parse({of}.dataset.at), svg: {of}.now.svg, answer: {of}.now.answer, link: {of}.link.href.split('/').pop() }})"));
+    let shown = browser.eval(&format!("({{ at: JSON.parse({of}.dataset.at), svg: {of}.now.svg, answer: {of}.now.answer, link: {of}.link.href.split('/').pop(),
+        numbers: Object.fromEntries({of}.numbers.map(({{ shown, value }}) => [value, shown.textContent])) }})"));
     let right = expected(figure, "en", &shown["at"], true);
     let mut wrong = Vec::new();
+    let numbers: serde_json::Map<_, _> = figure
+        .numbers()
+        .unwrap()
+        .into_iter()
+        .map(|(name, _)| (name.clone(), right["values"][&name].clone()))
+        .collect();
     for (what, is, should) in [
+        ("the numbers in the prose", &shown["numbers"], &json!(numbers)),
         ("the picture", &shown["svg"], &right["svg"]),
         ("the words", &shown["answer"], &right["answer"]),
         (

@@ -17,8 +17,9 @@ use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
     Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
 };
-use rasterproof_report::picture;
 use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::words::thousands;
+use rasterproof_report::{canvas, picture};
 use serde_json::{Value, json};
 
 use crate::program::{Run, shared};
@@ -281,7 +282,7 @@ fn cells(browser: &mut Browser) -> Vec<(String, String, String)> {
         "[...document.querySelectorAll('table.counts')].flatMap(table => {
             const heads = [...table.querySelectorAll('thead th')].map(h => h.textContent);
             return [...table.querySelectorAll('tbody tr')].flatMap(row => {
-                const texts = [...row.children].map(c => c.textContent);
+                const texts = [...row.children].map(c => c.textContent.replace(/(\\d),(?=\\d{3})/g, '$1'));
                 return texts.slice(1).map((text, i) => [texts[0], heads[i + 1], text]);
             });
         })",
@@ -336,7 +337,13 @@ fn page_shows_a_verdict_and_its_cases() {
     let json: Value = serde_json::from_str(&printed).unwrap();
     let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
     assert!(verdict.contains("AGREES") && verdict.contains(", 0 wrong pixels"), "{verdict}");
-    assert!(verdict.contains(&format!("{} triangles and ", json["triangles"])), "{verdict}");
+    assert!(
+        verdict.contains(&format!(
+            "{} triangles and ",
+            thousands(json["triangles"].as_u64().unwrap())
+        )),
+        "{verdict}"
+    );
     counts_equal_the_json(&mut browser, &json);
     // The page evaluates the rule by itself, in exact arithmetic, for every pixel of every case.
     assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
@@ -498,11 +505,27 @@ fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
     }
     let rows = browser.eval(
         "[...document.querySelectorAll('#about-pixel .edges')].map(t => [...t.querySelectorAll('tbody tr')]
-            .map(r => [r.children[2].textContent, r.children[3].textContent, r.children[4].textContent]))",
+            .map(r => [r.children[2].textContent, r.children[3].textContent]))",
     );
-    let upper =
-        json!([["inside", "top", "yes"], ["inside", "right", "no"], ["on it", "left", "yes"]]);
+    let upper = json!([
+        ["inside", "top edge: keeps it"],
+        ["inside", "right edge: leaves it"],
+        ["exactly on this edge", "left edge: keeps it"]
+    ]);
     assert_eq!(rows[0], upper);
+    // The same sentences as in the playground: of both rules that are shown, and of the right one.
+    let why =
+        browser.eval("[...document.querySelectorAll('#about-pixel .say')].map(p => p.textContent)");
+    let why: Vec<String> = serde_json::from_value(why).unwrap();
+    let begin = [
+        "The sample lies exactly on the edge that two triangles share: E = 0 for both. Strict",
+        "The sample lies exactly on the edge that two triangles share: E = 0 for both. Inclusive",
+        "The top-left rule: a sample on an edge",
+    ];
+    assert!(
+        why.len() == 3 && why.iter().zip(begin).all(|(is, begin)| is.starts_with(begin)),
+        "{why:?}"
+    );
     // The keyboard moves on, and the live region follows.
     browser.eval("document.querySelector('rp-view .pixels').focus()");
     browser.press("ArrowRight");
@@ -587,7 +610,8 @@ fn page_shows_a_planted_fault_first() {
     browser.open(&page, "");
     let json: Value = serde_json::from_str(&printed).unwrap();
     let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
-    let wrong = format!("{} wrong pixels in ", json["mismatches"]);
+    // Thousands are apart, also in the tables.
+    let wrong = format!("{} wrong pixels in ", thousands(json["mismatches"].as_u64().unwrap()));
     assert!(verdict.contains("DISAGREES") && verdict.contains(&wrong), "{verdict}");
     counts_equal_the_json(&mut browser, &json);
     // The worst row first after the sum, and the failing case is open.
@@ -595,6 +619,20 @@ fn page_shows_a_planted_fault_first() {
         "[...document.querySelectorAll('table.counts tbody tr')].slice(0, 2).map(r => r.className)",
     );
     assert_eq!(marks, json!(["sum", "wrong"]));
+    // Each family has a bar, the worst the longest, and all tables but the first are folded.
+    let bars = browser.eval(
+        "[...document.querySelectorAll('tr.wrong th')].map(head => parseFloat(getComputedStyle(head).getPropertyValue('--share')))",
+    );
+    let bars: Vec<f64> = serde_json::from_value(bars).unwrap();
+    assert!(bars.len() > 5 && bars[0] == 100.0 && bars.is_sorted_by(|a, b| a >= b), "{bars:?}");
+    let folded = browser.eval("[...document.querySelectorAll('table.counts')].map(table => table.closest('details')?.open ?? null)");
+    let folded: Vec<Option<bool>> = serde_json::from_value(folded).unwrap();
+    assert!(
+        folded.len() > 1
+            && folded[0].is_none()
+            && folded[1..].iter().all(|open| *open == Some(false)),
+        "{folded:?}"
+    );
     let first = &json["failures"][0];
     let name = format!("{}#{}", first["family"].as_str().unwrap(), first["index"]);
     assert_eq!(browser.text("#case-title"), name);
@@ -758,7 +796,7 @@ pub fn every_section() -> Report {
         figures: vec![Figure {
             caption: hostile(),
             svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
-            narrow: None,
+            others: vec![],
         }],
         diffs: vec![TextDiff {
             name: hostile(),
@@ -805,6 +843,25 @@ fn page_takes_every_section_and_any_text() {
 
 /// What marks pixels of another picture is not compared with it, and the page says what its colours mean. A plot fills the
 /// window and leaves it again. On paper nothing blinks, and no tool is printed.
+/// A plot is drawn for the width of its page: wide, usual, and for a phone.
+#[test]
+fn page_has_plots_of_its_width() {
+    let drawn = [1200.0, 800.0, 400.0].map(|width| canvas::Drawing::new("a plot", [width, 90.0]));
+    let report = Report { figures: vec![canvas::figure("a plot", drawn)], ..Report::default() };
+    let path = folder("page-plots").join("index.html");
+    std::fs::write(&path, page(&report)).unwrap();
+    let Some(mut browser) = Browser::start("plots") else { return };
+    browser.open(&path, "");
+    for (width, drawn) in [(1280, 1200), (900, 800), (360, 400)] {
+        browser.resize(width, 800);
+        browser.wait_for(&format!("document.querySelector('.plot img').naturalWidth === {drawn}"));
+        fits_the_width(&mut browser);
+        let shown =
+            browser.eval("document.querySelector('.plot img').clientWidth").as_f64().unwrap();
+        assert!(shown > 0.8 * f64::from(width), "{shown} of {width} px");
+    }
+}
+
 #[test]
 fn page_tells_marks_from_pictures() {
     let [old, new] = [[10, 20, 30], [200, 20, 30]].map(|c| RgbImage::from_pixel(7, 5, Rgb(c)));
@@ -812,7 +869,7 @@ fn page_tells_marks_from_pictures() {
     let layers = vec![PictureLayer::new("picture", &old), PictureLayer::map("marks", &new, &marks)];
     let frames = vec![PictureView { name: "one".to_owned(), layers, ..PictureView::default() }];
     let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned();
-    let figures = vec![Figure { caption: "a plot".to_owned(), svg, narrow: None }];
+    let figures = vec![Figure { caption: "a plot".to_owned(), svg, others: vec![] }];
     let path = folder("page-marks").join("index.html");
     std::fs::write(&path, page(&Report { frames, figures, ..Report::default() })).unwrap();
     let Some(mut browser) = Browser::start("marks") else { return };

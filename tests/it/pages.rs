@@ -1,6 +1,6 @@
 //! Figures of the pages do not drift. Each lies between two comments, which a reader does not see:
 //! `<!--n drifting-lines-->788<!--/n-->`. The name is one of `figures.rs`, or says which cell of a table it repeats:
-//! `cost: Lines, ns, Bresenham, large`. What the page prints must be the value, rounded to the digits that are printed.
+//! `cost: Lines, ns, Bresenham, large`, or which number of a live figure, which then follows its grips: `weights.pa`. What the page prints must be the value, rounded to the digits that are printed.
 //!
 //! A comment in the words of a picture would be read out. There one comment behind the picture names the numbers of these
 //! words in their order, and `-` those that are not computed: `![T6: 110 pixels](T6.png)<!--alt - t6-pixels-->`.
@@ -187,6 +187,12 @@ fn pages_figures_are_computed() {
         }
     }
     let (mut wrong, mut used) = (Vec::new(), BTreeSet::new());
+    let own: Vec<_> = values.keys().cloned().collect();
+    // The prose repeats some numbers of the live figures, where their grips begin.
+    for figure in rasterproof_wasm::figures::ALL.iter() {
+        let numbers = figure.numbers().unwrap().into_iter();
+        values.extend(numbers.map(|(name, value)| (format!("{}.{name}", figure.name), value)));
+    }
     let pages: BTreeMap<_, _> = crate::workspace::pages().into_iter().collect();
     for (path, text) in &pages {
         let shown = path.display();
@@ -216,7 +222,7 @@ fn pages_figures_are_computed() {
             }
         }
     }
-    let unused = values.keys().filter(|name| !used.contains(name.as_str()));
+    let unused = own.iter().filter(|name| !used.contains(name.as_str()));
     wrong.extend(unused.map(|name| format!("no page has the figure '{name}'")));
     assert!(
         wrong.is_empty(),

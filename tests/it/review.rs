@@ -118,5 +118,5 @@ fn many_snapshots_are_counted_and_the_first_are_shown() {
         .prints("2000 changed snapshots wait for review in snapshots.")
         .prints("1500 more are not looked into: accept or reject the 500 listed");
     let page = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
-    assert!(page.len() < 2_000_000 && page.contains("1500 more are not looked into"));
+    assert!(page.len() < 2_000_000 && page.contains("1,500 more are not looked into"));
 }

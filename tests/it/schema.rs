@@ -1,8 +1,13 @@
-//! What commands print with `--json` is what `docs/schema.json` says: no field is missing, renamed or undescribed.
+//! What commands print with `--json`, and what pages show, is what `docs/schema.json` says: no field is missing, renamed or undescribed.
 
+use rasterproof_report::html::{self, Report};
+use rasterproof_report::page_cases;
+use rasterproof_wasm::figures;
+use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
 use crate::json_schema::wrong;
+use crate::page::every_section;
 use crate::pages::read;
 use crate::program::{Folder, PROGRAM};
 
@@ -52,6 +57,30 @@ fn every_json_is_as_its_schema_says() {
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// What the viewer of a report is given, and what each live figure shows.
+#[test]
+fn what_pages_show_is_as_its_schema_says() {
+    let cases = page_cases::of_specimens();
+    let page = html::page(&Report { cases, ..every_section() });
+    let (_, data) = page.split_once("id=\"data\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    for part in ["cases", "frames"] {
+        assert_ne!(data[part], json!([]), "{part}");
+    }
+    assert_eq!(wrong("page", &data), None);
+    let renamed = data.to_string().replacen("\"runs\"", "\"spans\"", 1);
+    let renamed = serde_json::from_str(&renamed).unwrap();
+    assert_eq!(
+        wrong("page", &renamed).as_deref(),
+        Some("page/cases/0/layers/0: \"runs\" is missing")
+    );
+    for figure in figures::ALL.iter() {
+        let question = json!({ "ask": "figure", "name": figure.name, "language": "en" });
+        let shown: Value = serde_json::from_str(&answer(&question.to_string())).unwrap();
+        assert_eq!(wrong("figure", &shown), None, "{}", figure.name);
+    }
 }
 
 /// A field that is missing, another name and another type are found, however deep.

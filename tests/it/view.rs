@@ -39,6 +39,7 @@ fn viewer_keeps_its_sentences() {
         ("if (isOther || !this.seen)", "if (true)"),
         ("    event.stopPropagation();\n", ""),
         ("held.moved ||= Math", "held.moved = false && Math"),
+        ("&& below > 1.3 * beside", "&& false"),
         ("if (byKeys) this.pan", "if (false) this.pan"),
         ("const isLost = unit < 2 &&", "const isLost = false &&"),
         ("this.classList.toggle('is-wide', this.isWide);", ""),

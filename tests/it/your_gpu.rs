@@ -214,6 +214,12 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
         cause.contains("probable cause: It samples at (0.4375, 0.4375) of the pixel"),
         "{cause}"
     );
+    // Below the headline of the first interface its finding stands, with pixels that can be seen and both pictures.
+    let shown = browser.eval(
+        "(() => { const { previousElementSibling: before, hidden } = document.getElementById('finding');
+            return [hidden, before.className, before.parentElement.dataset.api, pixels.unit >= 24, pixels.shown.length]; })()",
+    );
+    assert_eq!(shown, json!([false, "cause", "webgpu", true, 2]));
     browser
         .eval("document.querySelector('[data-api=webgl2] [data-check=coverage] button').click()");
     // The headline names the check, and the keyboard is where the case is.

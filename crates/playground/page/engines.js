@@ -1,7 +1,5 @@
 // The compiled module: questions and answers. The page draws what it answers, and computes no pixel of its own.
 
-const word = (key) => WORDS[state.lang][key] ?? key;
-
 let engines = null;
 let compiled = null;
 

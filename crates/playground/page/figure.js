@@ -3,7 +3,7 @@
 // loaded before the first figure comes into view, from engines.js beside this script, which calls
 // rasterproofEngines with the module in base64: so it works from disk, too. data-playground on the script's own
 // element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
-// inside a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
+// before a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
 // A figure that is `open` begins with its answer.
 import { arrowOf, button, make } from './dom.js';
 
@@ -73,6 +73,22 @@ const watching = new IntersectionObserver((entries) => {
   }
 }, { rootMargin: '100% 0px' });
 const live = new Set();
+
+/** The numbers in the prose of the page that belong to a figure, each behind a comment `n NAME.VALUE`. */
+function numbersOf(name) {
+  const comments = document.createTreeWalker(document.body, NodeFilter.SHOW_COMMENT);
+  const found = [];
+  while (comments.nextNode()) {
+    const [, of, value] = comments.currentNode.data.match(/^n ([\w-]+)\.(\w+)$/) ?? [];
+    if (of === name) found.push({ comment: comments.currentNode, value });
+  }
+  return found.map(({ comment, value }) => {
+    const shown = make('span', { className: 'follows' }, comment.nextSibling);
+    comment.after(shown);
+    return { shown, value };
+  });
+}
+
 const redraw = () => { for (const figure of live) figure.draw(); };
 new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
@@ -99,21 +115,11 @@ class Figure extends HTMLElement {
     this.covers = [];
     this.isAnswered = this.hasAttribute('open');
     watching.observe(this);
-    if (this.takeFirst() || document.readyState !== 'loading') return;
-    // The page is still being read, and what is inside the figure comes behind its beginning.
-    const reading = new MutationObserver(() => { if (this.takeFirst()) reading.disconnect(); });
-    reading.observe(this, { childList: true });
-  }
-
-  /** Shows the first answer that the page holds; whether it holds one. */
-  takeFirst() {
-    const first = this.querySelector('script[type="application/json"]');
-    // A page that is being read may hold only the beginning of it.
-    if (!first || (!first.nextSibling && document.readyState === 'loading')) return false;
-    this.first = JSON.parse(first.textContent);
+    const before = this.previousElementSibling;
+    if (!before?.matches('script[type="application/json"]')) return;
+    this.first = JSON.parse(before.textContent);
     live.add(this);
     this.begun();
-    return true;
   }
 
   /** Loads the engines; whether they are there. */
@@ -162,6 +168,8 @@ class Figure extends HTMLElement {
     this.question.textContent = answer.question;
     this.says.textContent = this.isAnswered ? answer.answer : '';
     this.link.href = (own.dataset.playground ?? beside('playground.html')) + answer.link + (this.language === 'zh' ? '&lang=zh' : '');
+    if (this.isAnswered) this.numbers ??= numbersOf(this.getAttribute('scene'));
+    for (const { shown, value } of this.numbers ?? []) if (shown.textContent !== answer.values[value]) shown.textContent = answer.values[value];
     this.show();
   }
 

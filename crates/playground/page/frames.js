@@ -21,17 +21,15 @@ function drawFrame() {
     last.answer = answer;
     view.show(shownOf(answer));
   }
-  explain(answer);
   pressTools();
+  clearTimeout(explaining);
+  explaining = setTimeout(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
 }
 
-/** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
+/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, and follow a drag ten times a second. */
 let explained = 0;
 let explaining = 0;
 function explain(answer) {
-  clearTimeout(explaining);
-  const wait = explained + 100 - performance.now();
-  if (wait > 0) { explaining = setTimeout(() => { if (last.answer) explain(last.answer); }, wait); return; }
   explained = performance.now();
   drawCorners();
   const same = command();

@@ -1,57 +1,26 @@
-// What is said about a pixel: edges, rules, and how the scanline came to its row.
-
-const isStrict = (triangle) => triangle.edges?.every((edge) => edge.sign > 0);
-const isInclusive = (triangle) => triangle.edges?.every((edge) => edge.sign >= 0);
+// What is said about a pixel: its edges as the engines have them, and how the scanline came to its row.
 
 /** A float with as many digits as a table holds. */
 const short = (value) => (value === 0 || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6) ? round(value, 3) : value.toExponential(2));
 
-function rulesOf(triangle) {
-  const yes = (held) => word(held ? 'yes' : 'no');
-  return [[word('strict'), yes(isStrict(triangle))], [word('inclusive'), yes(isInclusive(triangle))], [word('tl'), yes(triangle.covered)]];
-}
-
-/** Why the rules differ here, if they do: of the rules that are shown, and the right one. */
-function reason(triangles) {
-  const touching = triangles.filter((triangle) => isInclusive(triangle) && !isStrict(triangle));
-  if (touching.length === 0) return [];
-  const shows = (...painters) => painters.some((name) => state.by.includes(name));
-  const isShared = touching.length > 1;
-  const says = [];
-  if (shows('exclusive-edges', 'games101-strict') && !triangles.some(isStrict)) says.push(isShared ? 'hole' : 'missed');
-  if (shows('inclusive-edges', 'sysu-inclusive')) says.push(isShared ? 'double' : 'added');
-  const owned = triangles.some((triangle) => triangle.covered);
-  says.push(isShared && owned ? 'once' : owned ? 'kept' : 'left');
-  return says.map((key) => make('p', { className: 'say' }, word(key)));
+/** An edge of a triangle as the engines see it from a sample, for the table of edges. */
+function edgeOf({ ends, value, bound, sign, topLeft: isTopLeft, byFilter }, corners, all) {
+  const letter = (end) => corner(all.findIndex((handle) => handle.members.includes(corners[end])));
+  const [from, to] = ends.map((end) => corners[end]);
+  return {
+    name: ends.map(letter).join(' → '), sign, isTopLeft, kind: kindOfEdge(to.x - from.x, to.y - from.y), isByExact: byFilter === false,
+    ...(bound === undefined ? { value } : { value: short(Number(value)), bound: bound.toExponential(0) }),
+  };
 }
 
 function aboutPixel() {
   const head = make('h2', {}, `${word('pixel')} ${state.px?.join(', ') ?? ''}`);
   if (!last.look) return [head];
-  const triangles = last.look.triangles.map((triangle, i) => ({ ...triangle, i }));
-  const here = triangles.filter(isInclusive);
-  const listed = here.length ? here : triangles.slice(0, 1);
-  const parts = [head, ...reason(triangles)];
-  for (const triangle of listed.slice(0, 4)) parts.push(...aboutTriangle(triangle));
-  const walked = listed.find((triangle) => triangle.rows?.length || triangle.crossings);
-  if (walked) parts.push(walked.rows ? walkOf(walked) : crossingsOf(walked));
-  return parts;
-}
-
-function aboutTriangle(triangle) {
-  const title = `${word('ofTriangle')} ${triangle.i + 1}`;
-  if (!triangle.edges) return [make('p', {}, `${title}: ${word('degenerate')}`)];
   const all = handles();
-  const letter = (end) => corner(all.findIndex((handle) => handle.members.includes(state.triangles[triangle.i][end])));
-  const rows = triangle.edges.map((edge) => [
-    edge.ends.map(letter).join(' → '),
-    ...(state.snap ? [edge.value] : [short(Number(edge.value)), edge.bound.toExponential(0)]),
-    word(edge.sign === 0 ? 'onEdge' : edge.sign > 0 ? 'inside' : 'outside') + (edge.byFilter === false ? word('byExact') : ''),
-    word(edge.topLeft ? 'topLeft' : 'notTopLeft'),
-  ]);
-  const heads = [word('edge'), word('value'), ...(state.snap ? [] : ['±']), word('sample'), word('ifOn')];
-  return [make('p', {}, make('strong', {}, title)), table(heads, rows),
-    make('p', { className: 'quiet' }, `${word('belongs')}: ${rulesOf(triangle).map((rule) => rule.join(': ')).join('; ')}`)];
+  const triangles = last.look.triangles.map((triangle, i) => ({ ...triangle, i, edges: triangle.edges?.map((edge) => edgeOf(edge, state.triangles[i], all)) }));
+  const { nodes, listed } = aboutTriangles(triangles, state.by, state.snap ? 8 : 0);
+  const walked = listed.find((triangle) => triangle.rows?.length || triangle.crossings);
+  return [head, ...nodes, ...(walked ? [walked.rows ? walkOf(walked) : crossingsOf(walked)] : [])];
 }
 
 /** Off the lattice rows are crossed one by one, so there is nothing to step through. */

@@ -2,12 +2,6 @@
 
 const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
 const corner = (i) => LETTERS[i % LETTERS.length];
-/** What may be wider than its place scrolls there, by the keyboard as well. */
-const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': word('table') }, ...children);
-const table = (head, rows) => scrolling(make('table', {},
-  make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', { scope: 'col' }, cell)))),
-  make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
-    cell instanceof Node ? make('td', {}, cell) : make('td', { className: i && /^[-\d.]/.test(cell) ? 'number' : '' }, String(cell)))))))));
 const round = (value, digits = 4) => (Number.isFinite(value) ? String(Number(value.toFixed(digits))) : '–');
 /** A byte as the pipeline makes it of a value: thresholds lie off simple fractions. */
 const mix = (value) => Math.floor(255 * Math.max(0, Math.min(1, value)) + 0.5 + 2 ** -20 / 3);

@@ -56,9 +56,8 @@ function drawCorners() {
 
 function buildCorners(all, fields) {
   const columns = [{ key: 'x' }, { key: 'y' }, ...fields];
-  const head = make('tr', {}, make('th', { scope: 'col' }, word(state.lines ? 'end' : 'corner')), ...columns.map((c) => make('th', { scope: 'col' }, c.key)));
   const rows = all.map((handle, i) => {
-    const cells = columns.map((column) => {
+    const inputs = columns.map((column) => {
       const step = state.lines ? 1 : column.step ?? (state.snap ? 1 / SUB : 'any');
       const input = make('input', { type: 'number', step, 'data-corner': i, 'data-key': column.key, 'aria-label': `${LETTERS[i % 26]} ${column.key}` });
       input.addEventListener('input', () => {
@@ -68,12 +67,10 @@ function buildCorners(all, fields) {
         if (column.set) { column.set(now, value); redraw(); } else place(now, column.key === 'x' ? value : now.x, column.key === 'y' ? value : now.y);
       });
       input.addEventListener('focus', () => { state.chosen = i; });
-      return make('td', {}, input);
+      return input;
     });
-    return make('tr', {}, make('th', { scope: 'row' }, LETTERS[i % 26]), ...cells);
+    return [LETTERS[i % 26], ...inputs];
   });
-  fill($('corners'), all.length === 0 ? [] : [
-    make('h2', { id: 'corners-title' }, word('corners')),
-    scrolling(make('table', {}, make('thead', {}, head), make('tbody', {}, ...rows))),
-  ]);
+  const heads = [word(state.lines ? 'end' : 'corner'), ...columns.map((column) => column.key)];
+  fill($('corners'), all.length === 0 ? [] : [make('h2', { id: 'corners-title' }, word('corners')), table(heads, rows)]);
 }

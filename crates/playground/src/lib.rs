@@ -16,6 +16,7 @@ pub const PLAYGROUND: Parts = Parts {
     template: include_str!("../page/page.html"),
     styles: &[include_str!("../page/page.css")],
     scripts: &[
+        rasterproof_view::PIXEL,
         include_str!("../page/words.js"),
         include_str!("../page/cases.js"),
         include_str!("../page/engines.js"),

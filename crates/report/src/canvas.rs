@@ -2,15 +2,12 @@
 //!
 //! Own code instead of a plotting library: none of `plotters`, `charming` and `poloto` places labels so that they do not overlap,
 //! which is most of the work here, and their colours are the same on dark paper. Here each colour has a class by which a dark page
-//! gets another one, and text is monospaced and says its length, so that no other font makes labels overlap.
+//! gets another one, and text says its length, so that no font makes labels overlap.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::html::{Figure, escape};
-
-/// The width of a character, in units of the drawing.
-const LETTER: f64 = 8.0;
 
 pub type Ink = [u8; 3];
 
@@ -108,8 +105,17 @@ impl Drawing {
     }
 }
 
+/// The width of a text, in units of the drawing: between that in Helvetica and that in DejaVu Sans, which is wide.
 pub fn width(text: &str) -> f64 {
-    text.chars().count() as f64 * LETTER
+    let letter = |c: char| match c {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 3.5,
+        ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | '"' => 4.6,
+        'm' | 'M' | 'W' | '%' | '@' => 11.7,
+        'A'..='Z' | 'w' | '+' | '=' | '<' | '>' | '~' => 9.4,
+        '\u{2e80}'.. => 13.0,
+        _ => 7.7,
+    };
+    text.chars().map(letter).sum()
 }
 
 pub fn svg(drawing: &Drawing) -> String {
@@ -121,15 +127,16 @@ pub fn svg(drawing: &Drawing) -> String {
     let dark: String = dark.collect();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" font-family=\"monospace\" font-size=\"13\">\n<title>{title}</title>\n\
+         height=\"{height}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n<title>{title}</title>\n\
          <style>@media (prefers-color-scheme: dark){{{dark}}}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\" class=\"fffffff\"/>\n{body}</svg>\n"
     )
 }
 
-/// The same drawing for wide and for narrow pages, as a figure.
-pub fn figure(caption: &str, [wide, narrow]: [Drawing; 2]) -> Figure {
-    Figure { caption: caption.to_owned(), svg: svg(&wide), narrow: Some(svg(&narrow)) }
+/// The same drawing for wide pages, for files and for narrow pages, as a figure.
+pub fn figure(caption: &str, [wide, usual, narrow]: [Drawing; 3]) -> Figure {
+    let others = [("(min-width: 78rem)", svg(&wide)), ("(max-width: 40rem)", svg(&narrow))];
+    Figure { caption: caption.to_owned(), svg: svg(&usual), others: others.into() }
 }
 
 fn hex([r, g, b]: Ink) -> String {

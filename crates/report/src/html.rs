@@ -21,10 +21,12 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 use super::table::{Mark, Table};
-use super::words::{same, word};
+use super::words::{grouped, same, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
+/// Below a table with more notes than these, they are folded: a list of them is longer than the table.
+const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
@@ -36,6 +38,7 @@ static STYLE: LazyLock<String> =
 /// The viewer, and the modules of reports, each behind those that it uses.
 static SCRIPT: LazyLock<String> = LazyLock::new(|| {
     rasterproof_view::script(&[
+        rasterproof_view::PIXEL,
         include_str!("page/exact.js"),
         include_str!("page/items.js"),
         include_str!("page/explain.js"),
@@ -161,8 +164,8 @@ pub struct Figure {
     /// An SVG document with a size, shown as an image: scripts in it do not run. Colours for a dark
     /// page go into its own `prefers-color-scheme` style.
     pub svg: String,
-    /// The same for narrow pages, where it differs.
-    pub narrow: Option<String>,
+    /// The same for other pages, each with the condition of a style sheet that says which.
+    pub others: Vec<(&'static str, String)>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -249,14 +252,24 @@ pub fn escape(text: &str) -> String {
     out
 }
 
+/// Text that people read, with thousands apart in its numbers.
+fn prose(text: &str) -> String {
+    escape(&grouped(text))
+}
+
 /// The whole page, below [`limits::PAGE_BYTES`]; the same for the same report.
 pub fn page(report: &Report) -> String {
     let mut room =
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
     let head = head(report);
+    // A page begins with one picture or one table; all other rows are folded.
     let is_folded = report.pictured.is_some();
-    let tables: String = report.tables.iter().map(|one| table(one, is_folded)).collect();
+    let (mut tables, mut has_rows) = (String::new(), false);
+    for one in &report.tables {
+        tables += &table(one, is_folded || has_rows && !one.rows.is_empty());
+        has_rows |= !one.rows.is_empty();
+    }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
@@ -349,17 +362,17 @@ fn head(report: &Report) -> String {
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
     if let Some(outcome) = &report.outcome {
         let class = if outcome.good { "good" } else { "bad" };
-        let (word, first) = (escape(&outcome.word), escape(outcome.first()));
+        let (word, first) = (escape(&outcome.word), prose(outcome.first()));
         let _ = writeln!(
             out,
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{first}</span></p>"
         );
         if outcome.first() != outcome.sentence {
-            let _ = writeln!(out, "<p id=\"counts\">{}</p>", escape(&outcome.sentence));
+            let _ = writeln!(out, "<p id=\"counts\">{}</p>", prose(&outcome.sentence));
         }
     }
     if let Some(PicturedAnswer { sentence, figure: shown }) = &report.pictured {
-        let _ = writeln!(out, "<p class=\"pictured\">{}</p>", escape(sentence));
+        let _ = writeln!(out, "<p class=\"pictured\">{}</p>", prose(sentence));
         out += &figure(shown);
     }
     for line in report.about.lines() {
@@ -369,7 +382,7 @@ fn head(report: &Report) -> String {
     for Statement { about, sentence, command: more } in &report.answers {
         // What stands above the picture is not said again.
         let sentence = sentence.strip_prefix(said).unwrap_or(sentence).trim_start();
-        let (about, sentence) = (escape(about), escape(sentence));
+        let (about, sentence) = (escape(about), prose(sentence));
         let _ = writeln!(out, "<p class=\"answer\"><strong>{about}:</strong> {sentence}</p>");
         out += &command(more);
     }
@@ -430,7 +443,7 @@ fn command(text: &str) -> String {
 }
 
 fn notes(notes: &[String], left_out: &[String]) -> String {
-    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", escape(note))).collect();
+    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", prose(note))).collect();
     if !left_out.is_empty() {
         let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
         if left_out.len() > names.len() {
@@ -455,9 +468,12 @@ fn table(table: &Table, is_folded: bool) -> String {
     if !table.rows.is_empty() {
         out += &rows(table);
     }
+    let mut notes = String::new();
     for note in &table.notes {
-        let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(note));
+        let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", prose(note));
     }
+    let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
+    out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
         // Notes that stand for themselves.
         _ if table.caption.is_empty() => out,
@@ -467,10 +483,15 @@ fn table(table: &Table, is_folded: bool) -> String {
 }
 
 fn rows(table: &Table) -> String {
+    // A table without a caption belongs to the one above it, and has the name of its rows.
+    let name = match (&*table.caption, table.columns.first()) {
+        ("", Some(column)) => &column.label,
+        (caption, _) => caption,
+    };
     let mut out = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" \
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" \
          aria-label=\"{0}\"><table class=\"counts\" aria-label=\"{0}\">\n<thead><tr>",
-        escape(&table.caption)
+        escape(name)
     );
     for column in &table.columns {
         let class = if column.is_number { " class=\"number\"" } else { "" };
@@ -496,7 +517,7 @@ fn rows(table: &Table) -> String {
         let _ = write!(out, "<tr{class}>");
         let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
-            let text = escape(cell);
+            let text = if column.is_number { prose(cell) } else { escape(cell) };
             let number = match column.is_number {
                 _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
                 true => " class=\"number\"".to_owned(),
@@ -508,6 +529,7 @@ fn rows(table: &Table) -> String {
                     "<th scope=\"row\"><button type=\"button\" class=\"find\" data-search=\"{}\">{text}</button></th>",
                     escape(search)
                 ),
+                (0, None) if text.is_empty() => write!(out, "<td></td>"),
                 (0, None) => write!(out, "<th scope=\"row\">{text}</th>"),
                 _ => write!(out, "<td{number}>{}</td>", text.replace('\n', "<br>")),
             };
@@ -524,12 +546,14 @@ fn rows(table: &Table) -> String {
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
-    let narrow = figure.narrow.as_ref().map_or(String::new(), |svg| {
-        format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
-    });
+    let others = figure
+        .others
+        .iter()
+        .map(|(media, svg)| format!("<source media=\"{media}\" srcset=\"{}\">", address(svg)));
+    let others: String = others.collect();
     format!(
         "<figure class=\"plot\"><button type=\"button\" class=\"enlarge\" title=\"as large as the window, and back\">\
-         <picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
+         <picture>{others}<img src=\"{}\" alt=\"{caption}\"></picture></button>\
          <figcaption>{caption}</figcaption></figure>\n",
         address(&figure.svg)
     )

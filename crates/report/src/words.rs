@@ -7,6 +7,27 @@ pub fn thousands(n: u64) -> String {
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
 }
 
+/// A text whose whole numbers have commas, as [`thousands`] writes them. Numbers that are parts of words, such as `f64` and `fan#2000`, of
+/// fractions and of numbers that have commas already stay as they are.
+pub fn grouped(text: &str) -> String {
+    let (mut out, mut rest) = (String::new(), text);
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let digits: String = rest[start..].chars().take_while(char::is_ascii_digit).collect();
+        out += &rest[..start];
+        rest = &rest[start + digits.len()..];
+        let is_part = out.ends_with(|c: char| c.is_alphanumeric() || ".,_#/^=".contains(c))
+            || rest.starts_with(|c: char| {
+                c.is_alphabetic()
+                    || "_/,.".contains(c) && rest[1..].starts_with(|c: char| c.is_alphanumeric())
+            });
+        match digits.parse() {
+            Ok(number) if !is_part => out += &thousands(number),
+            _ => out += &digits,
+        }
+    }
+    out + rest
+}
+
 /// A number with what is counted: `1 kind`, `2 kinds`.
 pub fn count(number: u64, one: &str, several: &str) -> String {
     format!("{} {}", thousands(number), if number == 1 { one } else { several })
@@ -59,6 +80,17 @@ pub fn number(value: f64, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_grouped() {
+        let sentence = "16111 wrong pixels in 10774 triangles, 8,152 of 8335, and 0 lines.";
+        let right = "16,111 wrong pixels in 10,774 triangles, 8,152 of 8,335, and 0 lines.";
+        assert_eq!(grouped(sentence), right);
+        for kept in ["0.12345", "f64x16000", "fan#2000", "1e2222", "1/65536", "2^14000", "12345.5"]
+        {
+            assert_eq!(grouped(kept), kept);
+        }
+    }
 
     #[test]
     fn digits_in_groups() {

@@ -42,6 +42,11 @@ const CHECKS = {
     for (const { frame } of view.shown) if (frame.getBoundingClientRect().right > innerWidth) throw new Error('a panel is cut');
     is(colourAt(view.shown[1], ...[3.2, 2.8].map((at) => Math.round(at * view.unit))), colours.missing);
   },
+  'panels much wider than high stand below one another': () => {
+    const { view } = fresh({ part: [0, 0, 20, 2], bounds: [0, 0, 20, 2], high: 0.4 });
+    const lefts = new Set(view.shown.map(({ frame }) => frame.getBoundingClientRect().left));
+    is([lefts.size, view.unit > 40], [1, true]);
+  },
   'another part is fitted, the same one keeps the zoom': () => {
     const { view } = fresh();
     view.zoom(-1);

@@ -20,6 +20,23 @@ export function fill(element, ...children) {
   if (focused) $(focused)?.focus();
 }
 
+/** The language of the page, one of two. */
+export const pageLanguage = () => (document.documentElement.lang.startsWith('zh') ? 'zh' : 'en');
+
+/** What may be wider than its place scrolls there, by the keyboard as well. */
+export const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': pageLanguage() === 'zh' ? '表格' : 'Table' }, ...children);
+
+/** A table whose rows begin with their names; a row is a list of cells, or {cells, className}. Numbers stand at the right. */
+export function table(heads, rows, { caption = '', ...more } = {}) {
+  const kindOf = (cell) => ({ className: /^[-\u2212+]?[\d.]+(e[-+]?\d+)?%?$/.test(cell) ? 'number' : '' });
+  const rowOf = ({ cells, className = '' }) => make('tr', { className }, ...cells.map((cell, i) => (
+    i === 0 ? make('th', { scope: 'row' }, cell) : make('td', kindOf(cell), cell))));
+  const lists = rows.map((row) => (Array.isArray(row) ? { cells: row } : row));
+  const head = heads.map((text, i) => make('th', { scope: 'col', ...kindOf(lists[0]?.cells[i] ?? '') }, text));
+  return scrolling(make('table', more, ...(caption ? [make('caption', {}, caption)] : []),
+    make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...lists.map(rowOf))));
+}
+
 export function button(label, act, more = {}) {
   const made = make('button', { type: 'button', ...more }, label);
   made.addEventListener('click', act);

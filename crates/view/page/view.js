@@ -10,7 +10,7 @@
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
 //   high      the largest share of the window's height, and `most`, the largest pixel
-import { arrowOf, button, fill, make } from './dom.js';
+import { arrowOf, button, fill, make, pageLanguage } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
 /** Pixels along the longer side, from the nearest view to the farthest. */
@@ -26,7 +26,7 @@ const VIEW_WORDS = {
     keys: '画面上的按键：方向键逐像素移动，加 Shift 移动八个像素，加 Alt 平移画面；+ 和 − 缩放，0 恢复适合的大小，f 占满窗口，Esc 退出。在拖动点上，方向键移动它，加 Shift 移动得更细。双指缩放，拖动则平移；点过画面之后，滚轮也可缩放。',
   },
 };
-export const viewWords = () => VIEW_WORDS[document.documentElement.lang.startsWith('zh') ? 'zh' : 'en'];
+export const viewWords = () => VIEW_WORDS[pageLanguage()];
 
 const sideOf = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
 
@@ -131,8 +131,13 @@ class View extends HTMLElement {
     if (key === this.laidOut) return;
     this.laidOut = key;
     const axis = numbers ? axisWide(part) : 0;
+    // Panels that are much wider than high stand below one another, where that shows them larger.
+    const [all, tall] = [this.body.clientWidth, Math.max(200, innerHeight * high)];
+    const [beside, below] = [[all / panels.length, tall], [all, tall / panels.length]].map(([w, h]) => Math.min(most, w / width, h / height));
+    const isStacked = all / panels.length > 240 && below > 1.3 * beside;
+    this.body.classList.toggle('is-stacked', isStacked);
     const rows = Math.ceil(panels.length / getComputedStyle(this.body).gridTemplateColumns.split(' ').length);
-    const room = this.isWide ? (innerHeight - 90) / rows - 60 : Math.max(200, innerHeight * high);
+    const room = this.isWide ? (innerHeight - 90) / rows - 60 : isStacked ? tall / panels.length : tall;
     const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2); // its frame
     const fits = Math.min(this.isWide ? Infinity : most, wide / width, room / height);
     this.cell = fits >= 4 ? Math.floor(fits) : fits;

@@ -31,6 +31,9 @@ fn is_comment(line: &str) -> bool {
         || (line.starts_with("/** ") && line.ends_with("*/"))
 }
 
+/// What is said of a pixel, for pages that say it: after the viewer, before their own modules.
+pub const PIXEL: &str = include_str!("../page/pixel.js");
+
 /// The viewer and the modules of a page as one script, without their comments.
 #[must_use]
 pub fn script(own: &[&str]) -> String {

@@ -162,7 +162,7 @@ async function judgeAll({ names = Object.keys(APIS), ...options } = {}) {
       state.results.at(-1).notes.push(['failed', error.message]);
     }
   }
-  Object.assign(state, { running: false, progress: null });
+  Object.assign(state, { running: false, progress: null, shown: firstBroken(state.results) });
   document.body.dataset.done = '';
   drawAll();
 }

@@ -24,8 +24,8 @@ function summary(result) {
 function showCase(index, check) {
   state.shown = [index, check];
   drawAll();
-  $('finding').scrollIntoView();
-  $('finding').querySelector('h2').focus({ preventScroll: true });
+  finding.scrollIntoView();
+  finding.querySelector('h2').focus({ preventScroll: true });
 }
 
 /** What a rule asks for: its own words where they are at hand, and ours. */
@@ -195,19 +195,27 @@ function copying(text) {
   return [button(word('copy'), press), done];
 }
 
+const finding = $('finding');
+
+/** The first check that breaks a promise, and has a case to show. */
+const firstBroken = (results) => results.flatMap(({ rows, views }, index) => (
+  Object.keys(views).filter((check) => rows[check]?.word === 'outside').map((check) => [index, check])))[0] ?? null;
+
 function drawFinding() {
-  const section = $('finding');
   const [index, check] = state.shown ?? [];
   const result = state.results?.[index];
   const view = result?.views[check];
-  section.hidden = !view;
+  finding.hidden = !view;
+  // It stands right below the headline of its interface.
+  const of = view && document.querySelector(`#results [data-api=${result.name}]`);
+  (of?.querySelector('.cause') ?? of?.querySelector('.verdict') ?? $('results')).after(finding);
   if (!view) return;
   const rule = ruleOf(result.name, check);
   const heads = (check === 'twice' ? ['drawnFirst', 'drawnAgain'] : ['ours', 'theirs']).map(word);
   const isBroken = result.rows[check]?.word === 'outside' || view.marks.some((mark) => mark.word === 'outside');
   const link = address(result.name, check, view.subject);
   const text = report(result, check, view);
-  fill(section,
+  fill(finding,
     make('h2', { tabIndex: -1 }, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : view.marks.length ? 'example' : 'alike')}`),
     pixels, make('p', { id: 'pixel', role: 'status' }), make('p', { className: 'quiet' }, word('legend')(check)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),

@@ -105,6 +105,8 @@ const WORDS = {
 };
 for (const { details } of Object.values(WORDS)) details.reach = details.coverage;
 
+const word = (key) => WORDS[state.lang][key] ?? key;
+
 /** A note in the language of the page: a key, and what its sentence needs. */
 function said([key, ...more]) {
   const words = word(key);

@@ -1,5 +1,6 @@
 // Edge functions and lines in exact arithmetic, computed from the corners in BigInt; positions that are doubles are
 // taken apart into mantissa and exponent first. A fourth implementation: the tests compare it with the oracle.
+import { kindOfEdge } from './pixel.js';
 
 /** A double as [m, e] with value m * 2^e, m odd or zero. */
 const takeApart = (value) => {
@@ -24,12 +25,6 @@ export const fixedPoint = (shape) => {
   const bits = Math.max(1, ...parts.flat(2).map(([, e]) => -e));
   const fixed = ([m, e]) => m << BigInt(e + bits);
   return { bits, triangles: parts.map((t) => t.map((p) => p.map(fixed))) };
-};
-
-const kindOfEdge = (dx, dy) => {
-  if (dy < 0n) return 'left';
-  if (dy > 0n) return 'right';
-  return dx > 0n ? 'top' : dx < 0n ? 'bottom' : 'a point';
 };
 
 /** The edge functions of a triangle at the centre of a pixel, positive inside. */

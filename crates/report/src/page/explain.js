@@ -1,9 +1,10 @@
-// What is said of a pixel: who hits it, the edge functions at its sample, and why it belongs or does not.
+// What is said of a pixel: who hits it, and of triangles, lines and pictures why.
 import { make } from './dom.js';
 import { decimal, judgeLinePixel, judgeSample } from './exact.js';
 import { colourOf, hex, hitsOf } from './items.js';
+import { aboutTriangles } from './pixel.js';
 
-export const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
+export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 
 /** The run of hit pixels around a column of a row. */
 export const spanOf = (item, layer, x, y) => {
@@ -14,40 +15,12 @@ export const spanOf = (item, layer, x, y) => {
   return `${from} to ${to - 1} (${to - from} px)`;
 };
 
-const edgeTable = (judged, bits) => {
-  const unit = bits === 8 ? 'E is twice an area in 1/65536 px\u00b2' : 'E is twice an area in px\u00b2';
-  const head = ['edge', 'E', 'sample', 'this edge', 'top-left'].map((text, at) =>
-    make('th', { scope: 'col', className: at === 1 ? 'number' : '' }, text));
-  const rows = judged.edges.map((edge) => {
-    const side = edge.value === 0n ? 'on it' : edge.value > 0n ? 'inside' : 'outside';
-    const value = bits === 8 ? String(edge.value) : decimal(edge.value, 2 * bits);
-    return make('tr', {}, make('th', { scope: 'row' }, edge.name), make('td', { className: 'number' }, value),
-      ...[side, edge.kind, edge.isTopLeft ? 'yes' : 'no'].map((text) => make('td', {}, text)));
-  });
-  return make('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': `edges, ${unit}` }, make('table', { className: 'edges' },
-    make('caption', {}, unit), make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...rows)));
-};
-
-/** The triangles that matter at a pixel: those that hit or touch its sample, else the nearest. */
-const aboutTriangles = (item, x, y) => {
-  const { bits, triangles } = item.exact;
-  const judged = triangles.map((t, i) => ({ ...judgeSample(t, bits, x, y), i }));
-  let chosen = judged.filter((j) => j.isIn || j.isTie);
-  if (chosen.length === 0) {
-    const outside = (j) => j.edges.filter((edge) => edge.value < 0n).length + (j.flat ? 3 : 0);
-    chosen = [...judged].sort((p, q) => outside(p) - outside(q)).slice(0, 1);
-  }
-  const nodes = chosen.slice(0, 3).flatMap((j) => {
-    const which = triangles.length > 1 ? `triangle ${j.i + 1} of ${triangles.length}: ` : '';
-    let what = j.isIn ? 'the sample is inside' : 'the sample is outside';
-    if (j.flat) what = 'flat, so it covers nothing';
-    else if (j.isTie) what = `a tie: the sample lies exactly on an edge, and counts as ${j.isIn ? 'inside' : 'outside'}`;
-    return [make('p', {}, which + what), edgeTable(j, bits)];
-  });
-  if (chosen.length > 3) nodes.push(make('p', {}, `and ${plural(chosen.length - 3, 'more triangle')} at this sample`));
-  const isTie = judged.some((j) => j.isTie);
-  return { nodes, words: isTie ? 'a tie, the sample lies exactly on an edge' : 'no tie', isTie };
-};
+/** The triangles of a case as their edges are at a sample, computed here. */
+const trianglesAt = ({ exact: { bits, triangles } }, x, y) => triangles.map((triangle, i) => {
+  const { edges, flat } = judgeSample(triangle, bits, x, y);
+  const shown = ({ value, ...edge }) => ({ ...edge, sign: value > 0n ? 1 : value < 0n ? -1 : 0, value: bits === 8 ? String(value) : decimal(value, 2 * bits) });
+  return { i, edges: flat ? null : edges.map(shown) };
+});
 
 /** A fraction of a pixel in lowest terms, and in decimal. */
 const distance = (over, under) => {
@@ -75,7 +48,7 @@ const aboutLines = (item, x, y) => {
     words.push(text);
     return make('p', {}, text);
   });
-  return { nodes, words: words[0], isTie: nodes.length > 0 && words.some((w) => w.includes('a tie')) };
+  return { nodes, why: words.slice(0, 1), isTie: words.some((w) => w.includes('a tie')) };
 };
 
 /** What is said of a pixel of A and B: nodes, and words for the live region. */
@@ -86,7 +59,9 @@ export const aboutPixel = (item, a, b, [x, y]) => {
     const text = `A ${ca}, B ${cb}: ${ca === cb ? 'the same' : 'different'}`;
     return { nodes: [title, make('p', {}, text)], words: `pixel ${x}, ${y}: ${text}` };
   }
-  const about = item.exact ? aboutTriangles(item, x, y) : aboutLines(item, x, y);
+  const by = [a, b].flatMap((i) => item.layers[i].names);
+  const about = item.exact ? aboutTriangles(trianglesAt(item, x, y), by, item.exact.bits === 8 ? 8 : 0) : aboutLines(item, x, y);
+  const isTie = about.isTie ?? about.why.length > 0;
   const letter = (i) => (i === a ? 'A ' : i === b ? 'B ' : '');
   const hits = [...new Set([a, b, item.oracle])].map((i) => {
     const layer = item.layers[i];
@@ -98,7 +73,7 @@ export const aboutPixel = (item, a, b, [x, y]) => {
     return `${'AB'[at]} ${span ? `columns ${span}` : 'none'}`;
   });
   const nodes = [title,
-    make('p', { id: 'pixel-hits' }, `${hits.join('; ')}; ${about.isTie ? 'a tie' : 'no tie'}`),
+    make('p', { id: 'pixel-hits' }, `${hits.join('; ')}; ${isTie ? 'a tie' : 'no tie'}`),
     make('p', { id: 'pixel-span' }, `span in row ${y}: ${spans.join('; ')}`), ...about.nodes];
-  return { nodes, words: `pixel ${x}, ${y}: ${hits.join(', ')}; ${about.words}` };
+  return { nodes, words: `pixel ${x}, ${y}: ${hits.join(', ')}; ${about.why.join(' ') || 'no tie'}` };
 };

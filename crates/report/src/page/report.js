@@ -136,7 +136,7 @@ const describePair = () => {
   const refused = [la, lb].find((layer) => layer.refused);
   const [width, height] = [item.box[2] - item.box[0], item.box[3] - item.box[1]];
   const count = pixelsWhere(item, differIn(item, la, lb)).length;
-  let text = `A and B differ in ${plural(count, 'pixel')} of ${width * height}.`;
+  let text = `A and B differ in ${plural(count, 'pixel')} of ${(width * height).toLocaleString('en')}.`;
   const map = [la, lb].find((layer) => layer.is_map);
   if (map) text = `${map.label}: its colours mark pixels, so it is not compared.`;
   else if (refused) text = `${refused.label} draws nothing: ${refused.refused}`;
@@ -378,7 +378,8 @@ const open = async (item, settings = {}) => {
   within('#case-command code').textContent = item.command;
   if (MODES.some(([mode]) => mode === settings.mode)) state.chosen = settings.mode;
   // Where there is room, what is expected, what is drawn and the difference stand side by side.
-  setMode(state.chosen ?? (item.isCase && innerWidth >= WIDE_PX ? 'side' : 'blink'));
+  const isSmall = item.isCase || (Math.max(...item.box) < SMALL_FRAME_PX && !item.start.some((i) => item.layers[i].is_map));
+  setMode(state.chosen ?? (isSmall && innerWidth >= WIDE_PX ? 'side' : 'blink'));
   fillPickers();
   fillList();
   pairChanged();
@@ -445,6 +446,17 @@ const foldTables = () => {
   }
 };
 
+/** Bars beside the families in a table: the wrong pixels of each, as a share of the most. A press on the name shows its cases. */
+const drawBars = () => {
+  for (const table of all('table.counts')) {
+    const wrong = all('thead th', table).flatMap((head, i) => (head.textContent.includes(' : ') ? [i] : []));
+    const rows = all('tbody tr:has(button.find)', table);
+    const sums = rows.map(({ cells }) => wrong.reduce((sum, i) => sum + (parseInt(cells[i]?.textContent.replaceAll(',', ''), 10) || 0), 0));
+    const most = Math.max(...sums);
+    if (most > 0) rows.forEach(({ cells }, i) => { cells[0].style.setProperty('--share', `${(100 * sums[i]) / most}%`); });
+  }
+};
+
 const listen = () => {
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.find');
@@ -482,6 +494,7 @@ const listen = () => {
 
 const start = async () => {
   foldTables();
+  drawBars();
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.copy');
     if (pressed) copy(pressed);

@@ -1,5 +1,5 @@
 // The tables below the picture.
-import { $, make } from './dom.js';
+import { $, fill, table } from './dom.js';
 import { colourOf, hex, hitsOf } from './items.js';
 import { spanOf } from './explain.js';
 
@@ -10,25 +10,19 @@ const target = (item) => (item.layers[item.oracle].role === 'oracle' ? 'the orac
 
 /** Who draws what; `is-a` and `is-b` are marked. */
 export const layerTable = ({ item, cursor, a, b }) => {
-  const headings = item.isCase
+  const heads = item.isCase
     ? ['who', 'is', 'pixels', 'missing', 'extra', 'twice', 'hits here', 'span of the row here']
     : ['picture', 'size', 'colour here'];
-  const numbers = item.isCase ? [2, 3, 4, 5, 6] : [];
-  const rows = item.layers.map((layer, i) => {
-    const here = cursor ? [String(hitsOf(item, layer, ...cursor)), spanOf(item, layer, ...cursor)] : ['', ''];
-    const cells = item.isCase ? [ROLES[layer.role], ...[layer.covered, layer.tally.missing, layer.tally.extra, layer.tally.twice].map(String), ...here] : [
-      `${layer.pixels.width} x ${layer.pixels.height}`,
-      cursor ? hex(colourOf(layer, ...cursor)) : ''];
-    const chosen = [i === a && 'is-a', i === b && 'is-b'].filter(Boolean).join(' ');
-    const name = make('th', { scope: 'row' }, layer.everybody);
-    if (layer.refused) return make('tr', { className: chosen }, name, make('td', {}, ROLES[layer.role]), make('td', { colSpan: 6 }, layer.refused));
-    return make('tr', { className: chosen }, name,
-      ...cells.map((cell, at) => make('td', { className: numbers.includes(at + 1) ? 'number' : '' }, cell)));
-  });
-  const head = headings.map((text, at) =>
-    make('th', { scope: 'col', className: numbers.includes(at) ? 'number' : '' }, text));
-  $('layers').replaceChildren(make('caption', {}, item.isCase ? `Who draws what, judged by ${target(item)}` : 'Pictures'),
-    make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...rows));
+  const cellsOf = ({ role, refused, covered, tally, pixels, ...layer }) => {
+    if (refused) return [ROLES[role], refused];
+    if (!item.isCase) return [`${pixels.width} x ${pixels.height}`, cursor ? hex(colourOf({ pixels }, ...cursor)) : ''];
+    const here = cursor ? [hitsOf(item, layer, ...cursor), spanOf(item, layer, ...cursor)] : ['', ''];
+    return [ROLES[role], covered, tally.missing, tally.extra, tally.twice, ...here].map(String);
+  };
+  const rows = item.layers.map((layer, i) => (
+    { cells: [layer.everybody, ...cellsOf(layer)], className: [i === a && 'is-a', i === b && 'is-b'].filter(Boolean).join(' ') }));
+  const caption = item.isCase ? `Who draws what, judged by ${target(item)}` : 'Pictures';
+  fill($('layers'), table(heads, rows, { caption }));
 };
 
 const runsOfRow = (item, layer, y) => {
@@ -51,14 +45,10 @@ export const rowTable = ({ item, a, b }) => {
   const columns = [['A', a], ['B', b], ['oracle', item.oracle]];
   const [, top, , bottom] = item.box;
   const rows = Array.from({ length: bottom - top }, (_, at) => {
-    const y = top + at;
-    const texts = columns.map(([, i]) => runsOfRow(item, item.layers[i], y));
+    const texts = columns.map(([, i]) => runsOfRow(item, item.layers[i], top + at));
     const differs = texts[0] === texts[1] ? '' : 'A and B differ';
-    return make('tr', { className: differs ? 'wrong' : '' }, make('th', { scope: 'row' }, String(y)),
-      ...[...texts, differs].map((text) => make('td', {}, text)));
+    return { cells: [String(top + at), ...texts, differs], className: differs ? 'wrong' : '' };
   });
-  const head = ['row', ...columns.map(([name, i]) => (name === 'oracle' ? name : `${name}: ${item.layers[i].label}`)), 'difference'];
-  document.querySelector('#rows .scroll').replaceChildren(make('table', {}, make('caption', {}, 'Columns that are hit in each row'),
-    make('thead', {}, make('tr', {}, ...head.map((text) => make('th', { scope: 'col' }, text)))),
-    make('tbody', {}, ...rows)));
+  const heads = ['row', ...columns.map(([name, i]) => (name === 'oracle' ? name : `${name}: ${item.layers[i].label}`)), 'difference'];
+  fill(document.querySelector('#rows div'), table(heads, rows, { caption: 'Columns that are hit in each row' }));
 };

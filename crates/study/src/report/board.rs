@@ -281,13 +281,13 @@ pub const PRICE: &str = "cost-price";
 pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
     let of_board = |board: &Board| {
         let caption = format!("Time against error: {}", board.ladder.name());
-        let drawn = [2, 1].map(|in_row| cost_plots::pareto(std::slice::from_ref(board), in_row));
+        let drawn = [3, 2, 1].map(|in_row| cost_plots::pareto(std::slice::from_ref(board), in_row));
         (plot_name(board.ladder), canvas::figure(&caption, drawn))
     };
     let prices = prices(boards);
     let price = (!prices.is_empty()).then(|| {
         let caption = "What exact coverage costs over the cheapest choice";
-        let drawn = [800.0, 400.0].map(|width| cost_plots::price(&prices, width));
+        let drawn = cost_plots::WIDTHS.map(|width| cost_plots::price(&prices, width));
         (PRICE.to_owned(), canvas::figure(caption, drawn))
     });
     price.into_iter().chain(boards.iter().rev().map(of_board)).collect()

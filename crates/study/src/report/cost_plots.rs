@@ -10,7 +10,8 @@ use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED
 use rasterproof_report::words::{number, thousands};
 use rasterproof_verify::judge::ascii;
 
-const WIDTH: f64 = 800.0;
+/// The widths of a drawing on a wide page, in a file and on a narrow page: that of three panels, two, or one.
+pub const WIDTHS: [f64; 3] = [1200.0, 800.0, 400.0];
 const SHELF: Ink = [233, 245, 236];
 
 const ROW: f64 = 13.0;
@@ -46,7 +47,7 @@ struct Panel {
     dots: Vec<Dot>,
 }
 
-/// Error against time, a panel for each column of each board, as many in a row as are said: two, or one for narrow pages. The
+/// Error against time, a panel for each column of each board, as many in a row as are said, or fewer and wider ones. The
 /// first measure is the error. The line through a dot spans the quartiles of its time.
 pub fn pareto(boards: &[Board], in_row: usize) -> Drawing {
     let mut panels = Vec::new();
@@ -111,7 +112,7 @@ pub fn coverage_of_model(boards: &[Board], width: f64) -> Drawing {
 
 /// The width of a drawing with so many panels in a row, and their number.
 fn in_rows_of(in_row: usize) -> (f64, usize) {
-    (WIDTH / 2.0 * in_row as f64, in_row)
+    (WIDTHS[2] * in_row as f64, in_row)
 }
 
 /// Pixels that change against time, a dot for each grid and a panel for each engine.
@@ -160,7 +161,7 @@ pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], widt
     let widest = |of: &mut dyn Iterator<Item = &str>| of.map(canvas::width).fold(0.0, f64::max);
     let labels = widest(&mut rows.iter().flat_map(|row| row.1.iter().map(|bar| &*bar.2)));
     // On a narrow page names stand over their bars.
-    let (left, down) = match width < WIDTH {
+    let (left, down) = match width < WIDTHS[1] {
         true => (12.0, 14.0),
         false => (widest(&mut rows.iter().map(|row| row.0)) + 28.0, 0.0),
     };
@@ -246,9 +247,10 @@ fn drawn(
     mut panels: Vec<Panel>,
     (width, in_row): (f64, usize),
 ) -> Drawing {
-    let panel_width = width / in_row as f64;
     // A class that nothing ran on has nothing to show.
     panels.retain(|panel| !panel.dots.is_empty());
+    let in_row = in_row.min(panels.len()).max(1);
+    let panel_width = width / in_row as f64;
     let on_shelf = |panel: &Panel| panel.dots.iter().filter(|d| d.error.is_none()).count();
     let shelf = panels.iter().map(on_shelf).max().unwrap_or(0) as f64 * ROW;
     let shelf = if shelf > 0.0 { shelf + 8.0 } else { 0.0 };

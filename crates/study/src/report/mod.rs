@@ -177,7 +177,7 @@ fn coverage(boards: &[Board]) -> impl Iterator<Item = &Board> {
 
 /// What exact coverage costs, above its picture; nothing where nothing was timed.
 pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
-    let drawn = [800.0, 400.0].map(|width| cost_plots::coverage_of_model(boards, width));
+    let drawn = cost_plots::WIDTHS.map(|width| cost_plots::coverage_of_model(boards, width));
     let figure = canvas::figure(
         "Each choice of coverage on the triangles of this view: wrong pixels against time",
         drawn,
@@ -617,17 +617,17 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
     let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
-            [2, 1].map(|in_row| cost_plots::pareto(found.costs, in_row)),
+            [3, 2, 1].map(|in_row| cost_plots::pareto(found.costs, in_row)),
         ),
         canvas::figure(
             "What each effect takes or saves, and the pixels that are wrong without it",
-            [800.0, 400.0].map(|width| cost_plots::effects(&bars, width)),
+            cost_plots::WIDTHS.map(|width| cost_plots::effects(&bars, width)),
         ),
     ];
     if !found.grids.is_empty() {
         figures.push(canvas::figure(
             "Pixels in which another triangle is seen than without a grid, against the time of coverage",
-            [2, 1].map(|in_row| cost_plots::pareto_of_grids(found.grids, in_row)),
+            [3, 2, 1].map(|in_row| cost_plots::pareto_of_grids(found.grids, in_row)),
         ));
     }
     figures

@@ -29,6 +29,8 @@ pub(super) fn one_sample(given: &FigureInput<'_>) -> Result<LiveFigure, String> 
         values: vec![
             ("covered", hits.covered().to_string()),
             ("area", number((x - low) * (y - low), 2)),
+            ("wide", number(x - low, 2)),
+            ("high", number(y - low, 2)),
         ],
         link: with_triangles("triangle", &square, "&window=0,0,5,5&by=scanline,oracle"),
     })
@@ -176,10 +178,16 @@ pub(super) fn edge_sign(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
         drawing.named_grip(panel.place(point), [panel.unit; 2], letter);
     }
     let zeros = pixels.iter().filter(|(_, is_zero)| *is_zero).count();
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, pixels),
-        values: vec![("zeros", zeros.to_string())],
+        values: vec![
+            ("zeros", zeros.to_string()),
+            ("dx", number(dx, 1)),
+            ("dy", number(dy, 1)),
+            ("first", number(dx * (0.5 - a[1]) - dy * (0.5 - a[0]), 2)),
+        ],
         link: None,
     })
 }

@@ -12,7 +12,7 @@ mod values;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::answer::answer_value;
 use drawing::{Drawing, Panel, Point};
@@ -186,13 +186,15 @@ impl Ask {
                 })
             })
             .collect();
+        let values: Map<_, _> =
+            words.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
         let link = drawn
             .link
             .unwrap_or_else(|| format!("#scene=figure&figure={}&at={}", figure.name, json!(at)));
         Ok(json!({
             "title": text.title, "question": fill(&text.question), "answer": fill(&text.answer),
             "alt": fill(&text.alt), "at": at, "svg": drawn.drawing.inline(self.is_dark), "predict": predict,
-            "grips": grips, "link": link,
+            "grips": grips, "link": link, "values": values,
         }))
     }
 }
@@ -248,6 +250,14 @@ impl Figure {
         let positions = self.grips.iter().zip(at).flat_map(|(grip, at)| grip.names.iter().zip(at));
         let positions = positions.map(|(name, value)| (name.as_str(), number(*value, 6)));
         positions.filter(|(name, _)| !name.is_empty()).chain(drawn.values.iter().cloned()).collect()
+    }
+
+    /// The numbers that the prose of its page may repeat, each by its name, where the grips begin.
+    pub fn numbers(&self) -> Result<Vec<(String, f64)>, String> {
+        let (at, drawn) = self.draw(&[], true, None)?;
+        let words = self.words(&at, &drawn).into_iter();
+        let number = |(name, text): (&str, String)| Some((name.to_owned(), text.parse().ok()?));
+        Ok(words.filter_map(number).collect())
     }
 
     /// The picture of the figure with its answer, as a file.

@@ -112,6 +112,7 @@ pub(super) fn boards(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
         predict: Predict::Number(heights[2] as f64, 0),
         values: vec![
             ("third", number(1.0 + 2.0 * spacing, 2)),
+            ("tall", number(24.0 / (1.0 + 2.0 * spacing), 2)),
             ("first", heights[0].to_string()),
             ("height", heights[2].to_string()),
         ],
@@ -191,6 +192,7 @@ pub(super) fn divide_first(given: &FigureInput<'_>) -> Result<LiveFigure, String
         values: vec![
             ("right", right.len().to_string()),
             ("wrong", wrong.iter().filter(|x| !right.contains(x)).count().to_string()),
+            ("share", number(2.0 / (3.0 - end), 3)),
         ],
         link: None,
     })
@@ -267,7 +269,12 @@ pub(super) fn to_pixel(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == pixel)).collect()),
-        values: vec![("px", number(point[0], 3)), ("py", number(point[1], 3))],
+        values: vec![
+            ("px", number(point[0], 3)),
+            ("py", number(point[1], 3)),
+            ("fx", number(x / z, 3)),
+            ("fy", number(y / z, 3)),
+        ],
         link: None,
     })
 }

@@ -100,8 +100,9 @@ pub(super) fn weights(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
         drawing.text([x + dx, y + dy], anchor, says);
     }
     drawing.named_grip(panel.place(p), [panel.unit; 2], "P");
-    let percent = shares.map(|share| number(share * 100.0, 2));
-    let [wa, wb, wc] = percent;
+    let [wa, wb, wc] = shares.map(|share| number(share * 100.0, 2));
+    // Twice the areas in square pixels: a subpixel is 1/256 px wide.
+    let [pa, pb, pc] = edges.map(|edge| number(edge as f64 / 65536.0, 2));
     let plane = 100.0 * shares[0] + 20.0 * shares[1] + 60.0 * shares[2];
     Ok(LiveFigure {
         drawing,
@@ -110,6 +111,9 @@ pub(super) fn weights(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
             ("wa", wa),
             ("wb", wb),
             ("wc", wc),
+            ("pa", pa),
+            ("pb", pb),
+            ("pc", pc),
             ("value", number(value.map_or(plane, |value| value * 100.0), 2)),
         ],
         link: with_triangles(
@@ -398,7 +402,7 @@ pub(super) fn z_fighting(given: &FigureInput<'_>) -> Result<LiveFigure, String> 
     Ok(LiveFigure {
         drawing,
         predict: Predict::Number(seen as f64, 0),
-        values: vec![("seen", seen.to_string())],
+        values: vec![("seen", seen.to_string()), ("share", number(seen as f64 / 16.0, 2))],
         link: Some(depth_link(16, first, second)),
     })
 }
