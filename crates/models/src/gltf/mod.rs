@@ -585,7 +585,7 @@ impl Reader<'_> {
             normals: Vectors::of_positions(normals),
             uvs: Vectors::of_positions(uvs),
             second_uvs,
-            colours,
+            colours: Vectors::of_positions(colours),
             tangents,
             ..FilePart::default()
         };
@@ -702,7 +702,10 @@ impl Reader<'_> {
         place: &str,
     ) -> Vec<T> {
         let cause = match read {
-            Ok(read) if read.len() >= count => return read,
+            Ok(mut read) if read.len() >= count => {
+                read.truncate(count);
+                return read;
+            }
             Ok(read) => format!("{} {what} for {count} positions", read.len()),
             Err(cause) => format!("the {what} cannot be read: {cause}"),
         };
