@@ -206,7 +206,7 @@ fn colour_length(text: &str) -> usize {
     if digits.starts_with('m') { text.len() - digits.len() + 1 } else { 0 }
 }
 
-/// An escape of JSON.
+/// A character as JSON escapes it: four digits for each of its one or two units of UTF-16.
 fn in_json(character: char) -> String {
     character.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect()
 }

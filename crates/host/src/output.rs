@@ -287,7 +287,7 @@ impl Part {
     #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
     fn beside(target: &Path) -> io::Result<Self> {
         loop {
-            // A number that nobody can foresee: the standard library seeds its hash maps from the system.
+            // A number that cannot be foreseen: the standard library seeds its hash maps from the system.
             let number = RandomState::new().build_hasher().finish();
             let path = folder_of(target).join(format!(".rasterproof-{number:016x}.part"));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
@@ -321,7 +321,7 @@ fn write_in_place(path: &Path, mut bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Tries something again while nobody reads from a pipe, but not for ever.
+/// Tries something again while no program reads from a pipe, but not for ever.
 fn patiently<T>(mut attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
     let since = Instant::now();
     loop {

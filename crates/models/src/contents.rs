@@ -98,7 +98,7 @@ pub(crate) struct FilePart {
     pub uvs: Vectors<DVec2>,
     /// Those of maps that are read elsewhere, for each position, or none at all.
     pub second_uvs: Vec<DVec2>,
-    /// Colours, each channel in [0, 1].
+    /// Colours of the file, or of its faces, each channel in [0, 1].
     pub colours: Vectors<DVec3>,
     /// A tangent for each position, with the sign of the bitangent, or none at all.
     pub tangents: Vec<DVec4>,
@@ -126,8 +126,8 @@ impl FilePart {
         [&mut self.normals.numbers, &mut self.uvs.numbers, &mut self.colours.numbers]
     }
 
-    /// Adds a corner by the numbers of its position, and of its normal, texture coordinates and colour. [`NONE`] stands for what it
-    /// does not have.
+    /// Adds a corner by the number of its position and by those of its normal, texture coordinates and colour. Each of these is
+    /// [`NONE`] where the corner has no such vector.
     #[inline]
     pub(crate) fn push(&mut self, position: u32, [normal, uv, colour]: [u32; 3]) {
         self.normals.numbers.push(normal, position, &self.corners);
@@ -379,7 +379,7 @@ impl<V> Vectors<V> {
         Self { values, numbers }
     }
 
-    /// Its numbers, which it loses.
+    /// Moves the numbers to vectors without values, to give corners other numbers.
     fn take_numbers(&mut self) -> Self {
         Self { values: Vec::new(), numbers: std::mem::take(&mut self.numbers) }
     }

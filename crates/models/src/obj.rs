@@ -534,7 +534,7 @@ fn vector<'a>(
         Some(word) if !is_finite => {
             Some(format!("'{word}' is not a finite number; {}", kind.not_finite))
         }
-        // A line that cannot be read has no numbers, and is told of when all faces are known.
+        // `keep_broken` has kept why, and the warning follows when all faces are known.
         _ if count == 0 => None,
         _ => with_comma.map(records::comma),
     })
@@ -551,7 +551,7 @@ fn rest(line: &[u8], kind: &[u8]) -> String {
     without_comment(&text).trim().to_owned()
 }
 
-/// The first numbers of a line.
+/// The numbers of a line that describes a vector, as far as they are used.
 struct Values {
     all: [f64; 7],
     /// How many the line has.
@@ -560,7 +560,7 @@ struct Values {
     not_finite: Option<String>,
 }
 
-/// The numbers of a vector.
+/// Reads the numbers of a vector. An error where there are too few, or where a coordinate is too large.
 fn numbers<'a>(words: impl Iterator<Item = &'a [u8]>, kind: &VectorKind) -> Result<Values, String> {
     let mut values = Values { all: [0.0; 7], count: 0, not_finite: None };
     for word in words {

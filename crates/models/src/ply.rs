@@ -177,7 +177,7 @@ impl Body<'_> {
         Ok(length as usize)
     }
 
-    /// Moves past a property whose values nobody reads.
+    /// Moves past a property whose values are not drawn.
     fn skip(&mut self, property: &Property) -> Result<(), String> {
         let count = property.length.map_or(Ok(1), |kind| self.length(kind))?;
         for _ in 0..count {

@@ -515,7 +515,7 @@ mod tests {
     use super::*;
     use rasterproof_render::scene::chapters;
 
-    /// Each effect that tiles have is asked for by a scene, which they would hand over if they had one effect less.
+    /// Each effect that tiles have occurs in a scene, which they would hand over if they had one effect less.
     #[test]
     fn an_effect_that_tiles_do_not_have_is_handed_over() {
         let names = ["highlights", "mip-maps", "anisotropy", "fog"];
