@@ -16,7 +16,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use rasterproof_host::output::{self, Output, Over, STANDARD_OUTPUT};
-use rasterproof_host::text::{is_hidden, printable, printable_lines};
+use rasterproof_host::text::{escaped, printable_lines};
 use textwrap::core::display_width;
 use textwrap::{Options, WordSplitter, fill};
 
@@ -144,30 +144,22 @@ impl<'a> Outlet<'a> {
 
     /// Passes text on without hidden characters, but for ends of lines and tabs.
     fn escaped(&mut self, text: &str) -> io::Result<()> {
-        let is_wrong = |c: char| is_hidden(c) && !matches!(c, '\n' | '\t');
-        let mut rest = text;
-        while let Some(at) = rest.find(is_wrong) {
-            self.pass(&rest.as_bytes()[..at])?;
-            rest = &rest[at..];
-            let kept = match self.escape {
-                Escape::WordsAndColours => colour_length(rest),
-                _ => 0,
-            };
-            let length =
-                if kept > 0 { kept } else { rest.chars().next().map_or(1, char::len_utf8) };
-            let (hidden, after) = rest.split_at(length);
-            rest = after;
-            match self.escape {
-                _ if kept > 0 => self.pass(hidden.as_bytes())?,
-                Escape::Json => {
-                    for unit in hidden.encode_utf16() {
-                        self.pass(format!("\\u{unit:04x}").as_bytes())?;
+        match self.escape {
+            Escape::Words => self.pass(printable_lines(text).as_bytes()),
+            Escape::Json => self.pass(escaped(text, "\n\t", in_json).as_bytes()),
+            Escape::WordsAndColours => {
+                let mut parts = text.split('\u{1b}');
+                self.pass(printable_lines(parts.next().unwrap_or_default()).as_bytes())?;
+                for part in parts {
+                    let (colour, rest) = part.split_at(colour_length(part));
+                    let sign = if colour.is_empty() { "\\u{1b}" } else { "\u{1b}" };
+                    for text in [sign, colour, &printable_lines(rest)] {
+                        self.pass(text.as_bytes())?;
                     }
                 }
-                _ => self.pass(printable(hidden).as_bytes())?,
+                Ok(())
             }
         }
-        self.pass(rest.as_bytes())
     }
 
     /// Writes until that fails for the first time, and accepts the rest where it is noted.
@@ -207,11 +199,16 @@ impl Write for Outlet<'_> {
     }
 }
 
-/// Bytes of the sequence that sets a colour at the beginning of a text, or none.
+/// Bytes of the sequence that sets a colour at the beginning of what follows its first sign, or none.
 fn colour_length(text: &str) -> usize {
-    let Some(inside) = text.strip_prefix("\u{1b}[") else { return 0 };
+    let Some(inside) = text.strip_prefix('[') else { return 0 };
     let digits = inside.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';');
     if digits.starts_with('m') { text.len() - digits.len() + 1 } else { 0 }
+}
+
+/// A character as JSON escapes it: four digits for each of its one or two units of UTF-16.
+fn in_json(character: char) -> String {
+    character.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect()
 }
 
 /// Where the cell begins that may be broken: behind the first gap of two blanks, or in a row of a table
@@ -276,6 +273,7 @@ impl Streams<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_host::text::is_hidden;
 
     struct Failing(ErrorKind);
 

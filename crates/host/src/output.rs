@@ -79,12 +79,13 @@ pub fn check_all<'a>(files: impl IntoIterator<Item = Named<'a>>) -> Result<(), S
     let standard_output = ("standard output", Path::new(STANDARD_OUTPUT), Use::Writes(Over::Any));
     let all = files.into_iter().chain(cfg!(unix).then_some(standard_output));
     let mut before: Vec<(Named<'_>, Identity)> = Vec::new();
-    for (option, path, of) in all {
+    for named @ (option, path, of) in all {
         let Some(identity) = Identity::of(path) else { continue };
-        let is_other = |((_, _, use_of_it), other): &&(Named<'_>, Identity)| {
-            (of != Use::Reads || *use_of_it != Use::Reads) && identity.is(other)
-        };
-        if let Some(((other, its_path, its_use), _)) = before.iter().find(is_other) {
+        for ((other, its_path, its_use), its_identity) in &before {
+            let are_read = of == Use::Reads && *its_use == Use::Reads;
+            if are_read || !identity.is(its_identity) {
+                continue;
+            }
             // What is written is named first.
             let [(first, path), (second, _)] = match its_use {
                 Use::Reads => [(option, path), (*other, *its_path)],
@@ -95,7 +96,7 @@ pub fn check_all<'a>(files: impl IntoIterator<Item = Named<'a>>) -> Result<(), S
                 "{path}: {first} and {second} name this file; give each a file of its own"
             ));
         }
-        before.push(((option, path, of), identity));
+        before.push((named, identity));
     }
     for ((option, path, of), _) in before {
         if let Use::Writes(over) = of {
@@ -199,13 +200,18 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// A file that is removed when it goes out of scope, unless it was renamed before.
-struct Temporary(Option<PathBuf>);
+/// A file that is being written under a random name, and is removed when it goes out of scope, unless it was renamed before.
+struct Part {
+    /// Open, and so locked, until it has its name.
+    file: File,
+    path: PathBuf,
+    is_renamed: bool,
+}
 
-impl Drop for Temporary {
+impl Drop for Part {
     fn drop(&mut self) {
-        if let Some(path) = self.0.take() {
-            let _ = remove(&path);
+        if !self.is_renamed {
+            let _ = remove(&self.path);
         }
     }
 }
@@ -215,22 +221,19 @@ fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::
     remove_left_parts(folder_of(target));
     let mut tries = 0;
     loop {
-        let (mut file, path) = create_beside(target)?;
-        let mut temporary = Temporary(Some(path.clone()));
+        let mut part = Part::beside(target)?;
         if let Some(old) = old {
-            keep_owner(&file, old);
-            file.set_permissions(old.permissions())?;
+            keep_owner(&part.file, old);
+            part.file.set_permissions(old.permissions())?;
         }
-        file.write_all(bytes)?;
+        part.file.write_all(bytes)?;
         tries += 1;
-        // Open, and so locked, until it has its name.
-        match std::fs::rename(&path, target) {
+        match std::fs::rename(&part.path, target) {
             // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
             Err(error) if error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
-            Err(error) => return Err(error),
-            Ok(()) => {
-                temporary.0 = None;
-                return Ok(());
+            result => {
+                part.is_renamed = result.is_ok();
+                return result;
             }
         }
     }
@@ -241,18 +244,11 @@ fn folder_of(target: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-/// The name of a file that is being written.
-fn part_name() -> String {
-    format!(".rasterproof-{:016x}.part", random())
-}
-
 fn is_part_name(name: &OsStr) -> bool {
-    let number = name.to_str().and_then(|name| {
-        let name = name.strip_prefix(".rasterproof-")?;
-        name.strip_suffix(".part")
-    });
-    let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
-    number.is_some_and(|number| number.len() == 16 && number.chars().all(is_digit))
+    let name = name.to_str().unwrap_or_default();
+    let number = name.strip_prefix(".rasterproof-").and_then(|name| name.strip_suffix(".part"));
+    let is_digit = |byte: u8| matches!(byte, b'0'..=b'9' | b'a'..=b'f');
+    number.is_some_and(|number| number.len() == 16 && number.bytes().all(is_digit))
 }
 
 /// Removes the parts in a folder that no process writes. What cannot be looked at is left.
@@ -285,25 +281,24 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     let _ = (file, old);
 }
 
-/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
-/// its name already, links included, so that nothing of other people is written over.
-#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
-fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
-    loop {
-        let path = folder_of(target).join(part_name());
-        match OpenOptions::new().write(true).create_new(true).open(&path) {
-            // Another process may have removed it before it was locked.
-            Ok(file) if file.lock().is_ok() && !path.exists() => {}
-            Ok(file) => return Ok((file, path)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
+impl Part {
+    /// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
+    /// its name already, links included, so that nothing of other people is written over.
+    #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
+    fn beside(target: &Path) -> io::Result<Self> {
+        loop {
+            // A number that cannot be foreseen: the standard library seeds its hash maps from the system.
+            let number = RandomState::new().build_hasher().finish();
+            let path = folder_of(target).join(format!(".rasterproof-{number:016x}.part"));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                // Another process may have removed it before it was locked.
+                Ok(file) if file.lock().is_ok() && !path.exists() => {}
+                Ok(file) => return Ok(Self { file, path, is_renamed: false }),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
         }
     }
-}
-
-/// A number that nobody can foresee: the standard library seeds its hash maps from the system.
-fn random() -> u64 {
-    RandomState::new().build_hasher().finish()
 }
 
 /// Writes to a pipe or a device, which may take its time but not for ever.
@@ -316,41 +311,33 @@ fn write_in_place(path: &Path, mut bytes: &[u8]) -> io::Result<()> {
         use std::os::unix::fs::OpenOptionsExt as _;
         options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
     }
-    let patience = Duration::from_secs(STALLED_WRITE_SECONDS);
-    let mut since = Instant::now();
-    let stalled = |since: Instant| since.elapsed() > patience;
-    let mut file = loop {
-        match options.open(path) {
-            Ok(file) => break file,
-            // A pipe that nobody reads yet.
-            Err(error) if is_unread_pipe(&error) && !stalled(since) => nap(),
-            Err(error) if is_unread_pipe(&error) => return Err(nobody_reads()),
-            Err(error) => return Err(error),
-        }
-    };
-    since = Instant::now();
+    let mut file = patiently(|| options.open(path))?;
     while !bytes.is_empty() {
-        match file.write(bytes) {
-            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-            Ok(written) => {
-                bytes = &bytes[written..];
-                since = Instant::now();
-            }
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock && !stalled(since) => nap(),
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => return Err(nobody_reads()),
-            Err(error) => return Err(error),
+        match patiently(|| file.write(bytes))? {
+            0 => return Err(io::ErrorKind::WriteZero.into()),
+            written => bytes = &bytes[written..],
         }
     }
     Ok(())
 }
 
-fn nap() {
-    std::thread::sleep(Duration::from_millis(5));
-}
-
-fn nobody_reads() -> io::Error {
-    io::Error::other(format!("nothing has read from it for {STALLED_WRITE_SECONDS} s"))
+/// Tries something again while no program reads from a pipe, but not for ever.
+fn patiently<T>(mut attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
+    let since = Instant::now();
+    loop {
+        match attempt() {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) if is_unread_pipe(&error) || error.kind() == io::ErrorKind::WouldBlock => {
+                if since.elapsed() > Duration::from_secs(STALLED_WRITE_SECONDS) {
+                    return Err(io::Error::other(format!(
+                        "nothing has read from it for {STALLED_WRITE_SECONDS} s"
+                    )));
+                }
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            result => return result,
+        }
+    }
 }
 
 /// What opening a pipe for writing says while no program has it open for reading.

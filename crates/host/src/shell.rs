@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ffi::OsStr;
 
-use crate::text::is_hidden;
+use crate::text::{escaped, is_hidden};
 
 /// One word as a POSIX shell reads it back: as it is where it needs no quotes, else in single
 /// quotes. A word with hidden characters, or that is not UTF-8, is written as `$'...'`, which bash, zsh and
@@ -21,21 +21,14 @@ pub fn quote(word: &(impl AsRef<OsStr> + ?Sized)) -> Cow<'_, str> {
     if !word.chars().any(is_hidden) {
         return Cow::Owned(format!("'{}'", word.replace('\'', r"'\''")));
     }
-    let mut quoted = String::from("$'");
-    for character in word.chars() {
-        match character {
-            '\'' | '\\' => quoted.extend(['\\', character]),
-            // Three octal digits for each byte: a digit that follows cannot be taken for a fourth.
-            hidden if is_hidden(hidden) => {
-                for byte in hidden.encode_utf8(&mut [0; 4]).bytes() {
-                    quoted += &format!("\\{byte:03o}");
-                }
-            }
-            shown => quoted.push(shown),
-        }
-    }
-    quoted.push('\'');
-    Cow::Owned(quoted)
+    let word = word.replace('\\', r"\\").replace('\'', r"\'");
+    let shown = escaped(&word, "", |hidden| octal(hidden.encode_utf8(&mut [0; 4]).as_bytes()));
+    Cow::Owned(format!("$'{shown}'"))
+}
+
+/// Three octal digits for each byte, so that a digit that follows cannot be taken for a fourth.
+fn octal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("\\{byte:03o}")).collect()
 }
 
 /// A word that is not UTF-8: every byte that is no plain ASCII in octal digits.
@@ -43,7 +36,7 @@ fn quote_bytes(word: &[u8]) -> String {
     let one = |byte: &u8| match byte {
         b'\'' | b'\\' => format!("\\{}", char::from(*byte)),
         b' '..=b'~' => char::from(*byte).to_string(),
-        _ => format!("\\{byte:03o}"),
+        _ => octal(&[*byte]),
     };
     format!("$'{}'", word.iter().map(one).collect::<String>())
 }

@@ -13,40 +13,42 @@ pub fn is_hidden(character: char) -> bool {
             | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// One line of text as it can be shown: a hidden character stands there as an escape such as
-/// `\u{1b}`, a tab as `\t`, an end of line as `\n`.
+/// Text in which what `escape` returns stands for each hidden character, but for those that are kept.
+pub fn escaped<'a>(text: &'a str, kept: &str, escape: impl Fn(char) -> String) -> Cow<'a, str> {
+    let is_wrong = |character: char| is_hidden(character) && !kept.contains(character);
+    if !text.contains(is_wrong) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for character in text.chars() {
+        if is_wrong(character) {
+            shown += &escape(character);
+        } else {
+            shown.push(character);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// An escape that people read: `\t` and `\n`, and else as `\u{1b}`.
+#[must_use]
+pub fn in_words(character: char) -> String {
+    match character {
+        '\t' | '\n' | '\r' => character.escape_default().collect(),
+        hidden => hidden.escape_unicode().collect(),
+    }
+}
+
+/// One line of text as it can be shown.
 #[must_use]
 pub fn printable(text: &str) -> Cow<'_, str> {
-    if !text.chars().any(is_hidden) {
-        return Cow::Borrowed(text);
-    }
-    Cow::Owned(text.chars().fold(String::with_capacity(text.len() + 8), push_printable))
+    escaped(text, "", in_words)
 }
 
-fn push_printable(mut line: String, character: char) -> String {
-    match character {
-        '\t' | '\n' | '\r' => line.extend(character.escape_default()),
-        hidden if is_hidden(hidden) => line.extend(hidden.escape_unicode()),
-        shown => line.push(shown),
-    }
-    line
-}
-
-/// Text of several lines as it can be shown: as [`printable`], but for the ends of lines and tabs,
-/// which are kept.
+/// Text of several lines as it can be shown: the ends of lines and tabs are kept.
 #[must_use]
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
-    let kept = |character| matches!(character, '\n' | '\t');
-    if !text.chars().any(|character| is_hidden(character) && !kept(character)) {
-        return Cow::Borrowed(text);
-    }
-    Cow::Owned(text.chars().fold(String::with_capacity(text.len() + 8), |mut lines, character| {
-        if kept(character) {
-            lines.push(character);
-            return lines;
-        }
-        push_printable(lines, character)
-    }))
+    escaped(text, "\n\t", in_words)
 }
 
 /// At most `most` characters of [`printable`] text; three dots stand for the rest.

@@ -35,7 +35,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
         for position in part.positions.iter_mut().filter(|position| !position.is_finite()) {
             *position = some;
         }
-        for colour in part.colours.iter_mut().filter(|colour| !colour.is_finite()) {
+        for colour in part.colours.values.iter_mut().filter(|colour| !colour.is_finite()) {
             *colour = DVec3::ONE;
         }
         for tangent in part.tangents.iter_mut().filter(|tangent| !tangent.is_finite()) {
@@ -73,8 +73,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
 fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
     let is_broken = |vector: &DVec3| !vector.is_finite();
     parallel::first(&part.positions, is_broken)
-        .or_else(|| parallel::first(&part.colours, is_broken))
-        .or_else(|| parallel::first(&part.face_colours, is_broken))?;
+        .or_else(|| parallel::first(&part.colours.values, is_broken))?;
     let (mut first, mut counts) = (None, [0; 2]);
     for number in 0..part.polygons.len() {
         let [position, colour] = self::is_broken(part, number);
@@ -88,11 +87,13 @@ fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
 
 /// Whether a face has a position (0) or a colour (1) that is not finite.
 fn is_broken(part: &FilePart, number: usize) -> [bool; 2] {
-    let is_broken = |vector: &DVec3| !vector.is_finite();
-    let corners = &part.corners[part.polygons.corners(number)];
-    let has = |vectors: &[DVec3]| {
-        corners.iter().any(|&corner| vectors.get(corner as usize).is_some_and(is_broken))
-    };
-    let of_face = part.face_colours.get(number).is_some_and(is_broken);
-    [has(&part.positions), has(&part.colours) || of_face]
+    let mut is_broken = [false; 2];
+    for corner in part.polygons.corners(number) {
+        let position = part.corners[corner];
+        let colour = part.colours.numbers.get(corner, position);
+        let colour = colour.map(|number| part.colours.values[number as usize]);
+        is_broken[0] |= !part.positions[position as usize].is_finite();
+        is_broken[1] |= colour.is_some_and(|colour| !colour.is_finite());
+    }
+    is_broken
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use crate::cameras::Camera;
 use crate::{LoadOptions, Warnings};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::physical::Physical;
@@ -63,27 +64,21 @@ impl Contents {
             self.parts.push(part);
             return Ok(());
         }
-        let lists = [part.colours.is_empty(), part.tangents.is_empty(), part.second_uvs.is_empty()];
-        let kind = (part.material, lists);
-        match self.merged.get(&kind) {
-            Some(&place) => {
-                part.place(part.to_file);
-                part.to_file = DMat4::IDENTITY;
-                self.parts[place].append(part);
-            }
-            None if self.parts.len() < MOST_PARTS => {
-                part.place(part.to_file);
-                part.to_file = DMat4::IDENTITY;
-                part.name = format!("parts from number {} on", MOST_SINGLE_PARTS + 1);
-                self.merged.insert(kind, self.parts.len());
-                self.parts.push(part);
-            }
-            None => {
-                return Err(format!(
-                    "has more than {MOST_PARTS} parts of different materials: export it with fewer materials"
-                ));
-            }
+        part.place(part.to_file);
+        part.to_file = DMat4::IDENTITY;
+        let kind = part.kind();
+        if let Some(&place) = self.merged.get(&kind) {
+            self.parts[place].append(part);
+            return Ok(());
         }
+        if self.parts.len() >= MOST_PARTS {
+            return Err(format!(
+                "has more than {MOST_PARTS} parts of different materials: export it with fewer materials"
+            ));
+        }
+        part.name = format!("parts from number {} on", MOST_SINGLE_PARTS + 1);
+        self.merged.insert(kind, self.parts.len());
+        self.parts.push(part);
         Ok(())
     }
 }
@@ -103,12 +98,10 @@ pub(crate) struct FilePart {
     pub uvs: Vectors<DVec2>,
     /// Those of maps that are read elsewhere, for each position, or none at all.
     pub second_uvs: Vec<DVec2>,
-    /// A colour for each position, each channel in [0, 1], or none at all.
-    pub colours: Vec<DVec3>,
+    /// Colours of the file, or of its faces, each channel in [0, 1].
+    pub colours: Vectors<DVec3>,
     /// A tangent for each position, with the sign of the bitangent, or none at all.
     pub tangents: Vec<DVec4>,
-    /// The same for each polygon, in a part whose positions have none.
-    pub face_colours: Vec<DVec3>,
     /// The numbers of the positions of all corners, one polygon after the other.
     pub corners: Vec<u32>,
     pub polygons: Polygons,
@@ -122,11 +115,24 @@ pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
 }
 
 impl FilePart {
-    /// Adds a corner by the numbers of its position, normal and texture coordinates. [`NONE`] stands for what it does not have.
+    fn kind(&self) -> Kind {
+        let lists =
+            [self.colours.values.is_empty(), self.tangents.is_empty(), self.second_uvs.is_empty()];
+        (self.material, lists)
+    }
+
+    /// The numbers of normals, texture coordinates and colours at the corners.
+    fn numbers_mut(&mut self) -> [&mut Numbers; 3] {
+        [&mut self.normals.numbers, &mut self.uvs.numbers, &mut self.colours.numbers]
+    }
+
+    /// Adds a corner by the number of its position and by those of its normal, texture coordinates and colour. Each of these is
+    /// [`NONE`] where the corner has no such vector.
     #[inline]
-    pub(crate) fn push(&mut self, position: u32, normal: u32, uv: u32) {
+    pub(crate) fn push(&mut self, position: u32, [normal, uv, colour]: [u32; 3]) {
         self.normals.numbers.push(normal, position, &self.corners);
         self.uvs.numbers.push(uv, position, &self.corners);
+        self.colours.numbers.push(colour, position, &self.corners);
         self.corners.push(position);
     }
 
@@ -137,32 +143,61 @@ impl FilePart {
             self.polygons.push(count, line as u32, smoothing);
             return true;
         }
-        self.normals.numbers.truncate(start);
-        self.uvs.numbers.truncate(start);
+        for numbers in self.numbers_mut() {
+            numbers.truncate(start);
+        }
         self.corners.truncate(start);
         false
     }
 
-    /// Removes polygons that are not kept, by their numbers and corners, with what is listed for each of their corners.
+    /// Adds triangles of these positions, which have nothing else.
+    pub(crate) fn push_triangles(&mut self, triangles: Vec<[u32; 3]>) {
+        if self.corners.is_empty() {
+            self.polygons = Polygons::triangles(triangles.len());
+            self.corners = triangles.into_flattened();
+            return;
+        }
+        for triangle in triangles {
+            let start = self.corners.len();
+            for position in triangle {
+                self.push(position, [NONE; 3]);
+            }
+            self.end_polygon(start, 0, 0);
+        }
+    }
+
+    /// Adds polygons of another part, by their numbers there. What its corners name comes after so many positions, normals, texture
+    /// coordinates and colours of this part.
+    fn take(&mut self, from: &Self, polygons: impl Iterator<Item = usize>, before: [u32; 4]) {
+        let [positions, before @ ..] = before;
+        let numbers = [&from.normals.numbers, &from.uvs.numbers, &from.colours.numbers];
+        for polygon in polygons {
+            let start = self.corners.len();
+            for corner in from.polygons.corners(polygon) {
+                let position = from.corners[corner];
+                let moved = |at: usize| {
+                    numbers[at].get(corner, position).map_or(NONE, |number| before[at] + number)
+                };
+                self.push(positions + position, [0, 1, 2].map_array(moved));
+            }
+            let line = from.polygons.line(polygon) as usize;
+            self.end_polygon(start, line, from.polygons.smoothing(polygon));
+        }
+    }
+
+    /// Removes polygons that are not kept, by their numbers.
     pub(crate) fn retain(&mut self, is_kept: impl Fn(&Self, usize) -> bool) {
-        let (mut kept, mut places, mut colours) = (Polygons::default(), Vec::new(), Vec::new());
-        for number in 0..self.polygons.len() {
-            let corners = self.polygons.corners(number);
-            if is_kept(self, number) {
-                let (line, group) = (self.polygons.line(number), self.polygons.smoothing(number));
-                kept.push(corners.len(), line, group);
-                places.extend(corners);
-                colours.extend(self.face_colours.get(number));
-            }
-        }
-        let of_places = |list: &[u32]| places.iter().map(|&at| list[at]).collect();
-        for numbers in [&mut self.normals.numbers, &mut self.uvs.numbers] {
-            if let Numbers::OfCorners(list) = numbers {
-                *list = of_places(list);
-            }
-        }
-        self.corners = of_places(&self.corners);
-        (self.polygons, self.face_colours) = (kept, colours);
+        let kept: Vec<usize> =
+            (0..self.polygons.len()).filter(|&number| is_kept(self, number)).collect();
+        let old = Self {
+            normals: self.normals.take_numbers(),
+            uvs: self.uvs.take_numbers(),
+            colours: self.colours.take_numbers(),
+            corners: std::mem::take(&mut self.corners),
+            polygons: std::mem::take(&mut self.polygons),
+            ..Self::default()
+        };
+        self.take(&old, kept.into_iter(), [0; 4]);
     }
 
     /// Moves its positions, normals and the winding of its polygons by a matrix.
@@ -187,7 +222,7 @@ impl FilePart {
             for number in 0..self.polygons.len() {
                 let corners = self.polygons.corners(number);
                 self.corners[corners.clone()].reverse();
-                for numbers in [&mut self.normals.numbers, &mut self.uvs.numbers] {
+                for numbers in self.numbers_mut() {
                     if let Numbers::OfCorners(numbers) = numbers {
                         numbers[corners.clone()].reverse();
                     }
@@ -196,29 +231,22 @@ impl FilePart {
         }
     }
 
-    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has, and likewise tangents and second
-    /// texture coordinates.
+    /// Adds the polygons of another part in the same coordinates and of the same kind.
     fn append(&mut self, mut other: Self) {
-        let before = self.positions.len();
-        let corners = [&*self.corners, &*other.corners];
-        let counts = [before, other.positions.len()];
-        self.normals.append(other.normals, corners, counts);
-        self.uvs.append(other.uvs, corners, counts);
-        if !other.colours.is_empty() {
-            self.colours.resize(before, DVec3::ONE);
-            self.colours.append(&mut other.colours);
-        }
-        if !other.tangents.is_empty() {
-            self.tangents.resize(before, DVec4::ZERO);
-            self.tangents.append(&mut other.tangents);
-        }
-        if !other.second_uvs.is_empty() {
-            self.second_uvs.resize(before, DVec2::ZERO);
-            self.second_uvs.append(&mut other.second_uvs);
-        }
+        let before = [
+            self.positions.len(),
+            self.normals.values.len(),
+            self.uvs.values.len(),
+            self.colours.values.len(),
+        ];
+        let polygons = 0..other.polygons.len();
+        self.take(&other, polygons, before.map_array(|count| count as u32));
+        self.normals.values.append(&mut other.normals.values);
+        self.uvs.values.append(&mut other.uvs.values);
+        self.colours.values.append(&mut other.colours.values);
+        self.tangents.append(&mut other.tangents);
+        self.second_uvs.append(&mut other.second_uvs);
         self.positions.append(&mut other.positions);
-        self.corners.extend(other.corners.iter().map(|corner| corner + before as u32));
-        self.polygons.append(&other.polygons);
     }
 }
 
@@ -274,16 +302,26 @@ impl Numbers {
     #[inline]
     pub(crate) fn push(&mut self, number: u32, position: u32, before: &[u32]) {
         match self {
-            Self::OfCorners(numbers) => return numbers.push(number),
-            Self::Nothing if number == NONE => return,
-            Self::OfPositions if number == position => return,
-            Self::Nothing if before.is_empty() && number == position => *self = Self::OfPositions,
-            Self::Nothing => *self = Self::OfCorners(vec![NONE; before.len()]),
-            Self::OfPositions => *self = Self::OfCorners(before.to_vec()),
+            Self::Nothing if number == NONE => {}
+            Self::OfPositions if number == position => {}
+            Self::OfCorners(numbers) => numbers.push(number),
+            _ => self.push_other(number, position, before),
         }
-        if let Self::OfCorners(numbers) = self {
-            numbers.push(number);
+    }
+
+    /// The same of a number that has another form than those before it.
+    #[cold]
+    fn push_other(&mut self, number: u32, position: u32, before: &[u32]) {
+        if *self == Self::Nothing && before.is_empty() && number == position {
+            *self = Self::OfPositions;
+            return;
         }
+        let mut numbers = match self {
+            Self::OfPositions => before.to_vec(),
+            _ => vec![NONE; before.len()],
+        };
+        numbers.push(number);
+        *self = Self::OfCorners(numbers);
     }
 
     /// Removes all but those of the first corners.
@@ -295,11 +333,25 @@ impl Numbers {
         }
     }
 
-    /// The numbers of all corners, of vectors that come after others.
-    fn of_corners(&self, corners: &[u32], before: u32) -> Vec<u32> {
-        let number = |(corner, &position)| self.get(corner, position);
-        let all = corners.iter().enumerate().map(number);
-        all.map(|number| number.map_or(NONE, |number| number + before)).collect()
+    /// Takes the numbers of some corners away. The positions are those of all corners.
+    pub(crate) fn remove(&mut self, corners: Range<usize>, positions: &[u32]) {
+        if *self == Self::OfPositions {
+            *self = Self::OfCorners(positions.to_vec());
+        }
+        if let Self::OfCorners(numbers) = self {
+            numbers[corners].fill(NONE);
+        }
+    }
+
+    /// One more than the largest number. The positions are those of all corners.
+    pub(crate) fn end(&self, positions: &[u32]) -> usize {
+        let numbers = match self {
+            Self::Nothing => &[],
+            Self::OfPositions => positions,
+            Self::OfCorners(numbers) => numbers,
+        };
+        // That of none is 0.
+        numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
     }
 
     /// The number of a corner, whose position has a number too.
@@ -327,28 +379,9 @@ impl<V> Vectors<V> {
         Self { values, numbers }
     }
 
-    /// Adds those of another part. The corners, and how many positions there are, are those of both.
-    fn append(
-        &mut self,
-        mut other: Self,
-        [own_corners, corners]: [&[u32]; 2],
-        [own_count, count]: [usize; 2],
-    ) {
-        match (&self.numbers, &other.numbers) {
-            (Numbers::Nothing, Numbers::Nothing) => return,
-            // Some files have more vectors than positions.
-            (Numbers::OfPositions, Numbers::OfPositions) => {
-                self.values.truncate(own_count);
-                other.values.truncate(count);
-                return self.values.append(&mut other.values);
-            }
-            _ => {}
-        }
-        let before = self.values.len() as u32;
-        let mut numbers = self.numbers.of_corners(own_corners, 0);
-        numbers.append(&mut other.numbers.of_corners(corners, before));
-        self.numbers = Numbers::OfCorners(numbers);
-        self.values.append(&mut other.values);
+    /// Moves the numbers to vectors without values, to give corners other numbers.
+    fn take_numbers(&mut self) -> Self {
+        Self { values: Vec::new(), numbers: std::mem::take(&mut self.numbers) }
     }
 }
 
@@ -388,36 +421,6 @@ impl Polygons {
             self.smoothing.push((self.count, smoothing));
         }
         self.count += 1;
-    }
-
-    /// Adds triangles of the next corners, without lines.
-    pub(crate) fn push_triangles(&mut self, count: usize) {
-        if self.ends.is_empty() && self.smoothing.is_empty() {
-            self.count += count as u32;
-        } else {
-            (0..count).for_each(|_| self.push(3, 0, 0));
-        }
-    }
-
-    /// Adds the polygons of the corners that come after the own ones.
-    fn append(&mut self, other: &Self) {
-        let corners = self.ends.last().map_or(3 * self.count, |end| *end);
-        if !(self.are_triangles() && other.are_triangles()) {
-            if self.ends.is_empty() {
-                self.ends = (1..=self.count).map(|number| 3 * number).collect();
-            }
-            let ends = (0..other.len()).map(|number| corners + other.corners(number).end as u32);
-            self.ends.extend(ends);
-        }
-        self.lines.extend(&other.lines);
-        let is_grouped = self.smoothing.last().is_some_and(|(_, group)| *group > 0);
-        if is_grouped && other.smoothing(0) == 0 {
-            self.smoothing.push((self.count, 0));
-        }
-        let before = self.count;
-        self.smoothing
-            .extend(other.smoothing.iter().map(|(first, group)| (before + first, *group)));
-        self.count += other.count;
     }
 
     pub(crate) fn len(&self) -> usize {

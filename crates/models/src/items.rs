@@ -74,7 +74,7 @@ pub(crate) fn model(
     for mut part in std::mem::take(&mut contents.parts) {
         let surface = part.material.and_then(|number| contents.materials.get(number));
         if surface.is_some_and(|of| of.physical.is_some() && !of.is_linear(options)) {
-            part.colours.iter_mut().for_each(|colour| *colour = colour.map(encoded));
+            part.colours.values.iter_mut().for_each(|colour| *colour = colour.map(encoded));
         }
         let material = material(surface, &part, options);
         let name = surface.map_or(String::new(), |surface| surface.name.clone());
@@ -270,7 +270,7 @@ fn exponent(size: f64) -> Option<i32> {
 
 fn material(surface: Option<&Surface>, part: &FilePart, options: LoadOptions) -> Material {
     let shading = options.shading;
-    let vertex_colours = !(part.colours.is_empty() && part.face_colours.is_empty());
+    let vertex_colours = !part.colours.values.is_empty();
     match surface {
         Some(surface) => {
             let mut material = Material {
@@ -363,8 +363,9 @@ fn mesh(
     origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
-    let (normals, uvs) = (part_normals(&mut part, smooth, normals), part_uvs(&mut part));
-    let colours = part_colours(&mut part);
+    let normals = part_normals(&mut part, smooth, normals);
+    let uvs = attribute(std::mem::take(&mut part.uvs), DVec2::ZERO);
+    let colours = attribute(std::mem::take(&mut part.colours), DVec3::ONE);
     let cut = (!part.polygons.are_triangles()).then(|| cut(path, &part, origin, warnings));
     let corners = match &cut {
         Some(cut) => cut.iter().map(|&corner| part.corners[corner as usize]).collect(),
@@ -444,30 +445,15 @@ fn of_cut<V>(attribute: Attribute<V>, cut: Option<&[u32]>) -> Attribute<V> {
     }
 }
 
-/// The colours of the corners of a part: of its positions or of its polygons, or white.
-fn part_colours(part: &mut FilePart) -> Attribute<DVec3> {
-    let mut colours = std::mem::take(&mut part.colours);
-    let values = std::mem::take(&mut part.face_colours);
-    if !colours.is_empty() {
-        colours.resize(part.positions.len(), DVec3::ONE);
-        return Attribute::OfPositions(colours);
-    }
-    if values.is_empty() {
-        return Attribute::Same(DVec3::ONE);
-    }
-    let of_polygon = |number: usize| part.polygons.corners(number).map(move |_| number as u32);
-    Attribute::Indexed { values, indices: (0..part.polygons.len()).flat_map(of_polygon).collect() }
-}
-
-/// The texture coordinates of the corners of a part; (0, 0) for those that have none.
-fn part_uvs(part: &mut FilePart) -> Attribute<DVec2> {
-    let Vectors { mut values, numbers } = std::mem::take(&mut part.uvs);
+/// An attribute of the corners of a part; `missing` for those that have none.
+fn attribute<V>(vectors: Vectors<V>, missing: V) -> Attribute<V> {
+    let Vectors { mut values, numbers } = vectors;
     match numbers {
-        Numbers::Nothing => Attribute::Same(DVec2::ZERO),
+        Numbers::Nothing => Attribute::Same(missing),
         Numbers::OfPositions => Attribute::OfPositions(values),
         Numbers::OfCorners(mut indices) => {
             let none = values.len() as u32;
-            values.push(DVec2::ZERO);
+            values.push(missing);
             for number in indices.iter_mut().filter(|number| **number == NONE) {
                 *number = none;
             }

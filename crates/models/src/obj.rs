@@ -12,7 +12,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 
 use std::sync::Arc;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::contents::{self, Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
@@ -29,7 +29,30 @@ const ABSENT: u32 = NONE - 1;
 /// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`] or [`ABSENT`].
 type FaceCorner = [u32; 3];
 
-const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
+/// A kind of vector: the number of its index in a [`FaceCorner`], and what is said of it.
+struct VectorKind {
+    number: usize,
+    name: &'static str,
+    /// How many numbers a line has at least.
+    least: usize,
+    /// What becomes of one that is not finite.
+    not_finite: &'static str,
+}
+
+const KINDS: [VectorKind; 3] = [
+    kind(0, "position", 3, "the faces that use it are left out"),
+    kind(1, "texture coordinate", 1, "it is taken as 0 0"),
+    kind(2, "normal", 3, "the normal of the face takes its place"),
+];
+
+const fn kind(
+    number: usize,
+    name: &'static str,
+    least: usize,
+    not_finite: &'static str,
+) -> VectorKind {
+    VectorKind { number, name, least, not_finite }
+}
 
 /// What is counted of faces that are left out, since a position of theirs is not in the file or cannot be read.
 const WITHOUT_POSITION: &str = "position that is missing of face";
@@ -85,18 +108,13 @@ const MOST_BROKEN: usize = 1 << 10;
 
 impl Lines {
     /// Keeps why a vector cannot be read, and gives a zero for it.
-    fn keep_broken(
-        &mut self,
-        kind: usize,
-        line: usize,
-        cause: String,
-    ) -> Result<Values<3>, String> {
+    fn keep_broken(&mut self, kind: usize, line: usize, cause: String) -> Result<Values, String> {
         if self.broken.len() >= MOST_BROKEN {
             return Err(format!("{cause}, as in {MOST_BROKEN} lines before"));
         }
         let index = self.vectors.counts()[kind] as u32;
         self.broken.insert((kind, index), (line, cause));
-        Ok(Values { all: [0.0; 3], count: 0, not_finite: None })
+        Ok(Values { all: [0.0; 7], count: 0, not_finite: None })
     }
 }
 
@@ -190,7 +208,8 @@ impl Cutter {
         part.normals.values = n.iter().map(|&index| vectors.normals[index as usize]).collect();
         let colours = p.iter().map(|&index| vectors.colours.get(index as usize).copied());
         if colours.clone().any(|colour| colour.is_some()) {
-            part.colours = colours.map(|colour| colour.unwrap_or(DVec3::ONE)).collect();
+            let colours = colours.map(|colour| colour.unwrap_or(DVec3::ONE)).collect();
+            part.colours = contents::Vectors::of_positions(colours);
         }
         part
     }
@@ -422,39 +441,10 @@ fn read_line(
     }
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
-    let mut with_comma = words.clone().filter(|word| memchr::memchr(b',', word).is_some());
     match kind {
-        b"v" => match position(words, &mut read.vectors) {
-            Ok(None) => return Ok(with_comma.next().map(records::comma)),
-            Ok(Some(word)) => {
-                let (what, why) = ("the faces that use it are left out", not_finite(&word));
-                return Ok(Some(format!("{why}; {what}")));
-            }
-            Err(cause) => {
-                read.keep_broken(0, number, cause)?;
-                read.vectors.positions.push(DVec3::ZERO);
-            }
-        },
-        b"vt" => {
-            let values =
-                numbers::<3>(words, 1).or_else(|cause| read.keep_broken(1, number, cause))?;
-            let uv = DVec2::new(values.all[0], values.all[1]);
-            read.vectors.uvs.push(if uv.is_finite() { uv } else { DVec2::ZERO });
-            if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
-                return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
-            }
-            return Ok(with_comma.next().map(records::comma));
-        }
-        b"vn" => {
-            let values =
-                numbers::<3>(words, 3).or_else(|cause| read.keep_broken(2, number, cause))?;
-            read.vectors.normals.push(DVec3::from_slice(&values.all));
-            if let Some(word) = values.not_finite {
-                let what = "the normal of the face takes its place";
-                return Ok(Some(format!("{}; {what}", not_finite(&word))));
-            }
-            return Ok(with_comma.next().map(records::comma));
-        }
+        b"v" => return vector(&KINDS[0], words, number, read),
+        b"vt" => return vector(&KINDS[1], words, number, read),
+        b"vn" => return vector(&KINDS[2], words, number, read),
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
             state.object = records::name(&rest(line, kind)).into();
@@ -502,31 +492,52 @@ fn read_line(
     Ok(None)
 }
 
-/// Three coordinates, a weight that polygons do not use, a colour. Returns the first word that is no finite number, where one of the
-/// coordinates or of the colour is not.
-fn position<'a>(
-    words: impl Iterator<Item = &'a [u8]>,
-    read: &mut Vectors,
+/// Reads a vector, and says what of it is done without. After the three coordinates of a position there may be a weight, which
+/// polygons do not use, and a colour.
+fn vector<'a>(
+    kind: &VectorKind,
+    words: impl Iterator<Item = &'a [u8]> + Clone,
+    line: usize,
+    read: &mut Lines,
 ) -> Result<Option<String>, String> {
-    let Values { all, count, not_finite } = numbers::<7>(words, 3)?;
-    let position = DVec3::from_slice(&all);
-    if position.is_finite() && position.abs().max_element() > MOST_COORDINATE {
-        let far = position.abs().max_element();
-        return Err(format!("the coordinate {far:e} is larger than 1e38: scale the model down"));
-    }
-    let colour = match count {
-        6 => Some(&all[3..6]),
-        7 => Some(&all[4..7]),
-        _ => None,
+    let with_comma = words.clone().find(|word| memchr::memchr(b',', word).is_some());
+    let values =
+        numbers(words, kind).or_else(|cause| read.keep_broken(kind.number, line, cause))?;
+    let Values { all, count, not_finite } = values;
+    let vectors = &mut read.vectors;
+    let vector = DVec3::from_slice(&all);
+    let is_finite = match kind.number {
+        0 => {
+            let colour = match count {
+                6 => Some(DVec3::from_slice(&all[3..])),
+                7 => Some(DVec3::from_slice(&all[4..])),
+                _ => None,
+            };
+            if let Some(colour) = colour {
+                vectors.colours.resize(vectors.positions.len(), WITHOUT_COLOUR);
+                vectors.colours.push(if colour.is_finite() { colour } else { DVec3::NAN });
+            }
+            vectors.positions.push(vector);
+            vector.is_finite() && colour.is_none_or(DVec3::is_finite)
+        }
+        1 => {
+            let uv = vector.truncate();
+            vectors.uvs.push(if uv.is_finite() { uv } else { DVec2::ZERO });
+            uv.is_finite()
+        }
+        _ => {
+            vectors.normals.push(vector);
+            not_finite.is_none()
+        }
     };
-    let colour = colour.map(DVec3::from_slice);
-    let is_finite = position.is_finite() && colour.is_none_or(DVec3::is_finite);
-    if let Some(colour) = colour {
-        read.colours.resize(read.positions.len(), WITHOUT_COLOUR);
-        read.colours.push(if colour.is_finite() { colour } else { DVec3::NAN });
-    }
-    read.positions.push(position);
-    Ok(not_finite.filter(|_| !is_finite))
+    Ok(match not_finite {
+        Some(word) if !is_finite => {
+            Some(format!("'{word}' is not a finite number; {}", kind.not_finite))
+        }
+        // `keep_broken` has kept why, and the warning follows when all faces are known.
+        _ if count == 0 => None,
+        _ => with_comma.map(records::comma),
+    })
 }
 
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
@@ -540,25 +551,18 @@ fn rest(line: &[u8], kind: &[u8]) -> String {
     without_comment(&text).trim().to_owned()
 }
 
-/// The numbers of a line: the first N of them.
-struct Values<const N: usize> {
-    all: [f64; N],
+/// The numbers of a line that describes a vector, as far as they are used.
+struct Values {
+    all: [f64; 7],
     /// How many the line has.
     count: usize,
     /// The first word that is no finite number.
     not_finite: Option<String>,
 }
 
-fn not_finite(word: &str) -> String {
-    format!("'{word}' is not a finite number")
-}
-
-/// At least `least` numbers.
-fn numbers<'a, const N: usize>(
-    words: impl Iterator<Item = &'a [u8]>,
-    least: usize,
-) -> Result<Values<N>, String> {
-    let mut values = Values { all: [0.0; N], count: 0, not_finite: None };
+/// Reads the numbers of a vector. An error where there are too few, or where a coordinate is too large.
+fn numbers<'a>(words: impl Iterator<Item = &'a [u8]>, kind: &VectorKind) -> Result<Values, String> {
+    let mut values = Values { all: [0.0; 7], count: 0, not_finite: None };
     for word in words {
         let value = records::expected_number(word)?;
         if !value.is_finite() && values.not_finite.is_none() {
@@ -569,8 +573,13 @@ fn numbers<'a, const N: usize>(
         }
         values.count += 1;
     }
-    if values.count < least {
-        return Err(format!("{} numbers where {least} are needed", values.count));
+    if values.count < kind.least {
+        return Err(format!("{} numbers where {} are needed", values.count, kind.least));
+    }
+    let position = DVec3::from_slice(&values.all);
+    let far = position.abs().max_element();
+    if kind.number == 0 && position.is_finite() && far > MOST_COORDINATE {
+        return Err(format!("the coordinate {far:e} is larger than 1e38: scale the model down"));
     }
     Ok(values)
 }
@@ -602,7 +611,7 @@ fn face<'a>(
     let start = part.corners.len();
     for word in words {
         let [position, uv, normal] = face_corner(word, counts)?;
-        part.push(position, normal, uv);
+        part.push(position, [normal, uv, NONE]);
     }
     if part.end_polygon(start, number, state.smoothing) {
         return Ok(None);
@@ -657,74 +666,58 @@ fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
     // Why the first face is left out, if one is, and how many are.
     let (mut refusal, mut all_left_out) = (None, 0);
     for Run { part, .. } in runs.iter_mut() {
-        let largest = |numbers: &[u32]| {
-            numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
-        };
-        let is_there = |numbers: &Numbers, count: usize| match numbers {
-            Numbers::Nothing => true,
-            Numbers::OfPositions => largest(&part.corners) <= count,
-            Numbers::OfCorners(numbers) => largest(numbers) <= count,
-        };
-        let are_there = largest(&part.corners) <= counts[0]
-            && is_there(&part.uvs.numbers, counts[1])
-            && is_there(&part.normals.numbers, counts[2]);
+        let are_there = Numbers::OfPositions.end(&part.corners) <= counts[0]
+            && part.uvs.numbers.end(&part.corners) <= counts[1]
+            && part.normals.numbers.end(&part.corners) <= counts[2];
         if are_there && broken.is_empty() {
             continue;
         }
         // Faces in ascending order.
         let mut left_out = Vec::new();
         for number in 0..part.polygons.len() {
-            let line = part.polygons.line(number) as usize;
+            let of_face = part.polygons.line(number) as usize;
             let corners = part.polygons.corners(number);
-            for (kind, name) in KINDS.into_iter().enumerate() {
+            for &VectorKind { number: kind, name, .. } in &KINDS {
                 let count = counts[kind];
-                let number_of = |corner: usize| {
-                    let position = part.corners[corner];
-                    match kind {
-                        0 => Some(position),
-                        1 => part.uvs.numbers.get(corner, position),
-                        _ => part.normals.numbers.get(corner, position),
-                    }
-                };
-                let is_wrong =
-                    |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));
-                let indices: Vec<u32> = corners.clone().filter_map(number_of).collect();
-                let Some(&index) = indices.iter().find(|index| is_wrong(index)) else { continue };
-                let (line, cause) = match (broken.get(&(kind, index)), index) {
-                    (Some((line, cause)), _) => (*line, cause.clone()),
-                    (None, ABSENT) => (line, format!("a {name} that the face names is not there")),
-                    (None, index) => {
-                        let index = u64::from(index) + 1;
-                        (line, format!("{name} {index} is not there; the file has {count}"))
-                    }
-                };
-                let is_broken = broken.contains_key(&(kind, index));
-                let shown = match is_broken {
-                    true => format!("the {name} of the face cannot be read"),
-                    false => cause.clone(),
-                };
-                let text = match kind {
-                    0 => format!("{shown}; the face is left out"),
-                    _ => format!("{shown}; the face is drawn without {name}s of the file"),
-                };
-                let of_face = Some(part.polygons.line(number) as usize);
-                warnings.add(path, of_face, &format!("faces without their {name}s"), &text);
-                used.extend(indices.into_iter().map(|index| (kind, index)));
                 let numbers = match kind {
-                    0 => {
-                        refusal.get_or_insert((line, cause));
-                        left_out.push(number);
-                        break;
-                    }
+                    0 => &mut Numbers::OfPositions,
                     1 => &mut part.uvs.numbers,
                     _ => &mut part.normals.numbers,
                 };
-                if *numbers == Numbers::OfPositions {
-                    *numbers = Numbers::OfCorners(part.corners.clone());
+                let named = corners.clone().filter_map(|at| numbers.get(at, part.corners[at]));
+                let named: Vec<u32> = named.collect();
+                let is_wrong =
+                    |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));
+                let Some(&index) = named.iter().find(|index| is_wrong(index)) else { continue };
+                // Which line has to be repaired and why, and what is said of the face.
+                let (line, cause, of_vector) = match broken.get(&(kind, index)) {
+                    Some((line, cause)) => {
+                        (*line, cause.clone(), format!("the {name} of the face cannot be read"))
+                    }
+                    None => {
+                        let cause = match index {
+                            ABSENT => format!("a {name} that the face names is not there"),
+                            _ => {
+                                let index = u64::from(index) + 1;
+                                format!("{name} {index} is not there; the file has {count}")
+                            }
+                        };
+                        (of_face, cause.clone(), cause)
+                    }
+                };
+                let of_faces = match kind {
+                    0 => "the face is left out".to_owned(),
+                    _ => format!("the face is drawn without {name}s of the file"),
+                };
+                let text = format!("{of_vector}; {of_faces}");
+                warnings.add(path, Some(of_face), &format!("faces without their {name}s"), &text);
+                used.extend(named.into_iter().map(|index| (kind, index)));
+                if kind == 0 {
+                    refusal.get_or_insert((line, cause));
+                    left_out.push(number);
+                    break;
                 }
-                if let Numbers::OfCorners(numbers) = numbers {
-                    numbers[corners.clone()].fill(NONE);
-                }
+                numbers.remove(corners.clone(), &part.corners);
             }
         }
         all_left_out += left_out.len() as u64;

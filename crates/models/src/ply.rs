@@ -11,7 +11,7 @@ use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, Vectors};
 use crate::records::{Kind, Records, expected_number, without_mark};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, bad, outside};
@@ -177,13 +177,11 @@ impl Body<'_> {
         Ok(length as usize)
     }
 
-    /// Moves past properties whose values nobody reads.
-    fn skip(&mut self, properties: &[Property]) -> Result<(), String> {
-        for property in properties {
-            let count = property.length.map_or(Ok(1), |kind| self.length(kind))?;
-            for _ in 0..count {
-                self.number(property.kind)?;
-            }
+    /// Moves past a property whose values are not drawn.
+    fn skip(&mut self, property: &Property) -> Result<(), String> {
+        let count = property.length.map_or(Ok(1), |kind| self.length(kind))?;
+        for _ in 0..count {
+            self.number(property.kind)?;
         }
         Ok(())
     }
@@ -327,8 +325,9 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
     if part.uvs.numbers == Numbers::Nothing && part.uvs.values.len() == part.positions.len() {
         part.uvs.numbers = Numbers::OfPositions;
     }
-    if !part.face_colours.is_empty() {
-        part.face_colours.resize(part.polygons.len(), DVec3::ONE);
+    if part.colours.numbers == Numbers::Nothing && !part.colours.values.is_empty() {
+        part.colours.values.resize(part.positions.len(), DVec3::ONE);
+        part.colours.numbers = Numbers::OfPositions;
     }
     if part.polygons.len() == 0 {
         contents.count("point", part.positions.len() as u64);
@@ -348,7 +347,9 @@ fn others(
     contents.count(key, element.count);
     while body.element < element.count {
         body.next_element()?;
-        body.skip(&element.properties)?;
+        for property in &element.properties {
+            body.skip(property)?;
+        }
         body.element += 1;
     }
     Ok(())
@@ -399,7 +400,7 @@ fn vertices(
             part.uvs.values.push(DVec2::new(u, v));
         }
         if has_colours {
-            part.colours.push(clamped(DVec3::new(r, g, b)));
+            part.colours.values.push(clamped(DVec3::new(r, g, b)));
             transparent += u64::from(a < 1.0);
         }
     };
@@ -439,7 +440,7 @@ fn vertices(
         let mut values = NO_VALUES;
         for (property, place) in element.properties.iter().zip(&places) {
             match place {
-                None => body.skip(std::slice::from_ref(property))?,
+                None => body.skip(property)?,
                 Some(place) => {
                     values[*place] = scaled(*place, property.kind, body.number(property.kind)?);
                 }
@@ -473,6 +474,17 @@ fn is_corners(property: &Property) -> bool {
     property.length.is_some() && names.iter().any(|name| property.name.eq_ignore_ascii_case(name))
 }
 
+/// What a face gives by one of its properties.
+enum Role {
+    /// A list of vertices, whose length has this type.
+    Corners(Kind),
+    /// A list of texture coordinates of the corners, as MeshLab writes them.
+    Uvs(Kind),
+    /// A channel of its colour, by its number.
+    Channel(usize),
+    NotDrawn,
+}
+
 fn faces(
     body: &mut Body<'_>,
     element: &Element,
@@ -482,79 +494,89 @@ fn faces(
     if !element.properties.iter().any(is_corners) {
         return Err("the header gives faces no list 'vertex_indices'".to_owned());
     }
-    // Texture coordinates of the corners, as MeshLab writes them.
-    let is_uvs = |property: &Property| {
-        property.length.is_some() && property.name.eq_ignore_ascii_case("texcoord")
-    };
     // The colours of vertices are finer.
-    let channels = if part.colours.is_empty() { channels(element) } else { None };
-    let channel = |property: &Property| {
-        channels.and_then(|all| all.iter().position(|one| one.name == property.name))
-    };
-    for property in &element.properties {
-        if !is_corners(property) && !is_uvs(property) && channel(property).is_none() {
-            let key = format!("value '{}' of face", printable_short(&property.name, 40));
-            contents.count(&key, element.count);
+    let of_vertices = !part.colours.values.is_empty() && part.colours.numbers == Numbers::Nothing;
+    let channels = if of_vertices { None } else { channels(element) };
+    let role = |property: &Property| match property.length {
+        Some(length) if is_corners(property) => Role::Corners(length),
+        Some(length) if property.name.eq_ignore_ascii_case("texcoord") => Role::Uvs(length),
+        _ => {
+            let is_channel = |channel: &&Property| channel.name == property.name;
+            let channel = channels.and_then(|channels| channels.iter().position(is_channel));
+            channel.map_or(Role::NotDrawn, Role::Channel)
         }
-    }
-    if element.properties.iter().any(is_uvs) {
-        part.uvs.values.clear();
-        part.uvs.numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
+    };
+    // Names are compared once, and not for each face.
+    let properties: Vec<(Role, &Property)> =
+        element.properties.iter().map(|property| (role(property), property)).collect();
+    for (role, property) in &properties {
+        match role {
+            Role::NotDrawn => {
+                let key = format!("value '{}' of face", printable_short(&property.name, 40));
+                contents.count(&key, element.count);
+            }
+            Role::Uvs(_) => part.uvs = Vectors::default(),
+            Role::Corners(_) | Role::Channel(_) => {}
+        }
     }
     if body.form == Form::Text {
         let most = element.count.min(body.file.left_bytes()) as usize;
         part.corners.reserve(3 * most);
         part.polygons.lines.reserve(most);
     }
-    let (mut small, mut uvs) = (0, Vec::new());
+    let mut small = 0;
+    // Those of the face that is read.
+    let (mut corners, mut uvs) = (Vec::new(), Vec::new());
     loop {
         body.element += triangles(body, element, element.count - body.element, part)?;
         if body.element == element.count {
             break;
         }
         body.next_element()?;
-        let start = part.corners.len();
+        corners.clear();
         uvs.clear();
         let mut colour = DVec3::ONE;
-        for property in &element.properties {
-            if let Some(channel) = channel(property) {
-                colour[channel] = body.number(property.kind)? / full(property.kind);
-                continue;
-            }
-            let (Some(length), true) = (property.length, is_corners(property) || is_uvs(property))
-            else {
-                body.skip(std::slice::from_ref(property))?;
-                continue;
-            };
-            for _ in 0..body.length(length)? {
-                let value = body.number(property.kind)?;
-                if is_corners(property) {
-                    part.corners.push(corner(part.positions.len(), value)?);
-                } else {
-                    uvs.push(value);
+        for (role, property) in &properties {
+            match *role {
+                Role::Corners(length) => {
+                    for _ in 0..body.length(length)? {
+                        let value = body.number(property.kind)?;
+                        corners.push(corner(part.positions.len(), value)?);
+                    }
                 }
+                Role::Uvs(length) => {
+                    for _ in 0..body.length(length)? {
+                        uvs.push(body.number(property.kind)?);
+                    }
+                }
+                Role::Channel(channel) => {
+                    colour[channel] = body.number(property.kind)? / full(property.kind);
+                }
+                Role::NotDrawn => body.skip(property)?,
             }
         }
         body.element += 1;
-        if !part.end_polygon(start, body.file.line, 0) {
+        if corners.len() < 3 {
             small += 1;
             continue;
         }
-        if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
-            let count = part.corners.len() - start;
-            let (pairs, _) = uvs.as_chunks::<2>();
-            let first = part.uvs.values.len() as u32;
-            let is_whole = pairs.len() == count;
-            numbers.extend((first..).take(count).map(|at| if is_whole { at } else { NONE }));
-            if is_whole {
-                part.uvs.values.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
-            }
+        // What the corners name follows what the faces before them name.
+        let (pairs, _) = uvs.as_chunks::<2>();
+        let first_uv = part.uvs.values.len() as u32;
+        let has_uvs = pairs.len() == corners.len();
+        if has_uvs {
+            part.uvs.values.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
         }
+        let mut of_face = NONE;
         if channels.is_some() {
-            // Triangles of strips before them have none.
-            part.face_colours.resize(part.polygons.len() - 1, DVec3::ONE);
-            part.face_colours.push(clamped(colour));
+            of_face = part.colours.values.len() as u32;
+            part.colours.values.push(clamped(colour));
         }
+        let start = part.corners.len();
+        for (&corner, uv) in corners.iter().zip(first_uv..) {
+            part.push(corner, [NONE, if has_uvs { uv } else { NONE }, of_face]);
+        }
+        part.end_polygon(start, body.file.line, 0);
     }
     contents.count(INCOMPLETE_FACE, small);
     Ok(())
@@ -607,15 +629,7 @@ fn triangles(
         records.len()
     });
     let count = count.map_err(|error| error.cause)?;
-    if part.corners.is_empty() {
-        part.corners = read.into_flattened();
-    } else {
-        part.corners.extend_from_slice(read.as_flattened());
-    }
-    if let Numbers::OfCorners(numbers) = &mut part.uvs.numbers {
-        numbers.resize(part.corners.len(), NONE);
-    }
-    part.polygons.push_triangles(count as usize);
+    part.push_triangles(read);
     Ok(count)
 }
 
@@ -633,7 +647,7 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result
         body.next_element()?;
         for property in &element.properties {
             let (Some(length), true) = (property.length, is_corners(property)) else {
-                body.skip(std::slice::from_ref(property))?;
+                body.skip(property)?;
                 continue;
             };
             let (mut before, mut count) = ([0.0; 2], 0);
@@ -648,7 +662,7 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result
                 if count >= 2 && a != b && b != value && a != value {
                     let start = part.corners.len();
                     for value in if count % 2 == 0 { [a, b, value] } else { [b, a, value] } {
-                        part.push(corner(part.positions.len(), value)?, NONE, NONE);
+                        part.push(corner(part.positions.len(), value)?, [NONE; 3]);
                     }
                     part.end_polygon(start, body.file.line, 0);
                 }

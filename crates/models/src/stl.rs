@@ -265,73 +265,78 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let mut words = words.peekable();
         // Most lines have one statement, and some files one line.
-        while let (Some(mut kind), None) = (words.next(), &wrong) {
-            let is_two = kind.eq_ignore_ascii_case(b"end");
-            if is_two && let Some(next) = words.next() {
-                kind = next;
+        while let (Some(word), None) = (words.next(), &wrong) {
+            let mut kind = statement(word);
+            if kind == Some("end")
+                && let Some(next) = words.next()
+            {
+                kind = end_of(next);
             }
-            let is = |name: &str| match name.strip_prefix("end") {
-                Some(name) if is_two => kind.eq_ignore_ascii_case(name.as_bytes()),
-                _ => !is_two && kind.eq_ignore_ascii_case(name.as_bytes()),
-            };
-            if is("vertex") {
-                let numbers = [(); 3].map_array(|()| words.next().unwrap_or_default());
-                let is_last = words.peek().is_none_or(|word| begins(word));
-                match numbers.map_array(records::number) {
-                    [Some(_), Some(_), Some(_)] if is_last && points.len() == 3 => {
-                        wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
-                    }
-                    [Some(x), Some(y), Some(z)] if is_last => points.push([x, y, z]),
-                    _ => {
-                        wrong = Some(format!(
-                            "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
-                            shown(line)
-                        ));
+            match kind {
+                Some("vertex") => {
+                    let numbers = [(); 3].map_array(|()| words.next().unwrap_or_default());
+                    let is_last = words.peek().is_none_or(|word| statement(word).is_some());
+                    match numbers.map_array(records::number) {
+                        [Some(_), Some(_), Some(_)] if is_last && points.len() == 3 => {
+                            wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
+                        }
+                        [Some(x), Some(y), Some(z)] if is_last => {
+                            points.push([x, y, z]);
+                            if let Some(word) = numbers.iter().find(|word| word.contains(&b',')) {
+                                warnings.add(path, Some(number), "lines", &records::comma(word));
+                            }
+                        }
+                        _ => {
+                            wrong = Some(format!(
+                                "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
+                                shown(line)
+                            ));
+                        }
                     }
                 }
-                if let (None, Some(word)) =
-                    (&wrong, numbers.iter().find(|word| word.contains(&b',')))
-                {
-                    warnings.add(path, Some(number), "lines", &records::comma(word));
-                }
-            } else if is("facet") && points.is_empty() {
-                open = Some(number);
-            } else if is("facet") || is("endfacet") {
-                if points.len() != 3 {
+                Some("facet") if points.is_empty() => open = Some(number),
+                Some("facet" | "endfacet") if points.len() != 3 => {
                     wrong = Some(format!(
                         "a facet ends with {} vertices instead of 3: export the model again",
                         points.len()
                     ));
                 }
-                if parts.is_empty() {
-                    parts.push(FilePart::default());
-                }
-                if let (None, Some(part)) = (&wrong, parts.last_mut()) {
-                    points.drain(..).for_each(|point| corners.push(point));
-                    part.polygons.push(3, open.unwrap_or(number) as u32, 0);
+                Some("facet" | "endfacet") => {
+                    if parts.is_empty() {
+                        parts.push(FilePart::default());
+                    }
+                    if let Some(part) = parts.last_mut() {
+                        points.drain(..).for_each(|point| corners.push(point));
+                        part.polygons.push(3, open.unwrap_or(number) as u32, 0);
+                    }
                     triangles += 1;
                     // Where no `endfacet` is before it.
-                    open = is("facet").then_some(number);
+                    open = (kind == Some("facet")).then_some(number);
                 }
-            } else if is("solid") {
-                end(parts.last_mut(), &mut corners);
-                let name = name(&mut words, &["facet", "endsolid"]);
-                // A line is six bytes, and a part hundreds.
-                if parts.last().is_some_and(|part| part.polygons.len() == 0) {
-                    parts.pop();
+                Some("solid") => {
+                    end(parts.last_mut(), &mut corners);
+                    let name = name(&mut words, &["facet", "endsolid"]);
+                    // A line is six bytes, and a part hundreds.
+                    if parts.last().is_some_and(|part| part.polygons.len() == 0) {
+                        parts.pop();
+                    }
+                    parts.push(FilePart { name, ..FilePart::default() });
+                    is_open = true;
                 }
-                parts.push(FilePart { name, ..FilePart::default() });
-                is_open = true;
-            } else if is("endsolid") {
-                is_open = false;
-                name(&mut words, &["solid"]);
-            } else if !(is("outer") || is("endloop")) {
-                let text = format!("'{}' is no line of an STL; the line is left out", shown(line));
-                warnings.add(path, Some(number), "lines", &text);
-                break;
+                Some("endsolid") => {
+                    is_open = false;
+                    name(&mut words, &["solid"]);
+                }
+                Some("outer" | "endloop") => {}
+                _ => {
+                    let text =
+                        format!("'{}' is no line of an STL; the line is left out", shown(line));
+                    warnings.add(path, Some(number), "lines", &text);
+                    break;
+                }
             }
             // Normals, and what is no statement.
-            while words.next_if(|word| !begins(word)).is_some() {}
+            while words.next_if(|word| statement(word).is_none()).is_some() {}
         }
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
@@ -363,9 +368,15 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
 const STATEMENTS: [&str; 8] =
     ["vertex", "facet", "endfacet", "endloop", "outer", "solid", "endsolid", "end"];
 
-/// Whether a word begins a statement.
-fn begins(word: &[u8]) -> bool {
-    STATEMENTS.iter().any(|known| word.eq_ignore_ascii_case(known.as_bytes()))
+/// The statement that a word begins, if it begins one.
+fn statement(word: &[u8]) -> Option<&'static str> {
+    STATEMENTS.into_iter().find(|known| word.eq_ignore_ascii_case(known.as_bytes()))
+}
+
+/// The statement of two words, of which this is the second after `end`.
+fn end_of(word: &[u8]) -> Option<&'static str> {
+    let is_second = |second: &str| word.eq_ignore_ascii_case(second.as_bytes());
+    STATEMENTS.into_iter().find(|known| known.strip_prefix("end").is_some_and(is_second))
 }
 
 /// The name of a solid: what is left of a line, up to a word that begins the next statement where a facet is in the same line.

@@ -166,42 +166,31 @@ impl<'a> Data<'a> {
     fn column(&self, number: usize) -> Result<Column<'_>, String> {
         let accessor = self.accessor(number)?;
         let failed = |cause: &str| format!("accessors[{number}]: {cause}");
-        let Some(kind) = kind_of(accessor.component_type) else {
-            return Err(failed("the component type is not one of glTF"));
-        };
-        let Some(width) = width_of(&accessor.form) else {
-            return Err(failed("the type is not one of glTF"));
-        };
-        let normalized = accessor.normalized;
+        let kind = kind_of(accessor.component_type)
+            .ok_or_else(|| failed("the component type is not one of glTF"))?;
+        let width =
+            width_of(&accessor.form).ok_or_else(|| failed("the type is not one of glTF"))?;
         let count = usize::try_from(accessor.count).unwrap_or(usize::MAX);
-        let (mut stride, mut bytes) = (width * kind.size(), None);
-        match accessor.buffer_view {
-            Some(view) => {
-                bytes = Some((self.view(view)?, accessor.byte_offset));
-            }
-            None if count > MOST_ZEROS => return Err(failed("has no bytes")),
-            None => {}
-        }
-        let bytes = match bytes {
-            None => None,
-            Some(((all, given), offset)) => {
-                let size = stride;
-                stride = given.filter(|&given| given > 0).unwrap_or(size);
-                let last = count.saturating_sub(1).checked_mul(stride);
-                let needed = last.and_then(|last| last.checked_add(size)).filter(|_| count > 0);
-                let from = usize::try_from(offset).ok().and_then(|offset| all.get(offset..));
-                let fits =
-                    from.filter(|from| count == 0 || needed.is_some_and(|n| n <= from.len()));
-                let cause = || {
-                    failed(&format!(
-                        "{count} elements of {size} bytes do not fit into the {} bytes of its buffer view",
-                        all.len()
-                    ))
-                };
-                Some(fits.ok_or_else(cause)?)
-            }
+        let (size, normalized) = (width * kind.size(), accessor.normalized);
+        let zeros = Column { bytes: None, count, stride: size, width, kind, normalized };
+        let Some(view) = accessor.buffer_view else {
+            return if count > MOST_ZEROS { Err(failed("has no bytes")) } else { Ok(zeros) };
         };
-        Ok(Column { bytes, count, stride, width, kind, normalized })
+        let (all, stride) = self.view(view)?;
+        let stride = stride.filter(|&stride| stride > 0).unwrap_or(size);
+        // Nothing has to follow the last element.
+        let needed = match count.checked_sub(1) {
+            None => Some(0),
+            Some(last) => last.checked_mul(stride).and_then(|start| start.checked_add(size)),
+        };
+        let from = usize::try_from(accessor.byte_offset).ok().and_then(|offset| all.get(offset..));
+        match from.filter(|from| needed.is_some_and(|needed| needed <= from.len())) {
+            Some(bytes) => Ok(Column { bytes: Some(bytes), stride, ..zeros }),
+            None => Err(failed(&format!(
+                "{count} elements of {size} bytes do not fit into the {} bytes of its buffer view",
+                all.len()
+            ))),
+        }
     }
 
     /// The elements of an accessor as numbers, each cut to N of them.

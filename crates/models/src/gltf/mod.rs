@@ -297,24 +297,25 @@ impl Reader<'_> {
     fn camera(&mut self, number: usize, node: &Node, world: DMat4) {
         let Some(at) = node.camera else { return };
         let camera = self.data.root.cameras.get(at);
-        let lens = camera.and_then(|camera| match camera {
-            document::Camera { perspective: Some(of), .. } => {
-                Some((Lens::Perspective { angle_rad: of.yfov }, of.znear, of.zfar))
+        let (lens, of) = match camera {
+            Some(document::Camera { perspective: Some(of), .. }) => {
+                (Lens::Perspective { angle_rad: of.yfov }, of)
             }
-            document::Camera { orthographic: Some(of), .. } => {
-                let far = Some(of.zfar.unwrap_or_default());
-                Some((Lens::Parallel { half_height: of.ymag }, of.znear, far))
+            Some(document::Camera { orthographic: Some(of), .. }) => {
+                (Lens::Parallel { half_height: of.ymag }, of)
             }
-            _ => None,
-        });
-        let (Some(camera), Some((lens, near, far))) = (camera, lens) else {
-            self.warn("cameras", &format!("nodes[{number}]: cameras[{at}] is none of glTF"));
-            return;
+            _ => {
+                self.warn("cameras", &format!("nodes[{number}]: cameras[{at}] is none of glTF"));
+                return;
+            }
         };
-        let name = node.name.as_deref().or(camera.name.as_deref());
+        // A parallel one always ends somewhere.
+        let is_parallel = matches!(lens, Lens::Parallel { .. });
+        let far = of.zfar.or(is_parallel.then_some(0.0));
+        let name = node.name.as_deref().or(camera.and_then(|camera| camera.name.as_deref()));
         let name = records::name(name.unwrap_or_default()).to_owned();
         let (eye, ahead, up) = (DVec3::ZERO, DVec3::NEG_Z, DVec3::Y);
-        let mut camera = Camera { name, eye, ahead, up, lens, near, far };
+        let mut camera = Camera { name, eye, ahead, up, lens, near: of.znear, far };
         camera.place(world);
         self.contents.cameras.push(camera);
     }
@@ -322,34 +323,35 @@ impl Reader<'_> {
     /// Adds the light of a node, where it has one.
     fn light(&mut self, node: &Node, world: DMat4) {
         let Some(used) = &node.extensions.light else { return };
-        let number = used["light"].as_f64().filter(|number| *number >= 0.0);
-        let lights = &self.data.root.extensions[LIGHTS]["lights"];
-        let light = number.and_then(|number| lights.get(number as usize));
-        let light = light.and_then(|light| Light::deserialize(light).ok());
-        let kind = light.as_ref().and_then(|light| {
-            let range = light.range.filter(|range| *range > 0.0).map_or(f64::INFINITY, f64::from);
-            let [inner, outer] = Kind::ANGLES_RAD;
-            match light.kind.as_str() {
-                "directional" => Some(Kind::Directional),
-                "point" => Some(Kind::Point { range }),
-                "spot" => {
-                    let spot = light.spot.as_ref();
-                    let inner_rad = spot.and_then(|of| of.inner_cone_angle).unwrap_or(inner);
-                    let outer_rad = spot.and_then(|of| of.outer_cone_angle).unwrap_or(outer);
-                    Some(Kind::Spot { range, inner_rad, outer_rad })
-                }
-                _ => None,
-            }
-        });
-        match (light, kind) {
-            (Some(light), Some(kind)) if self.contents.lights.len() < MOST_LIGHTS => {
-                let usual = |number: f32| f64::from(number.clamp(0.0, 1e9));
-                let colour = DVec3::from_array(light.color.unwrap_or([1.0; 3]).map_array(usual));
-                let light = PunctualLight::new(kind, colour, usual(light.intensity.unwrap_or(1.0)));
+        match self.punctual(used) {
+            Some(light) if self.contents.lights.len() < MOST_LIGHTS => {
                 self.contents.lights.push(light.placed(world));
             }
             _ => self.count("light", 1),
         }
+    }
+
+    /// The light that a node names; nothing where it cannot be read.
+    fn punctual(&self, used: &Value) -> Option<PunctualLight> {
+        let number = used["light"].as_f64().filter(|number| *number >= 0.0)?;
+        let light = self.data.root.extensions[LIGHTS]["lights"].get(number as usize)?;
+        let light = Light::deserialize(light).ok()?;
+        let range = light.range.filter(|range| *range > 0.0).map_or(f64::INFINITY, f64::from);
+        let kind = match light.kind.as_str() {
+            "directional" => Kind::Directional,
+            "point" => Kind::Point { range },
+            "spot" => {
+                let spot = light.spot.unwrap_or_default();
+                let [inner, outer] = Kind::ANGLES_RAD;
+                let inner_rad = spot.inner_cone_angle.unwrap_or(inner);
+                let outer_rad = spot.outer_cone_angle.unwrap_or(outer);
+                Kind::Spot { range, inner_rad, outer_rad }
+            }
+            _ => return None,
+        };
+        let usual = |number: f32| f64::from(number.clamp(0.0, 1e9));
+        let colour = DVec3::from_array(light.color.unwrap_or([1.0; 3]).map_array(usual));
+        Some(PunctualLight::new(kind, colour, usual(light.intensity.unwrap_or(1.0))))
     }
 
     /// Where a node shows its mesh, in its own coordinates: once, or as often as an extension says.
@@ -585,9 +587,8 @@ impl Reader<'_> {
             normals: Vectors::of_positions(normals),
             uvs: Vectors::of_positions(uvs),
             second_uvs,
-            colours,
+            colours: Vectors::of_positions(colours),
             tangents,
-            ..FilePart::default()
         };
         self.contents.add(part)
     }
@@ -702,7 +703,10 @@ impl Reader<'_> {
         place: &str,
     ) -> Vec<T> {
         let cause = match read {
-            Ok(read) if read.len() >= count => return read,
+            Ok(mut read) if read.len() >= count => {
+                read.truncate(count);
+                return read;
+            }
             Ok(read) => format!("{} {what} for {count} positions", read.len()),
             Err(cause) => format!("the {what} cannot be read: {cause}"),
         };

@@ -33,7 +33,10 @@ mod table;
 use std::fmt;
 use std::str::FromStr;
 
+use conditions::account::ItemQuestion;
 pub use table::Effect;
+
+use crate::scene::{Item, Scene};
 
 /// When an effect is paid for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -102,6 +105,21 @@ impl Effects {
     pub fn pays(&self, effect: Effect, called_for: bool) -> bool {
         self.mode(effect).pays(called_for)
     }
+}
+
+/// The effects of single fragments that an item asks for, by its material and its scene.
+#[must_use]
+pub fn asked_for(scene: &Scene, item: &Item) -> Vec<Effect> {
+    let effects = &Effects::PLANNED;
+    let carries = conditions::attributes::carries(scene, item, effects);
+    let asked = ItemQuestion { scene, item, carries, effects };
+    let mut all = Vec::new();
+    for condition in conditions::ALL {
+        if condition.mode(&asked) == Mode::Planned {
+            all.push(condition.effect);
+        }
+    }
+    all
 }
 
 /// A word of [`Effects::from_str`] that is none.

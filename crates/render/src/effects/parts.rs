@@ -69,24 +69,14 @@ impl Parts {
     }
 
     /// Whether it pays to check the squares of a piece. If only a colour of the corners varies, nothing can be left out of a
-    /// square. In a small piece, or in a sliver, which covers little of each square, the checks take longer than they save.
+    /// square. In a small piece the checks take longer than they save.
     #[inline]
     pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
         let varies = !plan.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
         if self.side == 0 || !(varies || plan.fog == Share::Mixed) {
             return false;
         }
-        let samples = samples_of(piece);
-        samples >= 4 * i64::from(self.side()).pow(2) && !self.is_sliver(piece, samples)
-    }
-
-    /// Whether a piece that covers so many samples covers less than a quarter of each square of its box, on average.
-    fn is_sliver(&self, piece: &Piece, samples: i64) -> bool {
-        let side = i64::from(self.side());
-        let rect = pixel_box(&piece.corners(), 0);
-        let [columns, rows] =
-            [rect.width(), rect.height()].map(|length| i64::from(length) / side + 1);
-        4 * samples < columns * rows * side.pow(2)
+        samples_of(piece) >= 4 * i64::from(self.side()).pow(2)
     }
 }
 
@@ -213,7 +203,7 @@ impl<'a> Whole<'a> {
             return;
         }
         let side = self.side;
-        let (mut waiting, mut row): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
+        let mut row: Vec<Part> = Vec::new();
         let mut y0 = bounds.y0;
         while y0 < bounds.y1 {
             let y1 = bounds.y1.min((y0.div_euclid(side) + 1) * side);
@@ -237,21 +227,9 @@ impl<'a> Whole<'a> {
                 // What lies beyond it is not covered.
                 (alone.bounds.x0, alone.bounds.x1) = (bounds.x0, bounds.x1);
             }
-            let continues = waiting.len() == row.len()
-                && waiting.iter().zip(&row).all(|(above, part)| {
-                    let columns = |part: &Part| (part.bounds.x0, part.bounds.x1);
-                    columns(above) == columns(part)
-                        && (above.plan, above.constants) == (part.plan, part.constants)
-                });
-            if continues {
-                waiting.iter_mut().for_each(|part| part.bounds.y1 = y1);
-            } else {
-                waiting.iter().for_each(&mut *draw);
-                std::mem::swap(&mut waiting, &mut row);
-            }
+            row.iter().for_each(&mut *draw);
             y0 = y1;
         }
-        waiting.iter().for_each(draw);
     }
 
     /// The shares of the piece's corners at the corners of a rectangle; nothing where the piece covers none of it: all four lie
@@ -588,7 +566,6 @@ mod tests {
         assert!(are_checked([64, 64], lit) && are_checked([64, 64], fogged));
         assert!(!are_checked([64, 64], colour), "no square has less than a colour");
         assert!(!are_checked([32, 32], lit), "small");
-        assert!(!are_checked([2000, 3], lit) && !are_checked([3, 2000], lit), "slivers");
     }
 
     #[test]

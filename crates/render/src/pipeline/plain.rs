@@ -6,7 +6,6 @@
 
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Texels along the side of a block.
 pub(super) const BLOCK: usize = 8;
@@ -17,27 +16,21 @@ pub(super) const MOST_BLOCKS: usize = 256;
 /// More blocks than this are counted by so many of them, evenly spread.
 const MOST_COUNTED: usize = 1 << 8;
 
-/// What is known of each block: a large texture has many that no triangle ever reads.
+/// Whether all texels of each block have one colour, row by row. The list is made when it is used for the first time.
 #[derive(Debug, Default)]
-pub(super) struct PlainBlocks {
-    known: OnceLock<Box<[AtomicU8]>>,
-    part: OnceLock<f64>,
-}
-
-/// Nothing, as a fresh block; that all of its texels have one colour, or that they have not.
-const UNKNOWN: u8 = 0;
-const PLAIN: u8 = 1;
-const MIXED: u8 = 2;
+pub(super) struct PlainBlocks(OnceLock<Box<[bool]>>);
 
 impl PlainBlocks {
-    /// The one colour of all texels in these columns and rows, of a texture with so many of them.
+    /// The one colour of all texels in these columns and rows, of a texture of this width.
     pub fn colour<T: Copy + PartialEq + Into<u32>>(
         &self,
-        [width, height]: [usize; 2],
+        width: usize,
         columns: &[Option<RangeInclusive<usize>>; 2],
         rows: &[Option<RangeInclusive<usize>>; 2],
         texels: &[T],
     ) -> Option<u32> {
+        let blocks = self.get(width, texels);
+        let across = width.div_ceil(BLOCK);
         let mut looked_at = 0;
         let mut found = None;
         for (rows, columns) in
@@ -53,22 +46,20 @@ impl PlainBlocks {
                     if looked_at > MOST_BLOCKS {
                         return None;
                     }
-                    let corner = texels[row * BLOCK * width + column * BLOCK];
-                    match self.is_plain([width, height], texels, [column, row]) {
-                        true if corner == own => {}
-                        true => return None,
-                        false => {
-                            let part = |of: &RangeInclusive<usize>, block: usize| {
-                                (*of.start()).max(block * BLOCK)
-                                    ..=(*of.end()).min(block * BLOCK + BLOCK - 1)
-                            };
-                            let (rows, columns) = (part(rows, row), part(columns, column));
-                            for y in rows {
-                                let line = &texels[y * width..][columns.clone()];
-                                if !all_are(own, line) {
-                                    return None;
-                                }
-                            }
+                    if blocks[row * across + column] {
+                        if texels[row * BLOCK * width + column * BLOCK] != own {
+                            return None;
+                        }
+                        continue;
+                    }
+                    let part = |of: &RangeInclusive<usize>, block: usize| {
+                        (*of.start()).max(block * BLOCK)
+                            ..=(*of.end()).min(block * BLOCK + BLOCK - 1)
+                    };
+                    for y in part(rows, row) {
+                        let line = &texels[y * width..][part(columns, column)];
+                        if !all_are(own, line) {
+                            return None;
                         }
                     }
                 }
@@ -77,39 +68,27 @@ impl PlainBlocks {
         found.map(T::into)
     }
 
-    /// The part of the blocks that has one colour, from 0 to 1, of a texture with so many columns and rows.
-    pub fn part<T: Copy + PartialEq>(&self, [width, height]: [usize; 2], texels: &[T]) -> f64 {
-        *self.part.get_or_init(|| {
-            let across = width.div_ceil(BLOCK);
-            let blocks = across * height.div_ceil(BLOCK);
-            // An odd step meets all columns.
-            let step = blocks.div_ceil(MOST_COUNTED) | 1;
-            let counted = (0..blocks).step_by(step);
-            let is_plain = |number: &usize| {
-                self.is_plain([width, height], texels, [number % across, number / across])
-            };
-            counted.clone().filter(is_plain).count() as f64 / counted.count() as f64
-        })
+    /// The part of the blocks that has one colour, from 0 to 1, of a texture of this width.
+    pub fn part<T: Copy + PartialEq>(&self, width: usize, texels: &[T]) -> f64 {
+        let blocks = self.get(width, texels);
+        // An odd step meets all columns.
+        let counted = blocks.iter().step_by(blocks.len().div_ceil(MOST_COUNTED) | 1);
+        let plain = counted.clone().filter(|is_plain| **is_plain).count();
+        plain as f64 / counted.len() as f64
     }
 
-    fn is_plain<T: Copy + PartialEq>(
-        &self,
-        [width, height]: [usize; 2],
-        texels: &[T],
-        [column, row]: [usize; 2],
-    ) -> bool {
-        let across = width.div_ceil(BLOCK);
-        let blocks = across * height.div_ceil(BLOCK);
-        let known = self.known.get_or_init(|| (0..blocks).map(|_| AtomicU8::default()).collect());
-        let known = &known[row * across + column];
-        if known.load(Relaxed) == UNKNOWN {
-            let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
-            let first = texels[row * BLOCK * width + columns.start];
-            let mut lines = texels[row * BLOCK * width..].chunks(width).take(BLOCK);
-            let is_plain = lines.all(|line| all_are(first, &line[columns.clone()]));
-            known.store(if is_plain { PLAIN } else { MIXED }, Relaxed);
-        }
-        known.load(Relaxed) == PLAIN
+    fn get<T: Copy + PartialEq>(&self, width: usize, texels: &[T]) -> &[bool] {
+        self.0.get_or_init(|| {
+            let mut blocks = Vec::new();
+            for rows in texels.chunks(BLOCK * width) {
+                for left in (0..width).step_by(BLOCK) {
+                    let columns = left..width.min(left + BLOCK);
+                    let mut lines = rows.chunks(width).map(|row| &row[columns.clone()]);
+                    blocks.push(lines.all(|line| all_are(rows[left], line)));
+                }
+            }
+            blocks.into()
+        })
     }
 }
 

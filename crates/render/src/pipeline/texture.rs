@@ -482,9 +482,11 @@ impl Texture {
         let rows = within(self.wrap[1], rows, self.height.into());
         match &self.texels {
             Texels::Colour(bytes) => {
-                self.derived.plain.colour(self.sides(), &columns, &rows, bytes)
+                self.derived.plain.colour(self.sides()[0], &columns, &rows, bytes)
             }
-            Texels::Grey(bytes) => self.derived.plain.colour(self.sides(), &columns, &rows, bytes),
+            Texels::Grey(bytes) => {
+                self.derived.plain.colour(self.sides()[0], &columns, &rows, bytes)
+            }
         }
     }
 
@@ -492,8 +494,8 @@ impl Texture {
     #[must_use]
     pub fn plain_part(&self) -> f64 {
         match &self.texels {
-            Texels::Colour(bytes) => self.derived.plain.part(self.sides(), bytes),
-            Texels::Grey(bytes) => self.derived.plain.part(self.sides(), bytes),
+            Texels::Colour(bytes) => self.derived.plain.part(self.sides()[0], bytes),
+            Texels::Grey(bytes) => self.derived.plain.part(self.sides()[0], bytes),
         }
     }
 

@@ -359,7 +359,10 @@ pub fn handed_over(handed_over: &HandedOver, all: usize) -> Vec<String> {
     let reasons = [
         (handed_over.in_shadows, "are in a scene with shadows"),
         (handed_over.not_opaque, "are of a material that is not opaque"),
-        (handed_over.physical, "are of a physical material"),
+        (
+            handed_over.other_effects,
+            "are of a physical material, or ask for an effect that tiles do not have",
+        ),
         (handed_over.beyond_f32, beyond_f32),
     ];
     let of_reason = |(count, reason): (usize, &str)| {

@@ -32,6 +32,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::effects::geometry::{Outline, Whole};
 use rasterproof_render::effects::primitive::BadScene;
+use rasterproof_render::effects::{self, Effect};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_render::pipeline::target::Colour;
 use rasterproof_render::pipeline::texture::Texture;
@@ -89,8 +90,9 @@ impl std::error::Error for TilesError {}
 /// the light.
 #[must_use]
 pub fn not_drawn(scene: &Scene) -> usize {
-    let is_not_drawn =
-        |item: &&Item| is_seen_through(item) || is_physical(item) || scene.shadows.is_some();
+    let is_not_drawn = |item: &&Item| {
+        is_seen_through(item) || asks_for_others(scene, item) || scene.shadows.is_some()
+    };
     let items = scene.items.iter().filter(is_not_drawn);
     items.map(|item| item.mesh.triangles.len()).sum()
 }
@@ -99,8 +101,16 @@ fn is_seen_through(item: &Item) -> bool {
     item.material.opacity.is_some()
 }
 
-fn is_physical(item: &Item) -> bool {
-    item.material.physical.is_some()
+/// The effects of fragments that tiles have, beside light and texture.
+const EFFECTS: [Effect; 4] = [Effect::Specular, Effect::MipMaps, Effect::Anisotropy, Effect::Fog];
+
+/// Whether an item has a physical surface, or asks for an effect that tiles do not have, as a new one is.
+fn asks_for_others(scene: &Scene, item: &Item) -> bool {
+    item.material.physical.is_some() || asks_beyond(&EFFECTS, scene, item)
+}
+
+fn asks_beyond(known: &[Effect], scene: &Scene, item: &Item) -> bool {
+    effects::asked_for(scene, item).iter().any(|effect| !known.contains(effect))
 }
 
 /// Triangles, or parts of them that the window shows, with an attribute beyond [`planes::MOST_ATTRIBUTE`]. Their planes
@@ -497,5 +507,24 @@ impl<'a> Drawing<'a> {
         });
         let texels = surface.material.texture.and_then(Texture::nearest_bytes);
         Brush { material: surface.material, planes, fog, texels, reading }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_render::scene::chapters;
+
+    /// Each effect that tiles have occurs in a scene, which they would hand over if they had one effect less.
+    #[test]
+    fn an_effect_that_tiles_do_not_have_is_handed_over() {
+        let names = ["highlights", "mip-maps", "anisotropy", "fog"];
+        for (effect, name) in EFFECTS.into_iter().zip(names) {
+            let scene = chapters::scene(name, 1.5, 0.1).unwrap();
+            let others: Vec<_> = EFFECTS.into_iter().filter(|other| *other != effect).collect();
+            let is_handed_over =
+                |known: &[Effect]| scene.items.iter().any(|item| asks_beyond(known, &scene, item));
+            assert!(!is_handed_over(&EFFECTS) && is_handed_over(&others), "{name}");
+        }
     }
 }

@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::buffer::Buffer;
-use super::{Drawing, beyond_f32_by_item, draw_into, frame, is_physical, is_seen_through};
+use super::{Drawing, asks_for_others, beyond_f32_by_item, draw_into, frame, is_seen_through};
 use crate::coverage::Tiles;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -35,8 +35,8 @@ pub struct HandedOver {
     pub in_shadows: usize,
     /// Of materials that are not opaque.
     pub not_opaque: usize,
-    /// Of physical materials.
-    pub physical: usize,
+    /// Of physical materials, and of items that ask for another effect that tiles do not have.
+    pub other_effects: usize,
     /// Of items with a value beyond [`super::planes::MOST_ATTRIBUTE`].
     pub beyond_f32: usize,
 }
@@ -44,7 +44,7 @@ pub struct HandedOver {
 impl HandedOver {
     #[must_use]
     pub fn triangles(&self) -> usize {
-        self.in_shadows + self.not_opaque + self.physical + self.beyond_f32
+        self.in_shadows + self.not_opaque + self.other_effects + self.beyond_f32
     }
 }
 
@@ -62,7 +62,7 @@ impl Division {
         // From back to front, what lies over what is the order of drawing, so one engine draws all.
         let is_sorted = scene.hidden == Hidden::Painter;
         let is_any_seen_through = is_sorted && scene.items.iter().any(is_seen_through);
-        let is_any_physical = is_sorted && scene.items.iter().any(is_physical);
+        let is_any_other = is_sorted && scene.items.iter().any(|item| asks_for_others(scene, item));
         let is_any_beyond = is_sorted && beyond.iter().any(|count| *count > 0);
         let mut handed_over = HandedOver::default();
         let (mut tiles, mut exact) = (Vec::new(), Vec::new());
@@ -71,8 +71,8 @@ impl Division {
                 &mut handed_over.in_shadows
             } else if is_any_seen_through || is_seen_through(item) {
                 &mut handed_over.not_opaque
-            } else if is_any_physical || is_physical(item) {
-                &mut handed_over.physical
+            } else if is_any_other || asks_for_others(scene, item) {
+                &mut handed_over.other_effects
             } else if is_any_beyond || beyond > 0 {
                 &mut handed_over.beyond_f32
             } else {

@@ -11,7 +11,6 @@
 //! Supersampled pixels have one colour where the triangle has. Multisampled ones are shaded once for
 //! each triangle anyway, so there every triangle gives one colour to the pixels in its inside.
 
-mod blocks;
 pub(super) mod depths;
 pub(super) mod pattern;
 mod per_sample;
@@ -20,7 +19,6 @@ mod sample_masks;
 
 use std::ops::Range;
 
-use self::blocks::Blocks;
 use self::depths::DepthPlane;
 use self::pattern::{Pattern, PixelRow};
 use self::pixel::{EMPTY, Interval, Meeting, Pixel, Pool, State, meet};
@@ -66,9 +64,6 @@ pub(super) struct OnDemand {
     rows: Vec<(i32, i32)>,
     /// Pixels whose samples the piece at hand needs apart.
     runs: Vec<Run>,
-    /// Those that were of one earlier piece, in blocks of each.
-    written: Blocks,
-    drawn: Blocks,
 }
 
 impl OnDemand {
@@ -87,8 +82,6 @@ impl OnDemand {
             pool: Pool::default(),
             rows: vec![(0, 0); target.bounds().height() as usize * pattern.planes],
             runs: Vec::new(),
-            written: Blocks::new(pattern),
-            drawn: Blocks::new(pattern),
         }
     }
 
@@ -116,13 +109,10 @@ impl OnDemand {
         self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
-        if depth {
-            self.gather(&runs);
-            for block in self.drawn.rects() {
-                self.test_samples(engine, &bare(piece), block, colour, target, counters);
-            }
-        } else {
-            for &run in &runs {
+        for &run in &runs {
+            if depth {
+                self.test_samples(engine, &bare(piece), run, colour, target, counters);
+            } else {
                 self.fill_samples(run, colour, target, counters);
             }
         }
@@ -151,10 +141,9 @@ impl OnDemand {
         let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
-        self.gather(&runs);
         let mut visible = 0;
-        for block in self.drawn.rects() {
-            visible += fill(engine, packed, target, block, way, stage, counters);
+        for run in &runs {
+            visible += fill(engine, packed, target, run.rect(), way, stage, counters);
         }
         self.runs = runs;
         let Some(state) = met else { return visible };

@@ -66,9 +66,7 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let Self { pattern, colours, states, was_apart, pieces, pool, written, background, .. } =
-            self;
-        written.clear();
+        let Self { pattern, colours, states, was_apart, pieces, pool, background, .. } = self;
         for &Run { y_px, mut x0_px, x1_px } in runs {
             while x0_px < x1_px {
                 let rest = states.span_mut(y_px, x0_px, x1_px);
@@ -87,10 +85,9 @@ impl OnDemand {
                             }
                         }
                     }
-                    // They stay whole until all of their piece are written.
                     State::Whole(serial) => {
-                        written.add(run, serial);
-                        continue;
+                        let piece = &pieces[serial as usize];
+                        write_whole(*pattern, engine, piece, block, colours, target);
                     }
                     State::Parts(index) => {
                         for part in pool.parts[index as usize].iter() {
@@ -103,42 +100,19 @@ impl OnDemand {
                 divide(states, was_apart, run, counters);
             }
         }
-        if written.is_empty() {
-            return;
-        }
-        for (block, serial) in written.iter() {
-            write_whole(
-                *pattern,
-                engine,
-                (states, colours, &pieces[serial as usize], serial),
-                block,
-                target,
-            );
-        }
-        for &run in runs {
-            divide(states, was_apart, run, counters);
-        }
     }
 
-    /// Gathers runs of pixels that are apart in blocks to be drawn in one go.
-    pub(super) fn gather(&mut self, runs: &[Run]) {
-        self.drawn.clear();
-        for &run in runs {
-            self.drawn.add(run, 0);
-        }
-    }
-
-    /// Tests and writes the samples of pixels that are apart, in a block.
+    /// Tests and writes the samples of a run of pixels that are apart.
     pub(super) fn test_samples(
         &self,
         engine: &impl Interpolate,
         piece: &DepthPiece,
-        block: PixelRect,
+        run: Run,
         colour: Colour,
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let (block, format) = (scaled(block, self.pattern.scale), target.format);
+        let (block, format) = (scaled(run.rect(), self.pattern.scale), target.format);
         let (mut emitted, mut visible) = (0, 0);
         for (i, plane) in target.planes.iter_mut().enumerate() {
             let Some(moved) = self.pattern.moved(piece, i) else { continue };
@@ -193,25 +167,23 @@ fn divide(
     was_apart.fill(true);
 }
 
-/// Writes the samples of the pixels of a block that are whole and of this piece into the target.
+/// Writes the samples in `block` of pixels that are whole and of this piece into the target.
 fn write_whole(
     pattern: Pattern,
     engine: &impl Interpolate,
-    (states, colours, piece, serial): (&Frame<State>, &Frame<Colour>, &DepthPiece, u32),
+    piece: &DepthPiece,
     block: PixelRect,
+    colours: &Frame<Colour>,
     target: &mut Target,
 ) {
-    let (format, block) = (target.format, scaled(block, pattern.scale));
+    let format = target.format;
     for (i, plane) in target.planes.iter_mut().enumerate() {
         let Some(moved) = pattern.moved(piece, i) else { continue };
         engine.runs(&moved, block, true, &mut |run| {
-            let y_px = run.y_px / pattern.scale;
-            let (states, colours) = (states.row(y_px), colours.row(y_px));
+            let colours = colours.row(run.y_px / pattern.scale);
             for (x, depth) in (run.x0_px..).zip(run.depths) {
-                let x_px = (x / pattern.scale) as usize;
-                if states[x_px] == State::Whole(serial) {
-                    plane.put(x, run.y_px, format.key(*depth), colours[x_px]);
-                }
+                let colour = colours[(x / pattern.scale) as usize];
+                plane.put(x, run.y_px, format.key(*depth), colour);
             }
         });
     }
