@@ -11,7 +11,8 @@ use std::thread;
 use rasterproof_report::html;
 use serde_json::json;
 
-use crate::page::{Browser, Tab as _, every_section, folder};
+use crate::browser::{Browser, Tab as _, folder};
+use crate::page::every_section;
 use crate::pages::root;
 use crate::playground::{SCENES, settle};
 use crate::site::{go, names, site};
@@ -50,7 +51,7 @@ fn browser(name: &str, options: &[&str]) -> Option<Browser> {
 /// What is wrong on the page that is open, each line with the name of this view.
 fn violations(browser: &mut Browser, view: &str) -> Vec<String> {
     browser.draw();
-    let found: Vec<String> = serde_json::from_value(browser.eval("axe.violations()")).unwrap();
+    let found: Vec<String> = browser.value("axe.violations()");
     found.into_iter().map(|violation| format!("{view}: {violation}")).collect()
 }
 
@@ -153,7 +154,7 @@ fn site_is_accessible_in_use() {
              document.getElementById('mdbook-searchbar').value = 'sample';",
         );
         browser.wait_for("document.querySelector('#mdbook-searchresults a') !== null");
-        browser.eval("document.getElementById('mdbook-theme-toggle').click()");
+        browser.click("#mdbook-theme-toggle");
         let shown = browser.eval(
             "[document.documentElement.classList.contains(localStorage.getItem('mdbook-theme')),
               document.querySelectorAll('main mark').length > 0]",
@@ -215,7 +216,7 @@ fn site_has_accessible_tools() {
         let only = json!({ "only": [["coverage", 0], ["twice", 0]], "bits": 4 });
         browser.eval(&format!("(state.plant = 'nudged', judgeAll({only}), null)"));
         browser.wait_for("!state.running");
-        browser.eval("document.querySelector('[data-check=coverage] button').click()");
+        browser.click("[data-check=coverage] button");
         browser.eval(unfold);
         for _ in 0..2 {
             let view = next(&mut browser);

@@ -15,10 +15,9 @@ use rasterproof_wasm::figures::{ALL, Figure, Grip, Language, find};
 use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
-use crate::page::{Browser, Tab as _, folder};
+use crate::browser::{Browser, Tab as _, folder};
 use crate::pages::{Renewal, read, root};
 use crate::playground::module;
-use crate::playground_hands::{mouse, touch};
 
 /// What a figure is for these positions of its grips, drawn by the oracle.
 fn expected(figure: &Figure, language: &str, at: &Value, is_answered: bool) -> Value {
@@ -500,7 +499,7 @@ fn live_figures_show_what_the_oracle_draws() {
             let to = [x + by[0], y + by[1]];
             for (kind, at) in [("mousePressed", [x, y]), ("mouseMoved", to), ("mouseReleased", to)]
             {
-                mouse(&mut browser, kind, at);
+                browser.mouse(kind, at);
             }
             assert_eq!(wrong(&mut browser, figure), [""; 0]);
             states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
@@ -586,11 +585,7 @@ fn keys_predict(browser: &mut Browser) {
     for arrow in [&["ArrowRight", "ArrowDown"][..], &["ArrowRight"], &["ArrowDown"], &["ArrowLeft"]]
     {
         arrow.iter().for_each(|key| browser.press(key));
-        for kind in ["keyDown", "keyUp"] {
-            let space = json!({ "type": kind, "key": " ", "code": "Space", "text": " ",
-                "windowsVirtualKeyCode": 32 });
-            browser.call("Input.dispatchKeyEvent", space);
-        }
+        browser.press(" ");
     }
     let marked = format!("{of}.stage.querySelectorAll('.frame [aria-pressed=true]').length");
     assert_eq!(browser.eval(&marked), 4);
@@ -600,16 +595,15 @@ fn keys_predict(browser: &mut Browser) {
 
 /// A grip follows a finger.
 fn fingers_drag(browser: &mut Browser) {
-    let touching = json!({ "enabled": true, "maxTouchPoints": 1 });
-    browser.call("Emulation.setTouchEmulationEnabled", touching);
+    browser.has_fingers(1);
     let figure = find("shared-edge").unwrap();
     let at = format!("{}.dataset.at", of(figure));
     let before = browser.eval(&at);
     let [x, y] = spot(browser, figure, "[role=slider]", 0);
-    touch(browser, "touchStart", &[[x, y]]);
-    touch(browser, "touchMove", &[[x - 20.0, y - 30.0]]);
-    touch(browser, "touchMove", &[[x - 40.0, y - 60.0]]);
-    touch(browser, "touchEnd", &[]);
+    browser.touch("touchStart", &[[x, y]]);
+    browser.touch("touchMove", &[[x - 20.0, y - 30.0]]);
+    browser.touch("touchMove", &[[x - 40.0, y - 60.0]]);
+    browser.touch("touchEnd", &[]);
     assert_ne!(browser.eval(&at), before);
     assert_eq!(wrong(browser, figure), [""; 0]);
 }

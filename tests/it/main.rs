@@ -8,6 +8,7 @@ mod accessibility;
 mod against;
 mod boards;
 mod book;
+mod browser;
 mod by_hand;
 mod checkpoint;
 mod circles;

@@ -4,6 +4,7 @@
 //! - `$ ` begins a command for `sh`, in which `rasterproof` is the program; `> ` continues it.
 //! - Its standard output follows; then the lines of its standard error, each behind `2> `; then `exit status N`, unless it is 0.
 //! - A line `...` stands for any lines. `[TIME]` stands for a number of seconds or milliseconds, and `[FOLDER]` for the folder.
+//! - `$DATA` is the folder `tests/data`.
 //!
 //! Files beside the commands lie in a folder with the page's name, and pages that take seconds in `slow`. `RASTERPROOF_RENEW=1 cargo test --test it transcripts` writes what is
 //! printed now in the place of what differs, and `RASTERPROOF_TRANSCRIPT=NAME` runs one page alone.
@@ -65,6 +66,8 @@ fn printed(folder: &Folder, script: &str) -> Vec<String> {
     shell.args(["-c", script]).current_dir(folder).env("PATH", path).stdin(Stdio::null());
     // The number of threads is printed by some commands.
     shell.env_remove("COLUMNS").env_remove("CARGO").env("RAYON_NUM_THREADS", "2");
+    let data = root().join("tests/data");
+    shell.env("DATA", &data);
     let run = Run::of(&mut shell);
     let mut all: Vec<String> = run.out.trim_end().lines().map(str::to_owned).collect();
     all.extend(run.errors.lines().map(|line| format!("2> {line}").trim_end().to_owned()));
@@ -78,7 +81,9 @@ fn printed(folder: &Folder, script: &str) -> Vec<String> {
         all.push(FORBIDDEN.to_owned());
     }
     let here = folder.to_str().unwrap();
-    all.iter().map(|line| without_times(&line.replace(here, "[FOLDER]"))).collect()
+    let named =
+        |line: &String| line.replace(here, "[FOLDER]").replace(data.to_str().unwrap(), "[DATA]");
+    all.iter().map(|line| without_times(&named(line))).collect()
 }
 
 /// The line with `[TIME]` for each number before `s` or `ms`.

@@ -5,8 +5,8 @@
 
 use serde_json::{Value, json};
 
+use crate::browser::{Browser, Tab};
 use crate::firefox::Firefox;
-use crate::page::{Browser, Tab};
 use crate::playground::written;
 
 /// Without a card Chromium draws WebGL by SwiftShader, and WebGPU where it is told to.
@@ -174,7 +174,7 @@ fn your_gpu_is_judged_by_both_interfaces() {
     // Each check is named before the run, and its address makes it alone.
     browser.open(&page, "#lang=en");
     let checks = "[...document.querySelectorAll('#checks a')].map(a => a.hash)";
-    let checks: Vec<String> = serde_json::from_value(browser.eval(checks)).unwrap();
+    let checks: Vec<String> = browser.value(checks);
     assert_eq!(checks.len(), 12, "{checks:?}");
     assert!(checks.contains(&"#check=lines&lang=en".to_owned()));
     browser.open(&page, "#check=lines&lang=en");
@@ -214,8 +214,7 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
         cause.contains("probable cause: It samples at (0.4375, 0.4375) of the pixel"),
         "{cause}"
     );
-    browser
-        .eval("document.querySelector('[data-api=webgl2] [data-check=coverage] button').click()");
+    browser.click("[data-api=webgl2] [data-check=coverage] button");
     // The headline names the check, and the keyboard is where the case is.
     assert_eq!(browser.text("[data-api=webgl2] .verdict"), "coverage: 1 check breaks a promise.");
     let focused = browser.eval("document.activeElement.textContent");
