@@ -24,7 +24,6 @@ mod exhaust;
 mod figures;
 mod firefox;
 mod fixtures;
-mod hostile_certificates;
 mod hostile_files;
 mod hostile_models;
 mod hostile_submissions;
