@@ -22,20 +22,7 @@ use crate::your_gpu::SWIFTSHADER;
 ///
 /// Judging the contrast of a text takes long, and a page may show thousands of coloured words of code. Words of the same class
 /// look the same, so one of each class in a code block is judged, and the others lose their colour.
-const VIOLATIONS: &str = "axe.violations = async () => {
-    for (const block of document.querySelectorAll('pre code')) {
-        const seen = new Set();
-        for (const word of block.querySelectorAll('span')) {
-            const look = `${word.className} in ${word.parentElement.className}`;
-            if (seen.has(look)) word.replaceWith(...word.childNodes);
-            seen.add(look);
-        }
-        block.normalize();
-    }
-    const { violations } = await axe.run(document, { resultTypes: ['violations'], preload: false });
-    return violations.flatMap(({ id, nodes }) => nodes.map(({ target, any, all, none }) =>
-        `${id}: ${target.join(' ')}: ${[...any, ...all, ...none].map(({ message }) => message).join('; ')}`));
-};";
+const VIOLATIONS: &str = include_str!("../data/pages/violations.js");
 
 /// A browser that has axe-core on every page, or nothing where there is no browser.
 fn browser(name: &str, options: &[&str]) -> Option<Browser> {

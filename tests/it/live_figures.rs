@@ -178,12 +178,7 @@ fn spot(browser: &mut Browser, figure: &Figure, selector: &str, i: usize) -> [f6
 
 /// The pixels of a picture with the colours that the browser gives them: the corner of each on the sheet, its side,
 /// red, green, blue. A path holds runs of pixels.
-const PIXELS: &str = r"(svg => [...svg.querySelectorAll('.px')].flatMap(e =>
-    [...e.getAttribute('d').matchAll(/M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)/g)].flatMap(([, ...run]) => {
-        const [x, y, width, side] = run.map(Number);
-        return Array.from({ length: Math.round(width / side) }, (_, i) => [x + i * side, y, side,
-            ...getComputedStyle(e).fill.match(/\d+/g).map(Number)]);
-    })))";
+const PIXELS: &str = include_str!("../data/pages/pixels.js");
 
 /// What is wrong with a figure as it stands in the browser, beside the oracle for the state that it says.
 fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
@@ -252,29 +247,7 @@ fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
 }
 
 /// Goes where the address leads, as a click on the link does, and says what the panels show there.
-const FOLLOW: &str = r"new Promise(done => {
-    const look = () => {
-        drawFrame();
-        explained = 0;
-        explain(last.answer);
-        const [x0, y0, x1, y1] = state.window;
-        const panels = scene().panels(last.answer).filter(panel => panel.pixel).map(panel => {
-            const pixels = [];
-            for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) {
-                const pixel = panel.pixel((y - y0) * (x1 - x0) + x - x0, x, y);
-                if (pixel) pixels.push([x, y, pixel.fill]);
-            }
-            return pixels;
-        });
-        done({
-            trouble: $('trouble').textContent, panels, svg: (last.answer.panels ?? []).map(panel => panel.svg),
-            weights: last.look?.triangles?.[0]?.edges?.map(edge => edge.weight) ?? [],
-        });
-    };
-    clearTimeout(keeping);
-    if (location.hash === to) look();
-    else { addEventListener('hashchange', look, { once: true }); location.hash = to; }
-})";
+const FOLLOW: &str = include_str!("../data/pages/follow.js");
 
 /// The panels of the playground that show what a figure shows; none where it shows the figure itself.
 fn panels_of(name: &str) -> &'static [usize] {

@@ -271,42 +271,18 @@ fn site_opens_in_a_browser() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What readers look for, and the page that is among the first three that are found.
-const SEARCHES: [(&str, &str, &str); 26] = [
-    ("en", "barycentric", "ch03.html"),
-    ("en", "bresenham", "ch02.html"),
-    ("en", "why gaps between triangles", "index.html#by-question"),
-    ("en", "texture wrong", "index.html"),
-    ("en", "top-left rule", "ch02-edge-functions.html"),
-    ("en", "z-fighting", "ch06.html"),
-    ("en", "clipping", "ch07.html"),
-    ("en", "perspective", "ch05.html"),
-    ("en", "antialiasing", "samples.html"),
-    ("en", "mipmap", "textures.html"),
-    ("en", "overflow", "ch02-edge-functions.html"),
-    ("en", "half pixel", "samples.html"),
-    ("en", "pytest", "python.html"),
-    ("en", "depth buffer", "ch06.html"),
-    ("en", "scanline", "ch02-scanline.html"),
-    ("en", "matrix", "ch10.html"),
-    ("en", "transparent", "ch02-edge-functions.html"),
-    ("en", "how fast", "speed.html"),
-    ("en", "holes", "ch02-edge-functions.html"),
-    ("zh", "光栅化", "course.html"),
-    ("zh", "重心坐标", "ch03.html"),
-    ("zh", "左上规则", "ch02-edge-functions.html"),
-    ("zh", "深度缓冲", "ch06.html"),
-    ("zh", "裁剪", "ch07.html"),
-    ("zh", "抗锯齿", "samples.html"),
-    ("zh", "纹理", "ch11.html"),
-];
+/// What readers look for, and the page that is among the first three that are found: a book, words and a page in each line.
+const SEARCHES: &str = include_str!("../data/pages/searches.txt");
 
 #[test]
 #[ignore = "needs docs/build"]
 fn site_search_finds_lessons_first() {
     let Some(mut browser) = Browser::start("site-search") else { return };
     let mut wrong = Vec::new();
-    for (book, words, found) in SEARCHES {
+    for line in SEARCHES.lines() {
+        let [book, words, found] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{line}")
+        };
         go(&mut browser, &site(), &format!("{book}/index.html"));
         browser.eval(&format!(
             "document.getElementById('mdbook-search-toggle').click();

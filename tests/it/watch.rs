@@ -7,19 +7,7 @@ use std::time::{Duration, Instant};
 use crate::program::{Folder, PROGRAM};
 
 /// Answers every triangle with all pixels of the window, or with none.
-const ALL_OR_NONE: &str = r#"
-for line in sys.stdin:
-    verb, id, *words = line.split()
-    if verb == "HELLO":
-        print("HELLO 2 mine coverage window=64x64 batch=1")
-    else:
-        if PAUSE:
-            open("slow", "a").write("x")
-            time.sleep(PAUSE)
-        rows = range(int(words[1])) if DRAWS else ()
-        print("C", id, len(rows), *(f"{y} 0 {words[0]}" for y in rows))
-    sys.stdout.flush()
-"#;
+const ALL_OR_NONE: &str = include_str!("../data/all-or-none.py");
 
 /// Ends the command with its test.
 struct Watching(Child);
