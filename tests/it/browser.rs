@@ -215,7 +215,7 @@ pub trait Tab {
         self.try_eval(expression).expect("the tab stays on its page")
     }
 
-    /// The value as what it is here.
+    /// The value of an expression, as a number, a text or a list of this type.
     fn value<T: DeserializeOwned>(&mut self, expression: &str) -> T
     where
         Self: Sized,

@@ -143,8 +143,8 @@ fn course_cube_of_the_page() {
     check_picture("course-cube", &shown.sheet());
 }
 
-/// A part of the solution in Python and what a wrong program has instead, with the step that fails and the misconception that is named, or
-/// what else is said.
+/// A part of the solution in Python and what a wrong program has instead, with the step that fails. Either a misconception is named, or
+/// something else is said.
 #[derive(Deserialize)]
 struct Misconceived {
     step: String,
@@ -156,8 +156,8 @@ struct Misconceived {
     says: String,
 }
 
-/// Each misconception is named for a program that has it, before any hint, and with a question. What no list of mistakes has is told
-/// apart all the same, or learned from the answers.
+/// Each misconception is named for a program that has it, before any hint, and with a question. The other programs
+/// fail as well, and some of what they do is learned from their answers.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn course_names_misconceptions() {

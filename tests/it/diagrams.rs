@@ -123,7 +123,7 @@ pub fn depths() -> Vec<f64> {
     [2.0, 10.0, 50.0].map(|z| (on_film(100.0, 0.0, z).z + 1.0) / 2.0).to_vec()
 }
 
-/// The diagrams, by their names.
+/// Every diagram by the name of its file, with its text; live figures lie in a folder of their own.
 pub fn all() -> Vec<(String, String)> {
     let here = root().join("docs/figures");
     let own = files(&here, ".svg").into_iter().filter(|path| path.parent() == Some(&here));

@@ -403,7 +403,7 @@ pub fn renewed(
     files
 }
 
-/// The files of the recorded runs.
+/// The recorded runs, in the order in which [`renewed`] takes them.
 pub const RUNS: [&str; 3] = ["docs/peers.json", "docs/growth.json", "docs/limits.json"];
 
 /// The power of what grows that fits some points is the one by which they were made.
