@@ -68,7 +68,9 @@ fn what_changes_meanwhile_is_judged_anew() {
     // It would take minutes, so the next change comes while it is judged: of this one there is no verdict.
     folder.put("mine.py", program(false, 0.25));
     printed(&folder, |text| text.contains("mine.py has changed"));
-    std::thread::sleep(Duration::from_millis(300));
+    while !folder.join("slow").exists() {
+        std::thread::sleep(Duration::from_millis(50));
+    }
     folder.put("mine.py", program(true, 0.0));
     let text = printed(&folder, |text| verdicts(text) == 2);
     let last = text.strip_prefix(&first).unwrap();
