@@ -11,7 +11,8 @@ use std::thread;
 use rasterproof_report::html;
 use serde_json::json;
 
-use crate::page::{Browser, Tab as _, every_section, folder};
+use crate::browser::{Browser, Tab as _, folder};
+use crate::page::every_section;
 use crate::pages::{read, root};
 use crate::playground::{SCENES, settle};
 use crate::program::{Folder, PROGRAM};
@@ -22,20 +23,7 @@ use crate::your_gpu::SWIFTSHADER;
 ///
 /// Judging the contrast of a text takes long, and a page may show thousands of coloured words of code. Words of the same class
 /// look the same, so one of each class in a code block is judged, and the others lose their colour.
-const VIOLATIONS: &str = "axe.violations = async () => {
-    for (const block of document.querySelectorAll('pre code')) {
-        const seen = new Set();
-        for (const word of block.querySelectorAll('span')) {
-            const look = `${word.className} in ${word.parentElement.className}`;
-            if (seen.has(look)) word.replaceWith(...word.childNodes);
-            seen.add(look);
-        }
-        block.normalize();
-    }
-    const { violations } = await axe.run(document, { resultTypes: ['violations'], preload: false });
-    return violations.flatMap(({ id, nodes }) => nodes.map(({ target, any, all, none }) =>
-        `${id}: ${target.join(' ')}: ${[...any, ...all, ...none].map(({ message }) => message).join('; ')}`));
-};";
+const VIOLATIONS: &str = include_str!("../data/pages/violations.js");
 
 /// A browser that has axe-core on every page, or nothing where there is no browser.
 fn browser(name: &str, options: &[&str]) -> Option<Browser> {
@@ -51,7 +39,7 @@ fn browser(name: &str, options: &[&str]) -> Option<Browser> {
 /// What is wrong on the page that is open, each line with the name of this view.
 fn violations(browser: &mut Browser, view: &str) -> Vec<String> {
     browser.draw();
-    let found: Vec<String> = serde_json::from_value(browser.eval("axe.violations()")).unwrap();
+    let found: Vec<String> = browser.value("axe.violations()");
     found.into_iter().map(|violation| format!("{view}: {violation}")).collect()
 }
 
@@ -163,7 +151,7 @@ fn site_is_accessible_in_use() {
              document.getElementById('mdbook-searchbar').value = 'sample';",
         );
         browser.wait_for("document.querySelector('#mdbook-searchresults a') !== null");
-        browser.eval("document.getElementById('mdbook-theme-toggle').click()");
+        browser.click("#mdbook-theme-toggle");
         let shown = browser.eval(
             "[document.documentElement.classList.contains(localStorage.getItem('mdbook-theme')),
               document.querySelectorAll('main mark').length > 0]",
@@ -239,7 +227,7 @@ fn site_has_accessible_tools() {
         let only = json!({ "only": [["coverage", 0], ["twice", 0]], "bits": 4 });
         browser.eval(&format!("(state.plant = 'nudged', judgeAll({only}), null)"));
         browser.wait_for("!state.running");
-        browser.eval("document.querySelector('[data-check=coverage] button').click()");
+        browser.click("[data-check=coverage] button");
         browser.eval(unfold);
         for _ in 0..2 {
             let view = next(&mut browser);

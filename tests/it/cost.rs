@@ -7,7 +7,6 @@ use rasterproof_report::json::{pretty, text as as_text};
 use rasterproof_report::{canvas, text};
 use rasterproof_study::report::{board, cost_plots, json};
 
-use crate::program::Folder;
 use crate::snapshots::check_words;
 
 fn untimed(ladder: Ladder, seed: u64) -> Board {
@@ -114,47 +113,6 @@ fn cost_colour_is_optional() {
     let stripped = coloured.replace("\x1b[32m", "").replace("\x1b[0m", "");
     let trimmed = |text: &str| text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
     assert_eq!(trimmed(&stripped), trimmed(&plain));
-}
-
-/// The program: boards, plots and JSON, from the smallest ladder.
-#[test]
-#[ignore = "takes seconds; .ci/run runs it"]
-fn cost_from_the_command_line() {
-    let folder = Folder::new("cost");
-    let right = |words: &str| folder.check(words, 0).without_errors();
-    let repeat = "repeat with: rasterproof cost lines --quick --seed 3";
-    let run = right("cost lines --quick --seed 3 --out plots")
-        .prints(repeat)
-        .prints("ns for each covered pixel, median of ")
-        .prints(" rounds or more");
-    assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
-    let svg = folder.text("plots/cost-lines.svg");
-    assert!(svg.contains("Bresenham") && svg.ends_with("</svg>\n"));
-
-    let run = right("cost lines --quick --seed 3 --json");
-    let json = run.json();
-    let untimed = untimed(Ladder::Lines, 3);
-    for (choice, row) in json["boards"][0]["cells"].as_array().unwrap().iter().enumerate() {
-        for (column, cell) in row.as_array().unwrap().iter().enumerate() {
-            let error = cell["run"]["errors"][0].as_f64();
-            assert_eq!(error, untimed.error(choice, column, 0), "errors do not depend on the run");
-            let median = cell["run"]["time"]["pixel_ns"]["median"].as_f64();
-            assert!(error.is_none() || median > Some(0.0));
-        }
-    }
-    assert!(json["verdicts"][0]["best"][0]["fastest"].is_string());
-
-    // What was printed is drawn again, to the byte.
-    let measured = folder.text("target/rasterproof/cost-lines.svg");
-    folder.put("cost.json", &run.out);
-    assert_eq!(right("cost --from cost.json --json --out again").out, run.out);
-    assert_eq!(folder.text("again/cost-lines.svg"), measured);
-    right("cost lines --from cost.json --out again").prints("cost, seed 3, quick\n").prints(repeat);
-    for words in
-        ["nothing", "depth --from cost.json", "--from nowhere.json", "--from cost.json --quick"]
-    {
-        folder.check(format!("cost {words}"), 2);
-    }
 }
 
 /// Every choice that ran has its label in the plot, no label leaves the drawing, and none lies over another.

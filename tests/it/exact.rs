@@ -52,15 +52,6 @@ fn hits(engine: ExactEngine, case: &Case) -> Coverage {
     drawn(engine, case)
 }
 
-/// Pixels of each triangle alone, and the most hits of any pixel by all of them.
-fn pixels_and_most(engine: ExactEngine, whole: &Case) -> (Vec<u64>, u8) {
-    let alone = |t: &FreeCorners| Case::unsnapped(whole.window, vec![*t]);
-    let pixels = whole.free_corners().iter().map(|t| hits(engine, &alone(t)).covered()).collect();
-    let all = hits(engine, whole);
-    let most = all.rows().flat_map(|(_, row)| row.iter().copied().max()).max();
-    (pixels, most.unwrap_or(0))
-}
-
 #[test]
 fn families_agree_and_reach_both_paths() {
     for seed in [1, 2] {
@@ -167,79 +158,6 @@ fn mutants_die() {
         assert!(judge_case(engine, &failure.case).is_wrong(), "{failure}");
         assert_eq!(failure.case.free_corners().len(), 1, "shrunk: {failure}");
     }
-}
-
-/// DRTK#9 as it was reported, moved by half a pixel; the corners are not multiples of 1/256.
-#[test]
-fn t3_not_snapped() {
-    let (x, y) = (7.000_061_035_156_25, 0.999_938_964_843_75);
-    let quad = [[[1.0, y], [1.0, 7.0], [x, y]], [[x, y], [1.0, 7.0], [x, 7.0]]];
-    for engine in ALL {
-        let whole = case(PixelRect::window(8, 8), &quad);
-        assert_eq!(pixels_and_most(engine, &whole), (vec![15, 21], 1), "{}", engine.name());
-        // The other diagonal tiles the same 36 pixels.
-        let other = case(
-            PixelRect::window(8, 8),
-            &[[[1.0, y], [1.0, 7.0], [x, 7.0]], [[1.0, y], [x, 7.0], [x, y]]],
-        );
-        assert!(hits(engine, &other) == hits(engine, &whole), "{}", engine.name());
-    }
-}
-
-/// euc#17, at its own size and times 64: three triangles around a common corner, none overlapping.
-#[test]
-fn t5_not_snapped() {
-    let [p, q, r, o] = [
-        [0.073_184_55_f32, 0.338_219_34],
-        [0.227_762_1, 0.690_997_2],
-        [0.658_247_05, 0.837_475_54],
-        [0.023_455_322, 0.977_184_65],
-    ];
-    for scale in [1.0_f32, 64.0] {
-        let at = |p: [f32; 2]| p.map(|v| f64::from(v * scale));
-        let [p, q, r, o] = [at(p), at(q), at(r), at(o)];
-        let whole = case(PixelRect::window(64, 64), &[[p, q, r], [p, q, o], [q, r, o]]);
-        let target = pixels_and_most(ExactEngine::Oracle, &whole);
-        assert!(target.1 <= 1, "{target:?}");
-        assert!(scale == 1.0 || target.0.iter().all(|&pixels| pixels > 100), "{target:?}");
-        for engine in ExactEngine::JUDGED {
-            assert_eq!(pixels_and_most(engine, &whole), target, "{}", engine.name());
-        }
-    }
-}
-
-/// A rectangle split on the diagonal from `a` to `b`, which misses a sample by less than f32 shows:
-/// each sample inside is hit exactly once, and f32 arithmetic gets the sample `pixel` wrong.
-fn check_split(a: [f32; 2], b: [f32; 2], pixel: (i32, i32)) {
-    let [a, b] = [a, b].map(|p| p.map(f64::from));
-    let (c, d) = ([b[0], a[1]], [a[0], b[1]]);
-    let whole = case(PixelRect::window(64, 64), &[[a, b, c], [a, b, d]]);
-    let inside = |v: f64, i: usize| a[i].min(b[i]) <= v && v < a[i].max(b[i]);
-    for engine in ALL {
-        let hits = hits(engine, &whole);
-        for (y_px, row) in hits.rows() {
-            for (x_px, &count) in row.iter().enumerate() {
-                let (x, y) = (x_px as f64 + 0.5, f64::from(y_px) + 0.5);
-                let target = u8::from(inside(x, 0) && inside(y, 1));
-                assert_eq!(count, target, "{} ({x}, {y})", engine.name());
-            }
-        }
-    }
-    // Whether f32 fails depends on which end of the edge it measures from.
-    let wrong = [[[a, b, c], [b, a, d]], [[b, a, c], [a, b, d]], [[a, b, c], [a, b, d]]]
-        .iter()
-        .any(|two| {
-            let two = case(PixelRect::window(64, 64), two);
-            let hits = drawn(ExactEngine::Mutant(ExactMutant::PlainF32), &two);
-            hits.get(pixel.0, pixel.1) != Some(1)
-        });
-    assert!(wrong, "f32 is right at {pixel:?}, so the case shows nothing");
-}
-
-#[test]
-fn o4_o5_not_snapped() {
-    check_split([25.630945, 61.71053], [5.298825, 26.17589], (17, 47));
-    check_split([6.329233, 35.83448], [51.395065, 2.1198945], (29, 18));
 }
 
 /// Corners at the borders of the domain, and windows there.

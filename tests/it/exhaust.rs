@@ -2,13 +2,14 @@
 //! nothing, that planted faults are found, and that the certificates in the docs are of this code.
 
 use std::fs;
+use std::process::{Child, Stdio};
 use std::sync::Mutex;
 use std::time::Duration;
 
 use rasterproof_exhaustive::certificate::{Certificate, Timing, merge};
 use rasterproof_exhaustive::identity::Shard;
 use rasterproof_exhaustive::run::{Progress, run};
-use rasterproof_exhaustive::{Example, Plan, edges, lines, triangles};
+use rasterproof_exhaustive::{Plan, edges, lines, triangles};
 
 use crate::pages::{files, read, root};
 use crate::program::Folder;
@@ -253,7 +254,7 @@ fn exhaust_shards_merge_into_the_whole() {
     }
 }
 
-/// That a certificate is of this program and consistent is what `hostile_certificates.rs` is about.
+/// That a certificate is of this program and consistent is what `tests/transcripts/certificates.md` is about.
 #[test]
 fn exhaust_merge_refuses_what_does_not_fit() {
     let refused = |shards: &[(String, Certificate)], why: &str| {
@@ -270,37 +271,6 @@ fn exhaust_merge_refuses_what_does_not_fit() {
     parts[2].1.shard.parts = 4;
     refused(&parts, "the number of shards");
     assert!(merge(&good).unwrap().proved);
-}
-
-#[test]
-fn exhaust_command_resumes_its_own_checkpoint_alone() {
-    let folder = Folder::new("exhaust-resume");
-    let plan = Plan::Triangles(triangles(1));
-    // A state in which something was wrong, which no honest run finds: if the end says so, the state
-    // was taken over.
-    let mut half = run(Progress::new(&plan, Shard::WHOLE), Duration::ZERO, &|_| {}, &|_| {});
-    half.tally.mismatches = 7;
-    let example = |number| Example { chunk: 0, number, what: "not so".to_owned() };
-    half.tally.examples = (0..5).map(example).collect();
-    folder.put("c.json", serde_json::to_string(&half).unwrap());
-    let words = "exhaust triangles --subpixel-bits 1 --checkpoint c.json -o o.json";
-    folder.check(words, 1).says("7 wrong");
-    assert!(!folder.join("c.json").exists(), "removed at the end");
-
-    // Of another run, of other code or damaged: refused unless --restart.
-    let mut other_code = half.clone();
-    other_code.identity.sources.clear();
-    let mut damaged = half.clone();
-    damaged.done = vec![[0, 82]];
-    let other_plan = Progress::new(&Plan::Lines(lines(4)), Shard::WHOLE);
-    let other_part = Progress::new(&plan, Shard { part: 0, parts: 2 });
-    let states = [other_code, damaged, other_plan, other_part];
-    let texts = states.map(|state| serde_json::to_string(&state).unwrap());
-    for text in &texts {
-        folder.put("c.json", text);
-        folder.check(words, 2).says("--restart");
-        folder.check(format!("{words} --restart"), 0);
-    }
 }
 
 #[test]
@@ -345,4 +315,34 @@ fn exhaust_certificates_in_the_docs_are_of_this_code() {
         let renew = format!("renew it: {} -o {name}", certificate.repeat);
         assert_eq!(certificate, expected, "{name} is about other code; {renew}");
     }
+}
+
+/// A process that does not outlive its test.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// The second process does not touch the state of the first, and says who has it.
+#[test]
+fn two_processes_do_not_share_a_checkpoint() {
+    let folder = Folder::new("certificates-lock");
+    let long = "exhaust edges --subpixel-bits 8 --checkpoint c.json -o long.json";
+    let first = folder.command(long).stderr(Stdio::null()).spawn().unwrap();
+    let mut first = Killed(first);
+    while !folder.join("c.json").exists() {
+        assert!(first.0.try_wait().unwrap().is_none(), "the first process has ended");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let second = folder.run("exhaust lines --reach 3 --restart --checkpoint ./c.json");
+    second.has(2).says(&format!("c.json: is in use by another process {}; ", first.0.id()));
+    assert!(folder.text("c.json").contains("\"edges\""));
+    // What a killed process leaves is taken over.
+    drop(first);
+    folder.run("exhaust lines --reach 3 --restart --checkpoint c.json").has(0);
+    assert!(!folder.join("c.json").exists() && !folder.join("c.json.lock").exists());
 }

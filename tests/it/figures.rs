@@ -33,6 +33,7 @@ use serde_json::Value;
 
 use crate::book::bugs;
 use crate::by_hand;
+use crate::diagrams;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 use crate::scenes::{still, target_of};
@@ -79,6 +80,16 @@ fn league_answer() -> Vec<f64> {
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
     ("league-answer", league_answer),
+    ("drawn-areas", diagrams::areas),
+    ("drawn-signs", diagrams::signs),
+    ("drawn-rows", diagrams::rows),
+    ("drawn-lattices", diagrams::lattices),
+    ("drawn-corner", diagrams::corner),
+    ("drawn-cosines", diagrams::cosines),
+    ("drawn-samples", diagrams::samples),
+    ("drawn-share", diagrams::share),
+    ("drawn-shares", diagrams::shares),
+    ("drawn-depths", diagrams::depths),
     ("hand-square", by_hand::square),
     ("corner-square", by_hand::corner_square),
     ("hand-lines", by_hand::lines),

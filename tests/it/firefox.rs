@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::page::{PATIENCE, TEMPORARY, Tab, folder};
+use crate::browser::{PATIENCE, TEMPORARY, Tab, folder};
 
 pub struct Firefox {
     display: Child,

@@ -318,39 +318,3 @@ fn every_command_is_tried() {
         assert!(is_tried || name == "help", "course {name}");
     }
 }
-
-/// A texture of a model is named by the model, and not on the command line.
-#[test]
-fn a_texture_is_not_replaced_by_the_picture_of_its_model() {
-    let folder = Folder::new("inputs-as-outputs-texture");
-    folder.put("skin.obj", format!("mtllib skin.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\n"));
-    folder.put("skin.mtl", "newmtl a\nmap_Kd skin.png\n");
-    let texture = image::RgbImage::from_pixel(2, 2, image::Rgb([9, 9, 9]));
-    texture.save(folder.join("skin.png")).unwrap();
-    let before = fs::read(folder.join("skin.png")).unwrap();
-    let own = "is read by this command; give the output another name";
-    let foreign = "rasterproof did not make it";
-    for (words, why) in [
-        ("-o skin.png", own),
-        ("--engine tiles -o skin.png", own),
-        ("--force --out .", own),
-        ("--out .", foreign),
-    ] {
-        folder.check(format!("render skin.obj --size 32x24 {words}"), USAGE).says(why);
-        assert_eq!(fs::read(folder.join("skin.png")).unwrap(), before, "{words}");
-    }
-    folder.check("inspect skin.obj#1 --size 32x24 -o skin.png", USAGE).says(own);
-    assert_eq!(fs::read(folder.join("skin.png")).unwrap(), before);
-    // A page, and a picture whose name was chosen, of somebody else.
-    folder.put("render.html", "my page\n");
-    folder.put("cube.png", "my picture\n");
-    folder.check("render cube --size 32x24 --out .", USAGE).says(foreign).says("--force");
-    folder.check("render cube --size 32x24 -o a.png --report --out .", USAGE).says(foreign);
-    assert!(!folder.join("a.png").exists());
-    assert_eq!(folder.text("render.html") + &folder.text("cube.png"), "my page\nmy picture\n");
-    // A name that was typed replaces what is there.
-    folder.check("render cube --size 32x24 -o cube.png", AGREES);
-    folder.check("render cube --size 32x24 --out .", AGREES);
-    folder.check("render cube --size 32x24 --report --force --out .", AGREES);
-    folder.check("render cube --size 32x24 --report --out .", AGREES);
-}

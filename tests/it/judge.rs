@@ -22,7 +22,7 @@ use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rayon::prelude::*;
 
 use crate::misbehave;
-use crate::program::{Folder, PROGRAM, Run, check, shared};
+use crate::program::{PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
     let families = families.iter().map(|name| (*name).to_owned());
@@ -468,92 +468,6 @@ fn judge_leaves_what_it_does_not_understand() {
     assert!(verdict.agrees());
     let report = judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false);
     assert!(report.about.ends_with("not understood, left aside: rule=topleft"), "{}", report.about);
-}
-
-/// One run makes both: what people read, and what build servers do.
-#[test]
-fn judge_writes_junit_beside_the_text() {
-    let folder = Folder::new("junit");
-    let run = |options: &[&str]| {
-        let of_it = [&["--family", "half-integer"], options].concat();
-        folder.check(of(&of_it, &["exclusive-edges"]), 1).out
-    };
-    assert_eq!(run(&["--junit", "mine.xml"]), run(&[]));
-    // Without the seconds that it took.
-    let timeless = |text: &str| {
-        let digit = |c: char| c.is_ascii_digit() || c == '.';
-        text.split("time=\"").map(|part| part.trim_start_matches(digit)).collect::<String>()
-    };
-    assert_eq!(timeless(&folder.text("mine.xml")), timeless(&run(&["--format", "junit"])));
-    // What is shown of a failure in a list of tests is its cause.
-    let xml = folder.text("mine.xml");
-    let xml = roxmltree::Document::parse(&xml).unwrap();
-    let of_it = |name: &str| {
-        let test = xml.descendants().find(|n| n.attribute("name") == Some(name)).unwrap();
-        let failure = test.first_element_child().unwrap();
-        [failure.attribute("message").unwrap(), failure.text().unwrap()].map(str::to_owned)
-    };
-    let cause = "Triangles: it samples at the pixel's centre and draws nothing on an edge";
-    assert!(of_it("half-integer").iter().all(|said| said.starts_with(cause)), "{xml:?}");
-    let other = ["--junit", "mine.xml", "--baseline", "mine.xml"];
-    folder.check(of(&other, &["scanline"]), 2).says("--junit and --baseline name this file");
-}
-
-#[test]
-#[ignore = "takes seconds; .ci/run runs it"]
-fn judge_writes_formats() {
-    let of_it = |format| check(of(&["--format", format], &["exclusive-edges"]), 1).out;
-    let json: serde_json::Value = serde_json::from_str(&of_it("json")).unwrap();
-    assert_eq!(json["agrees"], false);
-    let properties = json["properties"].as_array().unwrap();
-    let failing = properties.iter().filter(|p| p["outcome"] == "fail").count();
-    assert!(failing > 3 && failing < properties.len(), "{failing}");
-    assert!(json["failures"][0]["exchanges"][0]["request"].as_str().unwrap().starts_with("T 1 "));
-
-    let text = of_it("junit");
-    let xml = roxmltree::Document::parse(&text).unwrap();
-    let count = |name: &str| xml.descendants().filter(|n| n.has_tag_name(name)).count();
-    assert_eq!((count("testcase"), count("failure")), (properties.len(), failing));
-    let suite = xml.descendants().find(|n| n.has_tag_name("testsuite")).unwrap();
-    assert_eq!(suite.attribute("tests"), Some(properties.len().to_string().as_str()));
-    assert_eq!(suite.attribute("failures"), Some(failing.to_string().as_str()));
-
-    let tap = of_it("tap");
-    let mut lines = tap.lines();
-    assert_eq!(lines.next(), Some("TAP version 14"));
-    assert_eq!(lines.next(), Some(format!("1..{}", properties.len()).as_str()));
-    let numbered =
-        |word: &str| tap.lines().filter(|l| l.starts_with(word) && l.contains(" - ")).count();
-    assert_eq!((numbered("ok "), numbered("not ok ")), (properties.len() - failing, failing));
-
-    let scores: serde_json::Value = serde_json::from_str(&of_it("gradescope")).unwrap();
-    let tests = scores["tests"].as_array().unwrap();
-    assert_eq!(tests.len(), properties.len());
-    for test in tests {
-        let passed = test["status"] == "passed";
-        assert!(passed || test["status"] == "failed");
-        assert_eq!(test["score"], i32::from(passed), "never a fraction");
-        assert_eq!((&test["max_score"], test["output"].is_string()), (&1.into(), true));
-    }
-    assert_eq!(scores["score"], properties.len() - failing);
-    // Who fails sees the case as a terminal shows it.
-    let shows = |test: &serde_json::Value| {
-        let output = test["output"].as_str().unwrap();
-        ["request:", "judged   expected", "# agrees", "repeat with: "]
-            .iter()
-            .all(|part| output.contains(part))
-    };
-    assert!(tests.iter().any(shows), "{scores}");
-
-    let result: serde_json::Value = serde_json::from_str(&of_it("github-classroom")).unwrap();
-    assert_eq!((&result["version"], &result["status"]), (&1.into(), &"fail".into()));
-    assert_eq!(result["max_score"], properties.len());
-    for test in result["tests"].as_array().unwrap() {
-        assert!(test["status"] == "pass" || test["status"] == "fail");
-        for field in ["name", "message", "test_code", "filename", "execution_time"] {
-            assert!(test[field].is_string(), "{field}");
-        }
-    }
 }
 
 /// The judge needs no more memory for a program that answers as much as it may. All its answers to a

@@ -15,10 +15,9 @@ use rasterproof_wasm::figures::{ALL, Figure, Grip, Language, find};
 use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
-use crate::page::{Browser, Tab as _, folder};
+use crate::browser::{Browser, Tab as _, folder};
 use crate::pages::{Renewal, read, root};
 use crate::playground::module;
-use crate::playground_hands::{mouse, touch};
 
 /// What a figure is for these positions of its grips, drawn by the oracle.
 fn expected(figure: &Figure, language: &str, at: &Value, is_answered: bool) -> Value {
@@ -182,12 +181,7 @@ fn spot(browser: &mut Browser, figure: &Figure, selector: &str, i: usize) -> [f6
 
 /// The pixels of a picture with the colours that the browser gives them: the corner of each on the sheet, its side,
 /// red, green, blue. A path holds runs of pixels.
-const PIXELS: &str = r"(svg => [...svg.querySelectorAll('.px')].flatMap(e =>
-    [...e.getAttribute('d').matchAll(/M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)/g)].flatMap(([, ...run]) => {
-        const [x, y, width, side] = run.map(Number);
-        return Array.from({ length: Math.round(width / side) }, (_, i) => [x + i * side, y, side,
-            ...getComputedStyle(e).fill.match(/\d+/g).map(Number)]);
-    })))";
+const PIXELS: &str = include_str!("../data/pages/pixels.js");
 
 /// What is wrong with a figure as it stands in the browser, beside the oracle for the state that it says.
 fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
@@ -264,29 +258,7 @@ fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
 }
 
 /// Goes where the address leads, as a click on the link does, and says what the panels show there.
-const FOLLOW: &str = r"new Promise(done => {
-    const look = () => {
-        drawFrame();
-        explained = 0;
-        explain(last.answer);
-        const [x0, y0, x1, y1] = state.window;
-        const panels = scene().panels(last.answer).filter(panel => panel.pixel).map(panel => {
-            const pixels = [];
-            for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) {
-                const pixel = panel.pixel((y - y0) * (x1 - x0) + x - x0, x, y);
-                if (pixel) pixels.push([x, y, pixel.fill]);
-            }
-            return pixels;
-        });
-        done({
-            trouble: $('trouble').textContent, panels, svg: (last.answer.panels ?? []).map(panel => panel.svg),
-            weights: last.look?.triangles?.[0]?.edges?.map(edge => edge.weight) ?? [],
-        });
-    };
-    clearTimeout(keeping);
-    if (location.hash === to) look();
-    else { addEventListener('hashchange', look, { once: true }); location.hash = to; }
-})";
+const FOLLOW: &str = include_str!("../data/pages/follow.js");
 
 /// The panels of the playground that show what a figure shows; none where it shows the figure itself.
 fn panels_of(name: &str) -> &'static [usize] {
@@ -511,7 +483,7 @@ fn live_figures_show_what_the_oracle_draws() {
             let to = [x + by[0], y + by[1]];
             for (kind, at) in [("mousePressed", [x, y]), ("mouseMoved", to), ("mouseReleased", to)]
             {
-                mouse(&mut browser, kind, at);
+                browser.mouse(kind, at);
             }
             assert_eq!(wrong(&mut browser, figure), [""; 0]);
             states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
@@ -597,11 +569,7 @@ fn keys_predict(browser: &mut Browser) {
     for arrow in [&["ArrowRight", "ArrowDown"][..], &["ArrowRight"], &["ArrowDown"], &["ArrowLeft"]]
     {
         arrow.iter().for_each(|key| browser.press(key));
-        for kind in ["keyDown", "keyUp"] {
-            let space = json!({ "type": kind, "key": " ", "code": "Space", "text": " ",
-                "windowsVirtualKeyCode": 32 });
-            browser.call("Input.dispatchKeyEvent", space);
-        }
+        browser.press(" ");
     }
     let marked = format!("{of}.stage.querySelectorAll('.frame [aria-pressed=true]').length");
     assert_eq!(browser.eval(&marked), 4);
@@ -611,16 +579,15 @@ fn keys_predict(browser: &mut Browser) {
 
 /// A grip follows a finger.
 fn fingers_drag(browser: &mut Browser) {
-    let touching = json!({ "enabled": true, "maxTouchPoints": 1 });
-    browser.call("Emulation.setTouchEmulationEnabled", touching);
+    browser.has_fingers(1);
     let figure = find("shared-edge").unwrap();
     let at = format!("{}.dataset.at", of(figure));
     let before = browser.eval(&at);
     let [x, y] = spot(browser, figure, "[role=slider]", 0);
-    touch(browser, "touchStart", &[[x, y]]);
-    touch(browser, "touchMove", &[[x - 20.0, y - 30.0]]);
-    touch(browser, "touchMove", &[[x - 40.0, y - 60.0]]);
-    touch(browser, "touchEnd", &[]);
+    browser.touch("touchStart", &[[x, y]]);
+    browser.touch("touchMove", &[[x - 20.0, y - 30.0]]);
+    browser.touch("touchMove", &[[x - 40.0, y - 60.0]]);
+    browser.touch("touchEnd", &[]);
     assert_ne!(browser.eval(&at), before);
     assert_eq!(wrong(browser, figure), [""; 0]);
 }

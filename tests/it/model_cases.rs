@@ -16,14 +16,14 @@ use crate::snapshots::{each, settings};
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/models");
 
 /// The endings of files that are no models: snapshots, and what models name.
-const BESIDE: &[&str] =
+pub const BESIDE: &[&str] =
     &["bin", "bmp", "jpg", "md", "mtl", "new", "png", "snap", "tga", "tiff", "webp"];
 
 /// Triangles of an item that a snapshot shows.
 const MOST_SHOWN: usize = 8;
 
 /// The models in this folder and in those below it, by name.
-fn models_in(folder: &Path) -> Vec<PathBuf> {
+pub fn models_in(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -31,23 +31,6 @@ pub fn warning(model: &Model) -> &str {
     warning
 }
 
-/// A sphere whose vertices are moved. The file is right-handed, so its faces run the other way.
-fn sphere(moved: impl Fn(DVec3) -> DVec3) -> String {
-    let mesh = shapes::sphere(DVec3::ZERO, 1.0, 32, 16);
-    let mut text = String::new();
-    for p in mesh.positions.iter().map(|p| moved(*p)) {
-        text += &format!("v {} {} {}\n", p.x, p.y, p.z);
-    }
-    for t in mesh.triangles.positions() {
-        let [a, b, c] = t.map(|position| position + 1);
-        text += &format!("f {a} {c} {b}\n");
-    }
-    text
-}
-
-const TETRAHEDRON: &str =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let folder = Folder::new("models-unread");
@@ -76,50 +59,6 @@ fn drawn(folder: &Folder, words: &str) -> (RgbImage, String) {
     let words = format!("render --size 96x72 --engine scanline -o out.png {words}");
     let errors = folder.check(words, 0).errors;
     (image::open(folder.join("out.png")).unwrap().into_rgb8(), errors)
-}
-
-/// Coordinates are doubles from the file to the vertex stage: single precision would leave four steps across the
-/// sphere in y.
-#[test]
-fn a_sphere_far_from_the_origin_is_drawn_as_at_the_origin() {
-    let folder = Folder::new("models-far");
-    // Multiples of 1/1024 are exact in both places, so that both files hold the same sphere.
-    let at = |centre: DVec3| sphere(|p| (p * 1024.0).round() / 1024.0 + centre);
-    folder.put("near.obj", at(DVec3::ZERO));
-    folder.put("far.obj", at(DVec3::new(431_234.123, 4_581_234.567, 120.0)));
-    for options in ["", "--normals smooth --shading gouraud"] {
-        let [near, far] =
-            ["near", "far"].map(|name| drawn(&folder, &format!("{name}.obj {options}")).0);
-        let differ = near.pixels().zip(far.pixels()).filter(|(a, b)| a != b).count();
-        assert_eq!(differ, 0, "{options:?}");
-    }
-}
-
-/// The same shapes as polygons and as triangles by hand: one concave at its first corner, and a ring whose outline
-/// runs along a bridge to its hole and back.
-#[test]
-fn concave_and_ring_shaped_polygons_are_drawn_right() {
-    let folder = Folder::new("models-concave");
-    let concave = "v 2 1 0\nv 0 4 0\nv 0 0 0\nv 4 0 0\nv 4 4 0\n";
-    let ring = "v 0 0 0\nv 6 0 0\nv 6 6 0\nv 0 6 0\nv 2 2 0\nv 2 4 0\nv 4 4 0\nv 4 2 0\n";
-    let around = "f 1 2 8\nf 1 8 5\nf 2 3 7\nf 2 7 8\nf 3 4 6\nf 3 6 7\nf 4 1 5\nf 4 5 6\n";
-    let cases = [
-        (concave, "f 1 2 3 4 5\n", "f 1 2 3\nf 1 3 4\nf 1 4 5\n"),
-        (concave, "f 2 3 4 5 1\n", "f 1 2 3\nf 1 3 4\nf 1 4 5\n"),
-        (concave, "f 5 4 3 2 1\n", "f 3 2 1\nf 4 3 1\nf 5 4 1\n"),
-        (ring, "f 1 2 3 4 1 5 6 7 8 5\n", around),
-    ];
-    for (vectors, polygon, triangles) in cases {
-        folder.put("polygon.obj", format!("{vectors}{polygon}"));
-        folder.put("triangles.obj", format!("{vectors}{triangles}"));
-        for pitch in [0, 35] {
-            let [(polygon, errors), (triangles, _)] = ["polygon", "triangles"].map(|name| {
-                drawn(&folder, &format!("{name}.obj --yaw 0 --pitch {pitch} --aa ssaa2"))
-            });
-            assert!(polygon == triangles, "{errors}");
-            assert!(!errors.contains("warning"), "{errors}");
-        }
-    }
 }
 
 #[test]
@@ -199,55 +138,6 @@ fn names_of_pictures_of_a_gltf_are_found() {
         let model = load(&folder.put("m.gltf", named), Shading::Phong).unwrap();
         assert!(model.items[0].material.texture.is_some(), "{uri:?}: {:?}", model.warnings);
     }
-}
-
-/// The file whose z points up looks as the one whose y does, and which axis was taken is printed.
-#[test]
-fn the_axis_that_points_up_is_chosen_and_said() {
-    let folder = Folder::new("models-up");
-    let faces = "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
-    folder.put("y.obj", format!("v 0 0 0\nv 4 0 0\nv 4 0 -2\nv 1 7 -1\n{faces}"));
-    folder.put("z.obj", format!("v 0 0 0\nv 4 0 0\nv 4 2 0\nv 1 1 7\n{faces}"));
-    let [(usual, said), (given, silent), (lying, _)] =
-        ["y.obj", "z.obj --up z", "z.obj"].map(|words| drawn(&folder, words));
-    assert!(usual == given && usual != lying);
-    assert!(said.contains("y points up, as is usual in OBJ; --up z for the other"), "{said}");
-    assert!(!silent.contains("points up"), "{silent}");
-    folder.check("render --scene cube --up z", 2).shows("--up is for models");
-}
-
-/// A sphere that is turned inside out is nearly all ambient light, and says so. Lit from both sides, it is the sphere.
-#[test]
-fn faces_that_run_inwards_are_noticed_and_lit_from_both_sides() {
-    let folder = Folder::new("models-inwards");
-    let outwards = sphere(|position| position);
-    let reversed = |line: &str| {
-        let corners: Vec<_> = line.split_whitespace().skip(1).collect();
-        format!("f {} {} {}", corners[2], corners[1], corners[0])
-    };
-    let line = |line: &str| if line.starts_with("f ") { reversed(line) } else { line.to_owned() };
-    let inwards = outwards.lines().map(line).collect::<Vec<_>>().join("\n");
-    folder.put("out.obj", outwards);
-    folder.put("in.obj", inwards);
-    let note = "100% of what is seen are backs of faces, lit by the normals of their fronts; --two-sided reverses these";
-    for shading in ["flat", "gouraud", "phong"] {
-        let [(out, silent), (dark, said), (lit, also_silent)] =
-            ["out.obj", "in.obj", "in.obj --two-sided"]
-                .map(|words| drawn(&folder, &format!("{words} --shading {shading}")));
-        assert!(said.contains(note), "{said}");
-        assert!(
-            !silent.contains("backs") && !also_silent.contains("backs"),
-            "{silent}{also_silent}"
-        );
-        assert!(out == lit && out != dark, "{shading}");
-    }
-    let (_, unlit) = drawn(&folder, "in.obj --shading unlit");
-    assert!(!unlit.contains("backs"), "{unlit}");
-    for command in ["plan in.obj --rounds 1", "study in.obj --quick"] {
-        let run = folder.check(format!("{command} --size 32x24"), 0);
-        assert!(run.errors.contains("--two-sided"), "{command}: {}", run.errors);
-    }
-    folder.check("render --scene cube --two-sided", 2).shows("--two-sided is for models");
 }
 
 /// The same quad with its front and with its back to the eye.
@@ -354,50 +244,6 @@ fn lights_of_a_file_are_those_of_the_picture() {
     }
 }
 
-/// A square of one unit, seen by cameras that stand two units before it and behind it.
-#[test]
-fn cameras_of_a_file_are_listed_and_looked_through() {
-    let folder = Folder::new("models-cameras");
-    fs::copy(format!("{FOLDER}/gltf/cameras.gltf"), folder.join("m.gltf")).unwrap();
-    let (_, said) = drawn(&folder, "m.gltf");
-    let list = "1 'wide', 2, 3 'behind', 4";
-    assert!(
-        said.contains(&format!("4 cameras: {list}; --camera 1 looks through the first")),
-        "{said}"
-    );
-    assert!(!said.contains("not drawn"), "{said}");
-    // From 72 pixels for 2 and for 4 units.
-    for (words, [x0, x1], [y0, y1]) in [
-        ("--camera wide", [30, 66], [18, 54]),
-        ("--camera 2", [39, 57], [27, 45]),
-        // Its right is the left of the others.
-        ("--camera behind", [48, 66], [27, 45]),
-    ] {
-        let (picture, said) = drawn(&folder, &format!("m.gltf {words}"));
-        assert!(!said.contains("cameras"), "{said}");
-        for (x, y, pixel) in picture.enumerate_pixels() {
-            let is_inside = (x0..x1).contains(&x) && (y0..y1).contains(&y);
-            assert_eq!(pixel.0 != [18, 18, 24], is_inside, "{words}: {x}, {y}");
-        }
-    }
-    for (words, said) in [
-        ("--camera 5", format!("--camera 5: the model has the cameras {list}")),
-        ("--camera 4", "--camera 4: the frustum needs 0 < near < far".to_owned()),
-        ("--camera 1 --yaw 3", "'--yaw <DEGREES>'".to_owned()),
-    ] {
-        folder.check(format!("render m.gltf {words}"), 2).shows(&said);
-    }
-    folder.put("none.obj", TETRAHEDRON);
-    folder.check("render none.obj --camera x", 2).shows("--camera x: the model has no cameras");
-    folder.check("render --scene cube --camera 1", 2).shows("--camera is for models");
-    // The fog begins and ends where it does without a camera, and both rasterizers agree.
-    for camera in ["wide", "2"] {
-        let words =
-            format!("render m.gltf --size 96x72 --camera {camera} --fog 0,1 --shadows 64 -o o.png");
-        folder.check(words, 0).prints("AGREES");
-    }
-}
-
 /// Two repeats of a texture that is mirrored: symmetric about the middle.
 #[test]
 fn a_mirrored_texture_is_drawn_mirrored() {
@@ -458,77 +304,6 @@ fn another_reader_reads_the_same() {
             assert!(corner.uv.distance(DVec2::new(uv[0].into(), uv[1].into())) < 1e-6);
         }
     }
-}
-
-/// A folder with models in `in`, and beside that folder a file whose text is `SECRET` in several places.
-fn with_secret(name: &str) -> Folder {
-    let folder = Folder::new(name);
-    fs::create_dir(folder.join("in")).unwrap();
-    let secret = "SECRET:x:0\nKd SECRET 1 1\nnewmtl a\nKd 1 SECRET\nSECRET\nmap_Kd SECRET.png\nmap_d SECRET.png\n";
-    folder.put("secret", secret);
-    // A picture up to its first chunk, whose name a decoder may show.
-    let picture = [&b"\x89PNG\r\n\x1a\n\0\0\0\x04SECR"[..], secret.as_bytes()].concat();
-    folder.put("secret.png", picture);
-    folder
-}
-
-#[test]
-fn text_outside_the_folder_is_not_quoted() {
-    let folder = with_secret("models-outside");
-    let faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
-    let check = |name: &str, text: &[u8], expected: &str| {
-        let read = load(&folder.put(name, text), Shading::Phong);
-        let said = match &read {
-            Ok(model) => model.warnings.join("\n") + &model.not_drawn,
-            Err(error) => error.to_string(),
-        };
-        assert!(!said.contains("SECR"), "{name}: {said}");
-        assert!(said.contains(expected), "{name}: {said}");
-        let run = folder.run(["verify", name, "--size", "16x16"]);
-        assert!(!(run.out.clone() + &run.errors).contains("SECR"), "{run}");
-    };
-    let line = "secret:1: the line cannot be read and is left out; it is not quoted, since the file lies outside";
-    let absolute = folder.join("secret").display().to_string();
-    for (number, name) in ["../secret", "..\\secret", &absolute].into_iter().enumerate() {
-        let text = format!("mtllib {name}\n{faces}");
-        check(&format!("in/{number}.obj"), text.as_bytes(), line);
-    }
-    let unreadable = "is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP (why is not quoted";
-    folder.put("in/picture.mtl", "newmtl a\nmap_Kd ../secret.png\n");
-    check("in/picture.obj", format!("mtllib picture.mtl\n{faces}").as_bytes(), unreadable);
-    let ply = "ply\nformat ascii 1.0\ncomment TextureFile ../secret.png\nelement vertex 3\nproperty float x\n\
-               property float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\n\
-               property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n";
-    check("in/picture.ply", ply.as_bytes(), unreadable);
-    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"%2e%2e/secret","byteLength":60}],
-        "bufferViews":[{"buffer":0,"byteLength":60}],"images":[IMAGE],"textures":[{"source":0}],
-        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
-        "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
-            {"bufferView":0,"componentType":5125,"count":12,"type":"SCALAR"}],
-        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
-        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]},{"nodes":[]}]}"#;
-    for image in [r#"{"uri":"../secret.png"}"#, r#"{"bufferView":0}"#] {
-        check("in/picture.gltf", gltf.replace("IMAGE", image).as_bytes(), unreadable);
-    }
-    // 'SECR' as a number.
-    let model = load(&folder.join("in/picture.gltf"), Shading::Phong).unwrap();
-    let said = model.warnings.join("\n");
-    assert!(said.contains("name a vertex that is not there; they are left out"), "{said}");
-    #[cfg(unix)]
-    {
-        std::os::unix::fs::symlink("../secret", folder.join("in/link.mtl")).unwrap();
-        check("in/link.obj", format!("mtllib link.mtl\n{faces}").as_bytes(), "not quoted");
-    }
-    // What lies in the folder or below it is quoted.
-    fs::create_dir(folder.join("in/below")).unwrap();
-    folder.put("in/below/m.mtl", "newmtl a\nPUBLIC\n");
-    let path = folder.put("in/below.obj", format!("mtllib below/m.mtl\n{faces}"));
-    let model = load(&path, Shading::Phong).unwrap();
-    assert!(warning(&model).contains("'PUBLIC' is not a line"), "{:?}", model.warnings);
-    // A name of a file is quoted where it stands in the folder alone.
-    folder.put("in/below/m.mtl", "newmtl a\nmap_Kd nowhere.png\n");
-    let model = load(&path, Shading::Phong).unwrap();
-    assert!(warning(&model).contains("nowhere.png: cannot be read"), "{:?}", model.warnings);
 }
 
 /// Polygons in space that do not lie in a plane: all of their outline is the outline of their triangles.

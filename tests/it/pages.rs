@@ -1,4 +1,4 @@
-//! Figures of the pages do not drift. Each lies between two comments, which a reader does not see:
+//! Figures of the pages and of their diagrams do not drift. Each lies between two comments, which a reader does not see:
 //! `<!--n drifting-lines-->788<!--/n-->`. The name is one of `figures.rs`, or says which cell of a table it repeats:
 //! `cost: Lines, ns, Bresenham, large`, or which number of a live figure, which then follows its grips: `weights.pa`. What the page prints must be the value, rounded to the digits that are printed.
 //!
@@ -193,7 +193,9 @@ fn pages_figures_are_computed() {
         let numbers = figure.numbers().unwrap().into_iter();
         values.extend(numbers.map(|(name, value)| (format!("{}.{name}", figure.name), value)));
     }
-    let pages: BTreeMap<_, _> = crate::workspace::pages().into_iter().collect();
+    let diagrams = files(&root().join("docs/figures"), ".svg");
+    let diagrams = diagrams.into_iter().map(|path| (path.clone(), read(path)));
+    let pages: BTreeMap<_, _> = crate::workspace::pages().into_iter().chain(diagrams).collect();
     for (path, text) in &pages {
         let shown = path.display();
         let mut right = text.clone();

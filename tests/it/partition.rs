@@ -1,7 +1,6 @@
 //! Partitions of a second source: what spade makes of the generated polygons has no fault, and has one when anything is changed.
 
 use std::collections::VecDeque;
-use std::time::Duration;
 
 use rasterproof::assert_partition;
 use rasterproof::partition::{
@@ -12,7 +11,6 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use crate::fixtures::fixtures;
 use crate::pages::read;
-use crate::program::Folder;
 
 /// The triangles inside by the even-odd rule, of a triangulation that has all edges of the contours.
 fn spade(polygon: &Polygon) -> Vec<Triangle> {
@@ -121,51 +119,6 @@ fn partition_fixtures_have_the_area_of_triangles() {
     }
 }
 
-/// Each fault of a program behind the protocol is told: what it makes wrong, refuses, or does not answer.
-#[test]
-fn partition_programs_are_judged() {
-    let folder = Folder::new("tessellators");
-    let program = |name: &str, answer: &str| {
-        let text = format!(
-            "import sys\nfor line in sys.stdin:\n    words = line.split()\n    if words[0] == 'HELLO':\n        \
-             print('HELLO 2 mine partition triangles=any t-junctions', flush=True)\n        continue\n    \
-             p = list(zip(words[4::2], words[5::2]))\n    {answer}\n"
-        );
-        folder.put(name, text);
-        format!("-- python3 {name}")
-    };
-    // Of one contour that is convex, a fan is right.
-    let fan = "print('Z', words[1], len(p) - 2, *[v for b, c in zip(p[1:], p[2:]) for q in (p[0], b, c) for v in q], flush=True)";
-    let fan = program(
-        "fan.py",
-        &format!(
-            "if words[2] == '1': {fan}\n    else: print('E', words[1], 'unsupported', flush=True)"
-        ),
-    );
-    let wrong = folder.check(format!("judge --cases 20 --family Star {fan}"), 1);
-    let wrong = wrong.prints_all([
-        "mine is not right",
-        "partition fill-rule=even-odd triangles=any",
-        "outside: the smallest polygon",
-        "\n  [[[",
-    ]);
-    let case = wrong.out.split("found in: rasterproof ").nth(1).unwrap().lines().next().unwrap();
-    folder.check(case, 1).prints("1 of 1 polygons are not covered exactly once");
-    folder
-        .check(format!("judge --cases 5 --family Star --format junit {fan}"), 1)
-        .prints_all(["name=\"Star\"", "every polygon is triangulated as declared: "]);
-    folder.check(format!("judge --family flat {fan}"), 2).says("these families hold no polygons");
-    folder.check(format!("judge --baseline known.txt {fan}"), 2).says("--baseline is not for tess");
-    let none = program("none.py", "print('E', words[1], 'unsupported', flush=True)");
-    folder.check(format!("judge --cases 5 {none}"), 2).says("accepts none of the polygons");
-    let refuses = program("refuses.py", "print('E', words[1], 'too hard', flush=True)");
-    folder.check(format!("judge --cases 5 {refuses}"), 1).prints("refused: too hard");
-    let dies = program("dies.py", "sys.exit(3)");
-    folder.check(format!("judge --cases 5 {dies}"), 1).prints("given up after 3 times");
-    let lies = program("lies.py", "print('Z', words[1], 1, 0, 0, 1, flush=True)");
-    folder.check(format!("judge --cases 5 {lies}"), 1).prints("prints nonsense");
-}
-
 /// The first line says what is wrong. Each polygon counts by its gravest fault, and one that is covered exactly once is not said
 /// to be otherwise.
 #[test]
@@ -195,29 +148,6 @@ fn what_is_wrong_with_polygons_is_said() {
     let lost: u64 = lost.parse().unwrap();
     let more: u64 = rest.strip_suffix(" more have T-junctions").unwrap().parse().unwrap();
     assert!(lost > 0 && more > 0 && lost + more >= count && more <= count, "{both}");
-}
-
-/// A limited time is kept with a slow tessellator: each family is asked, and what was not done is said.
-#[test]
-fn tessellators_are_judged_within_their_time() {
-    let folder = Folder::new("slow-tessellator");
-    let program = "import sys, time\nfor line in sys.stdin:\n    words = line.split()\n    \
-                   if words[0] == 'HELLO': print('HELLO 2 mine partition', flush=True)\n    \
-                   else: time.sleep(float(sys.argv[1])); print('Z', words[1], 0, flush=True)\n";
-    folder.put("slow.py", program);
-    let start = std::time::Instant::now();
-    let run = folder.check("judge --seconds 3 --cases 1000000 -- python3 slow.py 0.02", 1);
-    let took = start.elapsed();
-    // One block of each family takes 14 s.
-    assert!(took < Duration::from_secs(8), "{took:?}");
-    let run = run.prints_all([" of 12,000,000 when the time was up;", "gap: the smallest polygon"]);
-    let words = run.out.split_whitespace();
-    for family in Family::ALL {
-        assert!(words.clone().any(|word| word == family.name()), "{family:?}: {}", run.out);
-    }
-    folder
-        .check("judge --seconds 0.5 -- python3 slow.py 9", 2)
-        .says("nothing was judged within --seconds 0.5");
 }
 
 /// A triangulation that leaves out the second contour covers the hole, and the report says so and where.

@@ -24,7 +24,7 @@ use rasterproof_verify::comparison::exact_coverage;
 use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
-use crate::page::{Browser, Tab as _, folder};
+use crate::browser::{Browser, Tab as _, folder};
 use crate::pages::root;
 use crate::program::{Folder, PROGRAM, Run, shared};
 use crate::recorded::hits;
@@ -253,7 +253,7 @@ fn playground_breaks_a_specimen() {
     browser.open(&page, "#case=T2&lang=en");
     settle(&mut browser);
     assert_eq!(browser.text("#command"), "rasterproof inspect T2 --plant exclusive-edges");
-    browser.eval("document.getElementById('search').click()");
+    browser.click("#search");
     browser.wait_for("document.getElementById('hunt').textContent.startsWith('caught by')");
     browser.wait_for("document.getElementById('hunt').textContent.includes('shrunk, ') && !hunt");
     settle(&mut browser);
@@ -262,7 +262,7 @@ fn playground_breaks_a_specimen() {
     assert_eq!(browser.eval("state.triangles.length"), 1);
     // Off the lattice the same, and the pixel is explained there.
     browser.eval("(document.getElementById('family').value = 'f32-tie')");
-    browser.eval("document.getElementById('search').click()");
+    browser.click("#search");
     browser.wait_for("!hunt && !state.snap");
     settle(&mut browser);
     assert_eq!(browser.eval(wrong), true);

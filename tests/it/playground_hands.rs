@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::page::{Browser, Tab as _};
+use crate::browser::{Browser, Tab as _};
 use crate::playground::{SCENES, both, opened, settle};
 
 /// Where what is called `name` lies on panel `i`, in pixels of the tab.
@@ -20,12 +20,6 @@ fn grip(browser: &mut Browser, i: usize, name: &str) -> [f64; 2] {
     serde_json::from_value(spot).unwrap()
 }
 
-pub fn mouse(browser: &mut Browser, kind: &str, [x, y]: [f64; 2]) {
-    let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1,
-        "clickCount": 1 });
-    browser.call("Input.dispatchMouseEvent", event);
-}
-
 /// Gives the keyboard what is called so on the first panel that shows it.
 fn hold(browser: &mut Browser, name: &str) {
     browser.eval(&format!(
@@ -35,28 +29,13 @@ fn hold(browser: &mut Browser, name: &str) {
 
 /// Drags from one place to another with the mouse.
 fn drag(browser: &mut Browser, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
-    mouse(browser, "mousePressed", [x, y]);
+    browser.mouse("mousePressed", [x, y]);
     for step in 1..=10 {
         let part = f64::from(step) / 10.0;
-        mouse(browser, "mouseMoved", [x + part * dx, y + part * dy]);
+        browser.mouse("mouseMoved", [x + part * dx, y + part * dy]);
     }
-    mouse(browser, "mouseReleased", [x + dx, y + dy]);
+    browser.mouse("mouseReleased", [x + dx, y + dy]);
     settle(browser);
-}
-
-pub fn touch(browser: &mut Browser, kind: &str, spots: &[[f64; 2]]) {
-    let points: Vec<_> =
-        (0..).zip(spots).map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id })).collect();
-    browser.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
-}
-
-/// Presses a key that has no letter, with Shift (8), Alt (1) or neither held.
-fn press(browser: &mut Browser, key: &str, code: u32, modifiers: u32) {
-    for kind in ["rawKeyDown", "keyUp"] {
-        let event = json!({ "type": kind, "key": key, "code": key,
-            "windowsVirtualKeyCode": code, "modifiers": modifiers });
-        browser.call("Input.dispatchKeyEvent", event);
-    }
 }
 
 /// A corner is dragged with the mouse: pixels change, and are those of the program.
@@ -72,8 +51,8 @@ fn playground_follows_the_mouse() {
     drag(&mut browser, spot, [-60.0, 40.0]);
     assert_ne!(browser.eval(picture), before);
     // The corner was shared by one triangle only; on the lattice, and not where it was.
-    let corner = browser.eval("[state.triangles[0][1].x * 256, state.triangles[0][1].y * 256]");
-    let sub: Vec<f64> = serde_json::from_value(corner).unwrap();
+    let sub: Vec<f64> =
+        browser.value("[state.triangles[0][1].x * 256, state.triangles[0][1].y * 256]");
     assert!(sub.iter().all(|v| v.fract() == 0.0) && sub[0] < 10.5 * 256.0, "{sub:?}");
     let question = browser.eval("({ ask: 'draw', picture: picture(), by: state.by })");
     let drawn = browser.eval("last.answer");
@@ -111,8 +90,7 @@ fn playground_drags_values() {
     drag(&mut browser, spot, [40.0, -40.0]);
     assert_ne!(browser.eval(picture), before);
     // Both triangles have the corner, and nothing else moved.
-    let ws = browser.eval("state.triangles.map(t => t[0].w)");
-    let ws: Vec<f64> = serde_json::from_value(ws).unwrap();
+    let ws: Vec<f64> = browser.value("state.triangles.map(t => t[0].w)");
     assert!(ws[0] > 2.0 && ws[0] < 8.0 && ws[0] == ws[1], "{ws:?}");
     let corners = browser.eval("handles().map(h => [h.x, h.y, h.members[0].w])");
     assert_eq!(corners[0], json!([2, 29, ws[0]]));
@@ -126,8 +104,8 @@ fn playground_drags_values() {
     hold(&mut browser, "w B");
     let chosen = "grips()[state.chosen].says";
     assert_eq!(browser.eval(chosen), "w B = 4");
-    press(&mut browser, "ArrowUp", 38, 0);
-    press(&mut browser, "ArrowLeft", 37, 8);
+    browser.press("ArrowUp");
+    browser.press_with("ArrowLeft", 8);
     assert_eq!(browser.eval(chosen), "w B = 4.2");
     settle(&mut browser);
     assert!(browser.text("#announce").starts_with("w B = 4.2"), "{}", browser.text("#announce"));
@@ -145,14 +123,13 @@ fn playground_drags_values() {
     assert_eq!(after[2], before[2], "nothing changes where nothing is clipped");
     let on_screen = "JSON.stringify(state.points.map(p => p.slice(0, 2)))";
     let places = browser.eval(on_screen);
-    let touching = json!({ "enabled": true, "maxTouchPoints": 2 });
-    browser.call("Emulation.setTouchEmulationEnabled", touching);
+    browser.has_fingers(2);
     let [x, y] = grip(&mut browser, 0, "w C");
-    touch(&mut browser, "touchStart", &[[x, y]]);
+    browser.touch("touchStart", &[[x, y]]);
     for step in 1..=4 {
-        touch(&mut browser, "touchMove", &[[x - 20.0 * f64::from(step), y]]);
+        browser.touch("touchMove", &[[x - 20.0 * f64::from(step), y]]);
     }
-    touch(&mut browser, "touchEnd", &[]);
+    browser.touch("touchEnd", &[]);
     settle(&mut browser);
     assert!(browser.eval("state.points[2][2]").as_f64().unwrap() < 0.0, "behind the eye");
     assert_eq!(browser.eval(on_screen), places, "along its ray");
@@ -160,7 +137,7 @@ fn playground_drags_values() {
     settle(&mut browser);
     hold(&mut browser, "near plane");
     assert_eq!(browser.eval(chosen), "near plane = 1");
-    press(&mut browser, "ArrowRight", 39, 8);
+    browser.press_with("ArrowRight", 8);
     assert_eq!(browser.eval("state.near"), 1.1);
     // Each panel has the grips that lie there.
     let grips = browser.eval("view.shown.map(p => p.grips.map(g => g.dataset.name).join())");
@@ -239,7 +216,7 @@ fn playground_frames_are_timed() {
     settle(&mut browser);
     assert_eq!(browser.eval("view.shown.length"), 4);
     let [x, y] = grip(&mut browser, 0, "B");
-    mouse(&mut browser, "mousePressed", [x, y]);
+    browser.mouse("mousePressed", [x, y]);
     browser.call("Performance.enable", json!({ "timeDomain": "threadTicks" }));
     let processor_seconds = |browser: &mut Browser| {
         let metrics = browser.call("Performance.getMetrics", json!({}))["metrics"].clone();
@@ -279,26 +256,25 @@ fn playground_frames_are_timed() {
 #[test]
 fn playground_follows_fingers() {
     let Some((mut browser, page)) = opened("fingers") else { return };
-    let fingers = json!({ "enabled": true, "maxTouchPoints": 2 });
-    browser.call("Emulation.setTouchEmulationEnabled", fingers);
+    browser.has_fingers(2);
     browser.open(&page, "#lang=en");
     settle(&mut browser);
     let [x, y] = grip(&mut browser, 0, "C");
     let around = |by: f64| [[x - by, y - 30.0], [x + by, y - 30.0]];
-    touch(&mut browser, "touchStart", &around(20.0));
+    browser.touch("touchStart", &around(20.0));
     for step in 1..=6 {
-        touch(&mut browser, "touchMove", &around(20.0 + 5.0 * f64::from(step)));
+        browser.touch("touchMove", &around(20.0 + 5.0 * f64::from(step)));
     }
-    touch(&mut browser, "touchEnd", &[]);
+    browser.touch("touchEnd", &[]);
     settle(&mut browser);
-    let window: [i32; 4] = serde_json::from_value(browser.eval("state.window")).unwrap();
+    let window: [i32; 4] = browser.value("state.window");
     assert!(window[2] - window[0] < 14 && window[2] > 10, "{window:?} still holds the corner");
     assert_eq!(browser.eval("state.triangles[0][2].x"), 10.5);
     let [x, y] = grip(&mut browser, 0, "C");
-    touch(&mut browser, "touchStart", &[[x, y]]);
-    touch(&mut browser, "touchMove", &[[x - 20.0, y - 20.0]]);
-    touch(&mut browser, "touchMove", &[[x - 40.0, y - 40.0]]);
-    touch(&mut browser, "touchEnd", &[]);
+    browser.touch("touchStart", &[[x, y]]);
+    browser.touch("touchMove", &[[x - 20.0, y - 20.0]]);
+    browser.touch("touchMove", &[[x - 40.0, y - 40.0]]);
+    browser.touch("touchEnd", &[]);
     assert!(browser.eval("state.triangles[0][2].x").as_f64().unwrap() < 10.5);
 }
 
@@ -315,7 +291,7 @@ fn playground_needs_no_mouse() {
     let mut reached = BTreeSet::new();
     browser.eval("window.seen = new Set()");
     for _ in 0..controls.as_u64().unwrap() + 4 {
-        press(&mut browser, "Tab", 9, 0);
+        browser.press("Tab");
         browser.eval("seen.add(document.activeElement)");
         let tag = browser.eval("document.activeElement.tagName");
         reached.insert(tag.as_str().unwrap().to_owned());
@@ -328,22 +304,22 @@ fn playground_needs_no_mouse() {
     let corner = "[handles()[state.chosen].x, handles()[state.chosen].y]";
     hold(&mut browser, "A");
     assert_eq!(browser.eval(corner), json!([2.5, 2.5]));
-    press(&mut browser, "ArrowRight", 39, 0);
-    press(&mut browser, "ArrowDown", 40, 8);
+    browser.press("ArrowRight");
+    browser.press_with("ArrowDown", 8);
     assert_eq!(browser.eval(corner), json!([3.5, 2.5 + 1.0 / 256.0]));
     // Whoever does not see it hears where the corner is, and what both panels made of it.
     settle(&mut browser);
     let heard = browser.text("#announce");
     assert!(heard.contains("A 3.5, 2.50390625") && heard.contains("as the oracle"), "{heard}");
     hold(&mut browser, "B");
-    press(&mut browser, "ArrowLeft", 37, 0);
+    browser.press("ArrowLeft");
     assert_eq!(browser.eval(corner), json!([9.5, 2.5]));
     browser.eval("view.shown[0].canvas.focus()");
-    press(&mut browser, "ArrowDown", 40, 0);
+    browser.press("ArrowDown");
     assert_eq!(browser.eval("state.px"), json!([6, 7]));
     browser.press("+");
     assert_eq!(browser.eval("state.window"), json!([1, 1, 13, 13]));
-    press(&mut browser, "ArrowRight", 39, 1);
+    browser.press_with("ArrowRight", 1);
     assert_eq!(browser.eval("state.window"), json!([2, 1, 14, 13]));
     settle(&mut browser);
 }

@@ -194,11 +194,6 @@ impl Run {
         self
     }
 
-    #[track_caller]
-    pub fn prints_all<const N: usize>(self, parts: [&str; N]) -> Self {
-        parts.into_iter().fold(self, Self::prints)
-    }
-
     /// On either stream.
     #[track_caller]
     pub fn shows(self, part: &str) -> Self {

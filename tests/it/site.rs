@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::page::{Browser, Tab as _, folder};
+use crate::browser::{Browser, Tab as _, folder};
 use crate::pages::{Renewal, files, read, root, text_block};
 use crate::program::shared;
 
@@ -233,10 +233,9 @@ fn site_opens_in_a_browser() {
         if excess.as_i64() != Some(0) {
             wrong.push(format!("{page} is {excess} pixels too wide for a screen of 360"));
         }
-        let loaded = browser.eval(
+        let loaded: BTreeSet<String> = browser.value(
             "[location, ...performance.getEntriesByType('resource').map(r => new URL(r.name))].map(u => u.protocol === 'file:' ? decodeURI(u.pathname) : u.href)",
         );
-        let loaded: BTreeSet<String> = serde_json::from_value(loaded).unwrap();
         let foreign = loaded
             .iter()
             .filter(|file| !Path::new(file).starts_with(&site) && !file.starts_with("data:"));
@@ -250,10 +249,9 @@ fn site_opens_in_a_browser() {
         browser.resize(1280, 900);
         let complaints = std::mem::take(&mut browser.complaints);
         wrong.extend(complaints.into_iter().map(|complaint| format!("{page}: {complaint}")));
-        let others = browser.eval(
+        let others: Vec<String> = browser.value(
             "[...document.querySelectorAll('.site-links a')].filter(a => a.offsetWidth).map(a => a.href.replace(/^file:..|#.*/g, ''))",
         );
-        let others: Vec<String> = serde_json::from_value(others).unwrap();
         let is_chapter = page.starts_with("en/") || page.starts_with("zh/");
         let other = if page.starts_with("en/") {
             page.replacen("en/", "zh/", 1)
@@ -274,42 +272,18 @@ fn site_opens_in_a_browser() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What readers look for, and the page that is among the first three that are found.
-const SEARCHES: [(&str, &str, &str); 26] = [
-    ("en", "barycentric", "ch03.html"),
-    ("en", "bresenham", "ch02.html"),
-    ("en", "why gaps between triangles", "index.html#by-question"),
-    ("en", "texture wrong", "index.html"),
-    ("en", "top-left rule", "ch02-edge-functions.html"),
-    ("en", "z-fighting", "ch06.html"),
-    ("en", "clipping", "ch07.html"),
-    ("en", "perspective", "ch05.html"),
-    ("en", "antialiasing", "samples.html"),
-    ("en", "mipmap", "textures.html"),
-    ("en", "overflow", "ch02-edge-functions.html"),
-    ("en", "half pixel", "samples.html"),
-    ("en", "pytest", "python.html"),
-    ("en", "depth buffer", "ch06.html"),
-    ("en", "scanline", "ch02-scanline.html"),
-    ("en", "matrix", "ch10.html"),
-    ("en", "transparent", "ch02-edge-functions.html"),
-    ("en", "how fast", "speed.html"),
-    ("en", "holes", "ch02-edge-functions.html"),
-    ("zh", "光栅化", "course.html"),
-    ("zh", "重心坐标", "ch03.html"),
-    ("zh", "左上规则", "ch02-edge-functions.html"),
-    ("zh", "深度缓冲", "ch06.html"),
-    ("zh", "裁剪", "ch07.html"),
-    ("zh", "抗锯齿", "samples.html"),
-    ("zh", "纹理", "ch11.html"),
-];
+/// What readers look for, and the page that is among the first three that are found: a book, words and a page in each line.
+const SEARCHES: &str = include_str!("../data/pages/searches.txt");
 
 #[test]
 #[ignore = "needs docs/build"]
 fn site_search_finds_lessons_first() {
     let Some(mut browser) = Browser::start("site-search") else { return };
     let mut wrong = Vec::new();
-    for (book, words, found) in SEARCHES {
+    for line in SEARCHES.lines() {
+        let [book, words, found] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{line}")
+        };
         go(&mut browser, &site(), &format!("{book}/index.html"));
         browser.eval(&format!(
             "document.getElementById('mdbook-search-toggle').click();
@@ -319,11 +293,10 @@ fn site_search_finds_lessons_first() {
             "!document.getElementById('mdbook-searchresults-outer').classList.contains('hidden')",
         );
         // Several places of one page count as one.
-        let pages = browser.eval(
+        let pages: Vec<String> = browser.value(
             "[...new Map([...document.querySelectorAll('#mdbook-searchresults li > a')].map(a =>
                 [a.pathname.split('/').pop(), a.pathname.split('/').pop() + decodeURI(a.hash)])).values()]",
         );
-        let pages: Vec<String> = serde_json::from_value(pages).unwrap();
         if !pages.iter().take(3).any(|page| page.starts_with(found)) {
             wrong.push(format!(
                 "{book}, '{words}': {found} is not among the first three of {pages:?}"
@@ -340,15 +313,15 @@ fn site_text_is_near() {
     let Some(mut browser) = Browser::start("site-near") else { return };
     for (book, says) in [("en", "Skip to the text"), ("zh", "跳到正文")] {
         go(&mut browser, &site(), &format!("{book}/ch03.html"));
-        key(&mut browser, "Tab", 9);
+        browser.press("Tab");
         assert_eq!(browser.eval("document.activeElement.textContent"), says);
-        key(&mut browser, "Enter", 13);
+        browser.press("Enter");
         browser.wait_for("document.activeElement.id === 'text'");
     }
     // Escape closes the contents.
     browser.eval("document.querySelector('#mdbook-sidebar a').focus()");
     assert_eq!(browser.eval("document.activeElement.closest('nav').id"), "mdbook-sidebar");
-    key(&mut browser, "Escape", 27);
+    browser.press("Escape");
     browser.wait_for("document.activeElement.id === 'mdbook-sidebar-toggle'");
 
     go(&mut browser, &site(), "en/ch03.html");
@@ -356,21 +329,11 @@ fn site_text_is_near() {
     browser.eval(&format!("{heading}.scrollIntoView({{ behavior: 'instant' }})"));
     browser.draw();
     let other = browser.eval(&format!("{heading}.dataset.other"));
-    browser
-        .eval("document.querySelector('.site-links [rel=alternate]:not([hidden]).in-en').click()");
+    browser.click(".site-links [rel=alternate]:not([hidden]).in-en");
     browser.wait_for(
         "location.pathname.endsWith('/zh/ch03.html') && document.readyState === 'complete'",
     );
     assert_eq!(browser.eval("decodeURI(location.hash)"), format!("#{}", other.as_str().unwrap()));
-}
-
-/// A key with the code that its default action needs.
-fn key(browser: &mut Browser, key: &str, code: u32) {
-    let text = if key == "Enter" { "\r" } else { "" };
-    for kind in ["keyDown", "keyUp"] {
-        let event = json!({ "type": kind, "key": key, "code": key, "text": text, "windowsVirtualKeyCode": code });
-        browser.call("Input.dispatchKeyEvent", event);
-    }
 }
 
 /// Figures stand there before the engines are loaded, and nothing moves when these have come.

@@ -4,6 +4,8 @@
 //! - `$ ` begins a command for `sh`, in which `rasterproof` is the program; `> ` continues it.
 //! - Its standard output follows; then the lines of its standard error, each behind `2> `; then `exit status N`, unless it is 0.
 //! - A line `...` stands for any lines. `[TIME]` stands for a number of seconds or milliseconds, and `[FOLDER]` for the folder.
+//!   How far a slow command is, `10 s: 3 of 8 cases`, is left out.
+//! - `$DATA` is the folder `tests/data`.
 //!
 //! Files beside the commands lie in a folder with the page's name, and pages that take seconds in `slow`. `RASTERPROOF_RENEW=1 cargo test --test it transcripts` writes what is
 //! printed now in the place of what differs, and `RASTERPROOF_TRANSCRIPT=NAME` runs one page alone.
@@ -65,9 +67,12 @@ fn printed(folder: &Folder, script: &str) -> Vec<String> {
     shell.args(["-c", script]).current_dir(folder).env("PATH", path).stdin(Stdio::null());
     // The number of threads is printed by some commands.
     shell.env_remove("COLUMNS").env_remove("CARGO").env("RAYON_NUM_THREADS", "2");
+    let data = root().join("tests/data");
+    shell.env("DATA", &data);
     let run = Run::of(&mut shell);
     let mut all: Vec<String> = run.out.trim_end().lines().map(str::to_owned).collect();
-    all.extend(run.errors.lines().map(|line| format!("2> {line}").trim_end().to_owned()));
+    let errors = run.errors.lines().filter(|line| !is_progress(line));
+    all.extend(errors.map(|line| format!("2> {line}").trim_end().to_owned()));
     match run.status {
         Some(0) => {}
         Some(status) => all.push(format!("exit status {status}")),
@@ -78,7 +83,15 @@ fn printed(folder: &Folder, script: &str) -> Vec<String> {
         all.push(FORBIDDEN.to_owned());
     }
     let here = folder.to_str().unwrap();
-    all.iter().map(|line| without_times(&line.replace(here, "[FOLDER]"))).collect()
+    let named =
+        |line: &String| line.replace(here, "[FOLDER]").replace(data.to_str().unwrap(), "[DATA]");
+    all.iter().map(|line| without_times(&named(line))).collect()
+}
+
+/// Whether a line says how far a command is after some seconds, which a slow machine alone prints.
+fn is_progress(line: &str) -> bool {
+    let (seconds, rest) = line.split_once(" s: ").unwrap_or_default();
+    seconds.parse::<u32>().is_ok() && rest.contains(" of ")
 }
 
 /// The line with `[TIME]` for each number before `s` or `ms`.
@@ -183,6 +196,7 @@ fn transcripts_that_differ_are_found() {
         without_times("in 0.1 ms by x (3 s), 1.5 s."),
         "in [TIME] ms by x ([TIME] s), [TIME] s."
     );
+    assert!(is_progress("10 s: 67 of 100 percent Lines") && !is_progress("error: 3 s: 1 of 2"));
     let page = "```sh\n$ no\n```\n\n```console\n$ cat <<E\n> a\n>\n> E\na\n\n$ false\nexit status 1\n```\n";
     let text: Vec<&str> = page.lines().collect();
     let steps: Vec<_> = steps(&text).into_iter().map(|step| (step.script, step.said)).collect();

@@ -6,7 +6,7 @@ use std::fs;
 use rasterproof_view::{script, style};
 use serde_json::{Value, json};
 
-use crate::page::{Browser, Tab as _, folder};
+use crate::browser::{Browser, Tab as _, folder};
 use crate::pages::read;
 
 /// The sentences that are not true of the viewer, which has been changed.

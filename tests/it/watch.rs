@@ -7,19 +7,7 @@ use std::time::{Duration, Instant};
 use crate::program::{Folder, PROGRAM};
 
 /// Answers every triangle with all pixels of the window, or with none.
-const ALL_OR_NONE: &str = r#"
-for line in sys.stdin:
-    verb, id, *words = line.split()
-    if verb == "HELLO":
-        print("HELLO 2 mine coverage window=64x64 batch=1")
-    else:
-        if PAUSE:
-            open("slow", "a").write("x")
-            time.sleep(PAUSE)
-        rows = range(int(words[1])) if DRAWS else ()
-        print("C", id, len(rows), *(f"{y} 0 {words[0]}" for y in rows))
-    sys.stdout.flush()
-"#;
+const ALL_OR_NONE: &str = include_str!("../data/all-or-none.py");
 
 /// Ends the command with its test.
 struct Watching(Child);
@@ -80,7 +68,9 @@ fn what_changes_meanwhile_is_judged_anew() {
     // It would take minutes, so the next change comes while it is judged: of this one there is no verdict.
     folder.put("mine.py", program(false, 0.25));
     printed(&folder, |text| text.contains("mine.py has changed"));
-    std::thread::sleep(Duration::from_millis(300));
+    while !folder.join("slow").exists() {
+        std::thread::sleep(Duration::from_millis(50));
+    }
     folder.put("mine.py", program(true, 0.0));
     let text = printed(&folder, |text| verdicts(text) == 2);
     let last = text.strip_prefix(&first).unwrap();

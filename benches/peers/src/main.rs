@@ -12,6 +12,7 @@ mod frames;
 mod growth;
 mod mesh;
 mod outside;
+mod pages;
 mod rates;
 mod retro;
 mod spread;
@@ -96,6 +97,19 @@ fn main() -> ExitCode {
     }
 }
 
+/// Writes the tables and plots of the recorded runs into the page on speed, in both languages.
+fn write_pages() -> Result<(), String> {
+    let read = |path: &str| fs::read_to_string(path).map_err(|error| format!("{path}: {error}"));
+    let mut runs = [(); 3].map(|()| serde_json::Value::Null);
+    for (run, path) in runs.iter_mut().zip(pages::RUNS) {
+        *run = serde_json::from_str(&read(path)?).map_err(|error| format!("{path}: {error}"))?;
+    }
+    for (path, text) in pages::renewed(runs.each_ref(), |path| read(path).unwrap_or_default()) {
+        fs::write(&path, text).map_err(|error| format!("{path}: {error}"))?;
+    }
+    Ok(())
+}
+
 fn run() -> Result<(), String> {
     let mut words = std::env::args().skip(1);
     let (mut quick, mut grows, mut json, mut names) = (false, false, None, Vec::new());
@@ -104,6 +118,7 @@ fn run() -> Result<(), String> {
         match word.as_str() {
             "--quick" => quick = true,
             "--growth" => grows = true,
+            "--pages" => return write_pages(),
             "--only" => return only(&words.collect::<Vec<_>>()),
             // `limits.py` reads these.
             "--rates" => return rates::print(&machine(), &words.collect::<Vec<_>>()),
@@ -115,7 +130,7 @@ fn run() -> Result<(), String> {
             "--json" => json = Some(words.next().ok_or("--json needs the name of a file")?),
             _ if word.starts_with('-') => {
                 return Err(format!(
-                    "{word} is no option: there are --quick, --growth, --only and --json FILE"
+                    "{word} is no option: there are --quick, --growth, --only, --pages and --json FILE"
                 ));
             }
             _ => names.push(word),
