@@ -223,7 +223,7 @@ const TRIANGLES: [(&str, Draw); 18] = [
     }),
 ];
 
-const LINES: [(&str, Draw); 10] = [
+const LINES: [(&str, Draw); 11] = [
     ("the last pixel", |q, right| keep(q, right, &|_, at| at.map(i64::from) != q.points[1])),
     ("the last pixel of diagonals", |q, right| {
         let [dx, dy] = q.side_of(0, 1);
@@ -277,6 +277,25 @@ const LINES: [(&str, Draw); 10] = [
             other.points[end][1 - axis] = a[1 - axis] + way;
         }
         right(&other, 0)
+    }),
+    ("one pixel for each column, also of steep lines", |q, right| {
+        let [dx, dy] = q.side_of(0, 1);
+        if dx == 0 {
+            return right(q, 0);
+        }
+        let mut picture = Picture::new(q.side);
+        let [from, to] =
+            if dx > 0 { [q.points[0], q.points[1]] } else { [q.points[1], q.points[0]] };
+        let dy = dy * dx.signum();
+        for x in from[0].max(0)..=to[0].min(i64::from(q.side[0]) - 1) {
+            // To the nearest; of two as near, the line goes on.
+            let twice = 2 * (x - from[0]) * dy.abs() + dx.abs();
+            let y = from[1] + dy.signum() * twice.div_euclid(2 * dx.abs());
+            if (0..i64::from(q.side[1])).contains(&y) {
+                picture.set([x as i32, y as i32], 1);
+            }
+        }
+        picture
     }),
     ("the two pixels in the middle", |q, right| {
         let side = q.side_of(0, 1).map(i64::abs);

@@ -5,7 +5,7 @@ use super::change::{Change, How, Points, Rule};
 use super::drawer::Drawer;
 use super::edges::{Cut, EdgeTest, Form, Word};
 use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
-use super::quantity::{Name, RATIO};
+use super::quantity::{AXES, Name, RATIO};
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
 use super::walk::{Method, Walk};
@@ -249,6 +249,9 @@ fn walked(walk: &Walk) -> Vec<String> {
     }
     if let Some(bits) = walk.bits {
         said.push(format!("the error term were in a signed word of {bits} bits"));
+    }
+    if let Some(axis) = walk.along {
+        said.push(format!("it had one pixel for each step along {}", AXES[axis]));
     }
     said.push(match walk.from {
         From::Before => "it began at its left or upper end".to_owned(),

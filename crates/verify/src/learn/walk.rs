@@ -42,6 +42,8 @@ pub(super) struct Walk {
     pub(super) method: Method,
     /// The end that it begins at.
     pub(super) from: From,
+    /// The axis that it steps along, whichever is longer; the longer one where that is not said.
+    pub(super) along: Option<usize>,
     /// The word of the error term.
     pub(super) bits: Option<u32>,
 }
@@ -59,16 +61,19 @@ impl Walk {
             is_enough: [true; 2],
         }),
         from: From::Before,
+        along: None,
         bits: None,
     };
     pub(super) const BOTH_AXES: Self = Self {
         method: Method::BothAxes { equal: [true; 2], is_fresh: false, start: [1, -1] },
         from: From::First,
+        along: None,
         bits: None,
     };
     pub(super) const ADDED: Self = Self {
         method: Method::Added { bits: 24, toward: Toward::Nearest },
         from: From::First,
+        along: None,
         bits: None,
     };
 
@@ -88,7 +93,8 @@ impl Walk {
             Method::Added { .. } => 1,
         };
         let is_from_behind = matches!(self.from, From::After | From::Second);
-        of_method + usize::from(self.bits.is_some()) + usize::from(is_from_behind)
+        let others = [self.bits.is_some(), is_from_behind, self.along.is_some()];
+        of_method + others.into_iter().filter(|is_changed| *is_changed).count()
     }
 
     /// All walks with one other field.
@@ -96,6 +102,9 @@ impl Walk {
         let mut all = Vec::new();
         for from in [From::Before, From::After, From::First, From::Second] {
             all.push(Self { from, ..*self });
+        }
+        for along in [None, Some(0), Some(1)] {
+            all.push(Self { along, ..*self });
         }
         for bits in (6..=18).chain([24, 31, 32]).map(Some).chain([None]) {
             all.push(Self { bits, ..*self });
@@ -136,10 +145,12 @@ impl Walk {
         let mut picture = Picture::new(q.side);
         let [mut from, mut to] = [q.points[0], q.points[1]];
         let size = [0, 1].map(|axis| (to[axis] - from[axis]).abs());
-        let longer = usize::from(size[1] > size[0]);
-        if size[longer] > MOST_STEPS {
+        if size[0].max(size[1]) > MOST_STEPS {
             return None;
         }
+        // Along an axis on which it has no length, no line can be walked.
+        let longer = usize::from(size[1] > size[0]);
+        let longer = self.along.filter(|along| size[*along] > 0).unwrap_or(longer);
         let is_turned = match self.from {
             From::Before => from[longer] > to[longer],
             From::After => from[longer] < to[longer],
@@ -165,9 +176,14 @@ impl Walk {
                 let mut at = from;
                 for _ in 0..=size[longer] {
                     plot(at);
-                    if value > 0 || is_enough && value == 0 {
+                    let loss = error.loss[0] * size[longer] + error.loss[1];
+                    while value > 0 || is_enough && value == 0 {
                         at[1 - longer] += step[1 - longer];
-                        value -= error.loss[0] * size[longer] + error.loss[1];
+                        value -= loss;
+                        // Along the shorter axis there are several steps aside, along the longer one at most one.
+                        if self.along.is_none() || loss <= 0 {
+                            break;
+                        }
                     }
                     value = self.in_word(value + error.gain[0] * size[1 - longer] + error.gain[1]);
                     at[longer] += step[longer];
