@@ -25,6 +25,18 @@ impl Toward {
     /// Those that programs use.
     pub(super) const ALL: [Self; 5] =
         [Self::Down, Self::Nearest, Self::Up, Self::Zero, Self::HalfAway];
+
+    /// After 'rounded'.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Down => "down",
+            Self::Nearest => "to the nearest",
+            Self::NearestDown => "to the nearest (a half down)",
+            Self::Up => "up",
+            Self::Zero => "toward 0",
+            Self::HalfAway => "to the nearest (a half away from 0)",
+        }
+    }
 }
 
 /// Which of two pixels of a line is taken that are as near: of a row, whether a sample exactly on its border lies in it.

@@ -3,6 +3,7 @@
 
 use super::border::{Toward, float, round, wrap};
 use super::picture::Picture;
+use super::quantity::ORDINALS;
 use super::question::AnyQuestion;
 use crate::convention::facing;
 
@@ -167,6 +168,98 @@ impl EdgeTest {
         with(&|t| t.turns_by_area = !t.turns_by_area);
         with(&|t| t.looks_beyond = !t.looks_beyond);
         all
+    }
+
+    /// What is not as it should be, after 'as if'.
+    pub(super) fn words(&self, rules: &[String]) -> Vec<String> {
+        let mut said = Vec::new();
+        let form = match self.form {
+            Form::FromEnd(0) if self.float.is_none() => "",
+            Form::FromEnd(0) => {
+                "a pixel were tested by the cross product of each edge with the way from its first end"
+            }
+            Form::FromEnd(_) => {
+                "a pixel were tested by the cross product of each edge with the way from its second end"
+            }
+            Form::Plane => "a pixel were tested by a x + b y + c of each edge",
+            Form::Stepped => {
+                "a pixel were tested by edge functions that are added up from the first pixel of the box"
+            }
+            Form::Weights(_) => {
+                "a pixel were tested by two weights (products over the area) and what they leave of 1"
+            }
+            Form::Dots => "a pixel were tested by weights from dot products",
+            Form::Areas => {
+                "a pixel were tested by the areas of the three triangles that it makes with the corners, compared with the whole"
+            }
+        };
+        if !form.is_empty() {
+            said.push(form.to_owned());
+        }
+        // Products of coordinates are in 1/65536 px².
+        let area = |bits: u32| format!("{} px²", f64::from(2).powi(bits as i32 - 16));
+        if let Some(bits) = self.float {
+            said.push(format!("its numbers were floats of {bits} bits"));
+        }
+        match self.word {
+            None => {}
+            Some(Word::Differences(bits)) => {
+                let most = f64::from(2).powi(bits as i32 - 9);
+                said.push(format!(
+                    "differences of coordinates were in words from -{most} to {most} px"
+                ));
+            }
+            Some(Word::Products(bits)) => {
+                let most = area(bits - 1);
+                said.push(format!("products of coordinates were in words from -{most} to {most}"));
+            }
+            Some(Word::Sums(bits)) => {
+                let most = area(bits - 1);
+                said.push(format!("edge functions were in words from -{most} to {most}"));
+            }
+        }
+        match self.cut {
+            None => {}
+            Some(Cut::Products(bits, way)) => said.push(format!(
+                "products of coordinates were rounded {}, to multiples of {}",
+                way.words(),
+                area(bits)
+            )),
+            Some(Cut::Sums(bits, way)) => said.push(format!(
+                "edge functions were rounded {}, to multiples of {}, before the fill rule",
+                way.words(),
+                area(bits)
+            )),
+        }
+        if self.ties > 0 {
+            said.push(format!("a sample on an edge were decided {}", rules[self.ties]));
+        }
+        if let Some(edge) = self.odd_tie {
+            said.push(format!("one on the {} edge the other way", ORDINALS[edge]));
+        }
+        if self.slack != 0.0 {
+            let unit = match self.form {
+                Form::Weights(_) | Form::Dots => "",
+                _ => " px²",
+            };
+            said.push(format!("a number had to be at least {}{unit}", -self.slack));
+        }
+        if let Some(edge) = self.untested {
+            said.push(format!("the {} edge were not tested", ORDINALS[edge]));
+        }
+        if let Some([a, b]) = self.exchanges {
+            let (a, b) = (ORDINALS[a], ORDINALS[b]);
+            said.push(format!(
+                "of counterclockwise ones the {a} and the {b} corner changed places"
+            ));
+        }
+        if self.turns_by_area {
+            said.push("the winding came from the area, computed likewise".to_owned());
+        }
+        if self.looks_beyond {
+            said.push("pixels beyond the box of the corners were looked at".to_owned());
+        }
+        said
     }
 
     /// The picture that it draws; `owns` tells of a rule for ties and a direction that an edge faces whether samples on it are drawn.

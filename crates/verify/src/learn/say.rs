@@ -1,14 +1,12 @@
 //! What is said of a model, in words.
 
-use super::border::{Crossing, Distance, From, Product, Slope, Tie, Toward};
+use super::border::{Crossing, Distance, From, Product, Slope, Tie};
 use super::change::{Change, How, Points, Rule};
 use super::drawer::Drawer;
-use super::edges::{Cut, EdgeTest, Form, Word};
 use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
-use super::quantity::{AXES, Name, RATIO};
+use super::quantity::{Name, ORDINALS, RATIO};
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
-use super::walk::{Method, Walk};
 
 /// A number of a quantity, in px or px² where it is one.
 pub(super) fn number(unit: Unit, v: i64) -> String {
@@ -122,7 +120,7 @@ pub(super) fn sentences(
     }
     out.extend(model.borders.iter().map(|guarded| border(guarded, is_line, vocabulary)));
     if let Some(way) = model.rows.heights {
-        let corners = format!("their corners, rounded {} to whole px", toward(way));
+        let corners = format!("their corners, rounded {} to whole px", way.words());
         out.push(format!("Edges have the rows from one to the other of {corners}."));
     }
     if model.rows.exchanges_ends {
@@ -153,8 +151,8 @@ fn base(
     let mut parts = if is_nothing { Vec::new() } else { parts };
     match &guarded.base.rule {
         Rule::Convention(_) => {}
-        Rule::Edges(test) => parts.extend(tested(test, drawer)),
-        Rule::Walk(walk) => parts.extend(walked(walk)),
+        Rule::Edges(test) => parts.extend(test.words(drawer.rules())),
+        Rule::Walk(walk) => parts.extend(walk.words()),
     }
     let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
     if !rule.is_empty() {
@@ -170,188 +168,6 @@ fn base(
         (None, false) => format!("It {how}."),
         (None, true) => format!("Elsewhere, it {how}."),
     }
-}
-
-/// A sum of some numbers with their units, such as '2 dv - du'.
-fn sum(parts: [(i64, &str); 3]) -> String {
-    let mut said = String::new();
-    for (number, unit) in parts.into_iter().filter(|(number, _)| *number != 0) {
-        let sign = match (number < 0, said.is_empty()) {
-            (true, true) => "-",
-            (true, false) => " - ",
-            (false, true) => "",
-            (false, false) => " + ",
-        };
-        let size = match number.abs() {
-            1 if !unit.is_empty() => unit.trim_start().to_owned(),
-            size => format!("{size}{unit}"),
-        };
-        said += &format!("{sign}{size}");
-    }
-    if said.is_empty() { "0".to_owned() } else { said }
-}
-
-/// How a line is walked.
-fn walked(walk: &Walk) -> Vec<String> {
-    let mut said = Vec::new();
-    let right = Walk::RIGHT;
-    match (walk.method, right.method) {
-        (Method::Error(error), Method::Error(right)) => {
-            if error.start != right.start || error.is_halved {
-                let half =
-                    if error.is_halved { ", half of an odd number rounded down" } else { "" };
-                said.push(format!(
-                    "the error term began at {}{half}, not at 2 dv - du (du is the length, dv the side way)",
-                    sum([(error.start[1], " dv"), (error.start[0], " du"), (error.start[2], "")])
-                ));
-            }
-            if error.gain != right.gain {
-                let by = sum([(error.gain[0], " dv"), (error.gain[1], ""), (0, "")]);
-                said.push(format!("the error term grew at each step by {by}, not by 2 dv"));
-            }
-            if error.loss != right.loss {
-                let by = sum([(error.loss[0], " du"), (error.loss[1], ""), (0, "")]);
-                said.push(format!("the error term shrank at each side step by {by}, not by 2 du"));
-            }
-            if said.is_empty() {
-                said.push("an error term were added up".to_owned());
-            }
-            said.push(match error.is_enough {
-                [true, true] => "a tie went on, seen from its start".to_owned(),
-                [false, false] => "a tie went back, seen from its start".to_owned(),
-                [is_on, _] => {
-                    let way = if is_on { "on" } else { "back" };
-                    format!("a tie went {way}, seen from its left or upper end")
-                }
-            });
-        }
-        (Method::BothAxes { equal, is_fresh, start }, _) => {
-            said.push("one error term decided the steps along both axes".to_owned());
-            let [of_x, of_y] = equal.map(|is| if is { "taken" } else { "not taken" });
-            said.push(format!(
-                "where twice the term equals its limit, a step in x were {of_x} and one in y {of_y}"
-            ));
-            if is_fresh {
-                said.push("the term were doubled anew after a step in x".to_owned());
-            }
-            if start != [1, -1] {
-                let [dx, dy] = start;
-                said.push(format!(
-                    "the term began with {dx} |dx| {dy:+} |dy|, where it should be 1 and -1"
-                ));
-            }
-        }
-        (Method::Added { bits, toward: way }, _) => {
-            said.push(format!("its coordinates were added up in floats of {bits} bits"));
-            said.push(format!("each pixel were rounded {}", toward(way)));
-        }
-        (Method::Error(_), _) => {}
-    }
-    if let Some(bits) = walk.bits {
-        said.push(format!("the error term were in a signed word of {bits} bits"));
-    }
-    if let Some(axis) = walk.along {
-        said.push(format!("it had one pixel for each step along {}", AXES[axis]));
-    }
-    said.push(match walk.from {
-        From::Before => "it began at its left or upper end".to_owned(),
-        From::After => "it began at its right or lower end".to_owned(),
-        From::First => "it began at its first end".to_owned(),
-        From::Second => "it began at its last end".to_owned(),
-    });
-    said
-}
-
-const ORDINALS: [&str; 3] = ["first", "second", "third"];
-
-/// What is not as it should be where a sample is held against the edges.
-fn tested(test: &EdgeTest, drawer: &dyn Drawer) -> Vec<String> {
-    let mut said = Vec::new();
-    let form = match test.form {
-        Form::FromEnd(0) if test.float.is_none() => "",
-        Form::FromEnd(0) => {
-            "a pixel were tested by the cross product of each edge with the way from its first end"
-        }
-        Form::FromEnd(_) => {
-            "a pixel were tested by the cross product of each edge with the way from its second end"
-        }
-        Form::Plane => "a pixel were tested by a x + b y + c of each edge",
-        Form::Stepped => {
-            "a pixel were tested by edge functions that are added up from the first pixel of the box"
-        }
-        Form::Weights(_) => {
-            "a pixel were tested by two weights (products over the area) and what they leave of 1"
-        }
-        Form::Dots => "a pixel were tested by weights from dot products",
-        Form::Areas => {
-            "a pixel were tested by the areas of the three triangles that it makes with the corners, compared with the whole"
-        }
-    };
-    if !form.is_empty() {
-        said.push(form.to_owned());
-    }
-    // Products of coordinates are in 1/65536 px².
-    let area = |bits: u32| format!("{} px²", f64::from(2).powi(bits as i32 - 16));
-    if let Some(bits) = test.float {
-        said.push(format!("its numbers were floats of {bits} bits"));
-    }
-    match test.word {
-        None => {}
-        Some(Word::Differences(bits)) => {
-            let most = f64::from(2).powi(bits as i32 - 9);
-            said.push(format!(
-                "differences of coordinates were in words from -{most} to {most} px"
-            ));
-        }
-        Some(Word::Products(bits)) => {
-            let most = area(bits - 1);
-            said.push(format!("products of coordinates were in words from -{most} to {most}"));
-        }
-        Some(Word::Sums(bits)) => {
-            let most = area(bits - 1);
-            said.push(format!("edge functions were in words from -{most} to {most}"));
-        }
-    }
-    match test.cut {
-        None => {}
-        Some(Cut::Products(bits, way)) => said.push(format!(
-            "products of coordinates were rounded {}, to multiples of {}",
-            toward(way),
-            area(bits)
-        )),
-        Some(Cut::Sums(bits, way)) => said.push(format!(
-            "edge functions were rounded {}, to multiples of {}, before the fill rule",
-            toward(way),
-            area(bits)
-        )),
-    }
-    if test.ties > 0 {
-        said.push(format!("a sample on an edge were decided {}", drawer.rules()[test.ties]));
-    }
-    if let Some(edge) = test.odd_tie {
-        said.push(format!("one on the {} edge the other way", ORDINALS[edge]));
-    }
-    if test.slack != 0.0 {
-        let unit = match test.form {
-            Form::Weights(_) | Form::Dots => "",
-            _ => " px²",
-        };
-        said.push(format!("a number had to be at least {}{unit}", -test.slack));
-    }
-    if let Some(edge) = test.untested {
-        said.push(format!("the {} edge were not tested", ORDINALS[edge]));
-    }
-    if let Some([a, b]) = test.exchanges {
-        let (a, b) = (ORDINALS[a], ORDINALS[b]);
-        said.push(format!("of counterclockwise ones the {a} and the {b} corner changed places"));
-    }
-    if test.turns_by_area {
-        said.push("the winding came from the area, computed likewise".to_owned());
-    }
-    if test.looks_beyond {
-        said.push("pixels beyond the box of the corners were looked at".to_owned());
-    }
-    said
 }
 
 /// Where one of some conjunctions holds.
@@ -379,17 +195,6 @@ fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> St
     }
 }
 
-fn toward(toward: Toward) -> &'static str {
-    match toward {
-        Toward::Down => "down",
-        Toward::Nearest => "to the nearest",
-        Toward::NearestDown => "to the nearest (a half down)",
-        Toward::Up => "up",
-        Toward::Zero => "toward 0",
-        Toward::HalfAway => "to the nearest (a half away from 0)",
-    }
-}
-
 /// What is not as it should be in a formula of a border.
 fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     let edge = if is_line { "the line" } else { "the edge" };
@@ -407,13 +212,13 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     for (start, name) in crossing.start.iter().zip(names) {
         said.extend(
             start.map(|t| {
-                format!("the start of {edge} had {name} rounded {} to whole px", toward(t))
+                format!("the start of {edge} had {name} rounded {} to whole px", t.words())
             }),
         );
     }
     for (side, name) in crossing.sides.iter().zip([side, if is_line { "length" } else { "y" }]) {
         said.extend(side.map(|t| {
-            let ends = format!("between ends whose {name} is rounded {} to whole px", toward(t));
+            let ends = format!("between ends whose {name} is rounded {} to whole px", t.words());
             format!("the slope of {edge} were that {ends}")
         }));
     }
@@ -442,7 +247,7 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
             let word = word.map_or_else(String::new, |bits| format!(", in a word of {bits} bits"));
             said.push(format!(
                 "the slope of {edge} had {fraction} bits of fraction, rounded {}{word}",
-                toward(way)
+                way.words()
             ));
         }
     }
@@ -462,7 +267,7 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
         }
         Product::Rounded(step, way) => said.push(format!(
             "slope times distance were rounded {}, to multiples of {}",
-            toward(way),
+            way.words(),
             multiple(step, 65536.0)
         )),
     }
@@ -480,10 +285,10 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
     }
     if let Some((step, way)) = crossing.sum {
         let multiple = multiple(step, 65536.0);
-        said.push(format!("the result were rounded {}, to multiples of {multiple}", toward(way)));
+        said.push(format!("the result were rounded {}, to multiples of {multiple}", way.words()));
     }
     if let Some((pixels, way)) = crossing.group {
-        said.push(format!("its pixel were rounded {}, to multiples of {pixels}", toward(way)));
+        said.push(format!("its pixel were rounded {}, to multiples of {pixels}", way.words()));
     }
     let has_formula = crossing.changes() > 0;
     let both = if ends == [true, true] && crossing.ties[0] != crossing.ties[1] {
@@ -568,7 +373,7 @@ fn change(change: &Change, is_line: bool) -> String {
                 Points::Given(0) => "the first end, where it is beyond the window",
                 _ => "the second end, where it is beyond the window",
             };
-            let rounded = format!("rounded {} to a whole pixel", toward(*way));
+            let rounded = format!("rounded {} to a whole pixel", way.words());
             return format!(
                 "{of}{beyond}, was replaced by the point where the line enters the window, {rounded}"
             );
@@ -576,7 +381,7 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Clip(clip) => {
             let names = ["left", "right", "upper", "lower"];
             let borders = clip.order.map(|border| names[border]).join(", ");
-            let way = toward(clip.toward);
+            let way = clip.toward.words();
             let end = ["first", "last"][usize::from(clip.last_first)];
             let margin = ["", ", which lie one pixel after its last"][usize::from(clip.margin > 0)];
             return format!(
@@ -607,7 +412,7 @@ fn transformed(how: How, one: f64) -> String {
     match how {
         How::Snap(step, way) => {
             let multiple = multiple(step, one);
-            format!("rounded {}, to multiples of {multiple}", toward(way))
+            format!("rounded {}, to multiples of {multiple}", way.words())
         }
         How::Add(by) => format!("moved by {}", px(by)),
         How::AtLeast(least) => format!("at least {}", px(least)),

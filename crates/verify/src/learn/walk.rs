@@ -2,6 +2,7 @@
 
 use super::border::{From, Toward, float};
 use super::picture::{MARGIN, Picture};
+use super::quantity::AXES;
 use super::question::AnyQuestion;
 
 /// What tells when the line goes aside. `du` and `dv` are its lengths along the longer and the shorter axis.
@@ -47,6 +48,20 @@ pub(super) struct Walk {
     /// The word of the error term.
     pub(super) bits: Option<u32>,
 }
+
+/// A line in the direction in which it is walked.
+struct Way {
+    from: [i64; 2],
+    to: [i64; 2],
+    /// |dx| and |dy|, and their directions.
+    size: [i64; 2],
+    step: [i64; 2],
+    /// The axis along which there is a pixel for each step.
+    axis: usize,
+}
+
+/// Takes the pixels of a line.
+type Plot<'a> = &'a mut dyn FnMut([i64; 2]);
 
 /// Steps beyond which a line is not walked.
 const MOST_STEPS: i64 = 1 << 17;
@@ -140,27 +155,83 @@ impl Walk {
         all
     }
 
+    /// How it walks, after 'as if'.
+    pub(super) fn words(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        let right = Self::RIGHT;
+        match (self.method, right.method) {
+            (Method::Error(error), Method::Error(right)) => {
+                if error.start != right.start || error.is_halved {
+                    let half =
+                        if error.is_halved { ", half of an odd number rounded down" } else { "" };
+                    said.push(format!(
+                    "the error term began at {}{half}, not at 2 dv - du (du is the length, dv the side way)",
+                    sum([(error.start[1], " dv"), (error.start[0], " du"), (error.start[2], "")])
+                ));
+                }
+                if error.gain != right.gain {
+                    let by = sum([(error.gain[0], " dv"), (error.gain[1], ""), (0, "")]);
+                    said.push(format!("the error term grew at each step by {by}, not by 2 dv"));
+                }
+                if error.loss != right.loss {
+                    let by = sum([(error.loss[0], " du"), (error.loss[1], ""), (0, "")]);
+                    said.push(format!(
+                        "the error term shrank at each side step by {by}, not by 2 du"
+                    ));
+                }
+                if said.is_empty() {
+                    said.push("an error term were added up".to_owned());
+                }
+                said.push(match error.is_enough {
+                    [true, true] => "a tie went on, seen from its start".to_owned(),
+                    [false, false] => "a tie went back, seen from its start".to_owned(),
+                    [is_on, _] => {
+                        let way = if is_on { "on" } else { "back" };
+                        format!("a tie went {way}, seen from its left or upper end")
+                    }
+                });
+            }
+            (Method::BothAxes { equal, is_fresh, start }, _) => {
+                said.push("one error term decided the steps along both axes".to_owned());
+                let [of_x, of_y] = equal.map(|is| if is { "taken" } else { "not taken" });
+                said.push(format!(
+                "where twice the term equals its limit, a step in x were {of_x} and one in y {of_y}"
+            ));
+                if is_fresh {
+                    said.push("the term were doubled anew after a step in x".to_owned());
+                }
+                if start != [1, -1] {
+                    let [dx, dy] = start;
+                    said.push(format!(
+                        "the term began with {dx} |dx| {dy:+} |dy|, where it should be 1 and -1"
+                    ));
+                }
+            }
+            (Method::Added { bits, toward: way }, _) => {
+                said.push(format!("its coordinates were added up in floats of {bits} bits"));
+                said.push(format!("each pixel were rounded {}", way.words()));
+            }
+            (Method::Error(_), _) => {}
+        }
+        if let Some(bits) = self.bits {
+            said.push(format!("the error term were in a signed word of {bits} bits"));
+        }
+        if let Some(axis) = self.along {
+            said.push(format!("it had one pixel for each step along {}", AXES[axis]));
+        }
+        said.push(match self.from {
+            From::Before => "it began at its left or upper end".to_owned(),
+            From::After => "it began at its right or lower end".to_owned(),
+            From::First => "it began at its first end".to_owned(),
+            From::Second => "it began at its last end".to_owned(),
+        });
+        said
+    }
+
     /// The picture of a line; nothing where it is too long to be walked.
     pub(super) fn draw(&self, q: &AnyQuestion) -> Option<Picture> {
+        let way = self.way(q)?;
         let mut picture = Picture::new(q.side);
-        let [mut from, mut to] = [q.points[0], q.points[1]];
-        let size = [0, 1].map(|axis| (to[axis] - from[axis]).abs());
-        if size[0].max(size[1]) > MOST_STEPS {
-            return None;
-        }
-        // Along an axis on which it has no length, no line can be walked.
-        let longer = usize::from(size[1] > size[0]);
-        let longer = self.along.filter(|along| size[*along] > 0).unwrap_or(longer);
-        let is_turned = match self.from {
-            From::Before => from[longer] > to[longer],
-            From::After => from[longer] < to[longer],
-            From::First => false,
-            From::Second => true,
-        };
-        if is_turned {
-            std::mem::swap(&mut from, &mut to);
-        }
-        let step = [0, 1].map(|axis| (to[axis] - from[axis]).signum());
         // Steps are many, and few of them are in the picture.
         let [columns, rows] = q.side.map(|side| i64::from(side + MARGIN));
         let mut plot = |[x, y]: [i64; 2]| {
@@ -170,69 +241,131 @@ impl Walk {
             }
         };
         match self.method {
-            Method::Error(error) => {
-                let mut value = self.in_word(error.begins(size[longer], size[1 - longer]));
-                let is_enough = error.is_enough[usize::from(step[longer] < 0)];
-                let mut at = from;
-                for _ in 0..=size[longer] {
-                    plot(at);
-                    let loss = error.loss[0] * size[longer] + error.loss[1];
-                    while value > 0 || is_enough && value == 0 {
-                        at[1 - longer] += step[1 - longer];
-                        value -= loss;
-                        // Along the shorter axis there are several steps aside, along the longer one at most one.
-                        if self.along.is_none() || loss <= 0 {
-                            break;
-                        }
-                    }
-                    value = self.in_word(value + error.gain[0] * size[1 - longer] + error.gain[1]);
-                    at[longer] += step[longer];
-                }
-            }
+            Method::Error(error) => self.by_error(error, &way, &mut plot),
             Method::BothAxes { equal, is_fresh, start } => {
-                let mut value = self.in_word(start[0] * size[0] + start[1] * size[1]);
-                let mut at = from;
-                // A walk that misses its end would not stop.
-                for _ in 0..=2 * (size[0] + size[1]) {
-                    plot(at);
-                    if at == to {
-                        break;
-                    }
-                    let mut twice = self.in_word(2 * value);
-                    if twice > -size[1] || equal[0] && twice == -size[1] {
-                        value -= size[1];
-                        at[0] += step[0];
-                    }
-                    if is_fresh {
-                        twice = self.in_word(2 * value);
-                    }
-                    if twice < size[0] || equal[1] && twice == size[0] {
-                        value += size[0];
-                        at[1] += step[1];
-                    }
-                    value = self.in_word(value);
-                }
+                self.on_both_axes(equal, is_fresh, start, &way, &mut plot);
             }
-            Method::Added { bits, toward } => {
-                let mut at = from.map(|v| v as f64);
-                let by = [0, 1].map(|axis| {
-                    let way = (to[axis] - from[axis]) as f64;
-                    float(way / size[longer].max(1) as f64, bits)
-                });
-                for _ in 0..=size[longer] {
-                    plot([rounded(at[0], bits, toward), rounded(at[1], bits, toward)]);
-                    at[0] = float(at[0] + by[0], bits);
-                    at[1] = float(at[1] + by[1], bits);
-                }
-            }
+            Method::Added { bits, toward } => added(bits, toward, &way, &mut plot),
         }
         Some(picture)
+    }
+
+    /// Where the line goes; nothing where that is too far.
+    fn way(&self, q: &AnyQuestion) -> Option<Way> {
+        let [mut from, mut to] = [q.points[0], q.points[1]];
+        let size = [0, 1].map(|axis| (to[axis] - from[axis]).abs());
+        if size[0].max(size[1]) > MOST_STEPS {
+            return None;
+        }
+        // Along an axis on which it has no length, no line can be walked.
+        let longer = usize::from(size[1] > size[0]);
+        let axis = self.along.filter(|along| size[*along] > 0).unwrap_or(longer);
+        let is_turned = match self.from {
+            From::Before => from[axis] > to[axis],
+            From::After => from[axis] < to[axis],
+            From::First => false,
+            From::Second => true,
+        };
+        if is_turned {
+            std::mem::swap(&mut from, &mut to);
+        }
+        let step = [0, 1].map(|axis| (to[axis] - from[axis]).signum());
+        Some(Way { from, to, size, step, axis })
+    }
+
+    fn by_error(&self, error: Error, way: &Way, plot: Plot<'_>) {
+        let (axis, side) = (way.axis, 1 - way.axis);
+        let (du, dv) = (way.size[axis], way.size[side]);
+        let gain = error.gain[0] * dv + error.gain[1];
+        let loss = error.loss[0] * du + error.loss[1];
+        let is_enough = error.is_enough[usize::from(way.step[axis] < 0)];
+        let mut value = self.in_word(error.begins(du, dv));
+        let mut at = way.from;
+        for _ in 0..=du {
+            plot(at);
+            while value > 0 || is_enough && value == 0 {
+                at[side] += way.step[side];
+                value -= loss;
+                // Along the shorter axis there are several steps aside, along the longer one at most one.
+                if self.along.is_none() || loss <= 0 {
+                    break;
+                }
+            }
+            value = self.in_word(value + gain);
+            at[axis] += way.step[axis];
+        }
+    }
+
+    fn on_both_axes(
+        &self,
+        equal: [bool; 2],
+        is_fresh: bool,
+        start: [i64; 2],
+        way: &Way,
+        plot: Plot<'_>,
+    ) {
+        let [dx, dy] = way.size;
+        let mut value = self.in_word(start[0] * dx + start[1] * dy);
+        let mut at = way.from;
+        // A walk that misses its end would not stop.
+        for _ in 0..=2 * (dx + dy) {
+            plot(at);
+            if at == way.to {
+                break;
+            }
+            let mut twice = self.in_word(2 * value);
+            if twice > -dy || equal[0] && twice == -dy {
+                value -= dy;
+                at[0] += way.step[0];
+            }
+            if is_fresh {
+                twice = self.in_word(2 * value);
+            }
+            if twice < dx || equal[1] && twice == dx {
+                value += dx;
+                at[1] += way.step[1];
+            }
+            value = self.in_word(value);
+        }
     }
 
     fn in_word(&self, v: i64) -> i64 {
         // The bits that do not fit are shifted out, and the sign comes back.
         self.bits.map_or(v, |bits| v << (64 - bits) >> (64 - bits))
     }
+}
+
+fn added(bits: u32, toward: Toward, way: &Way, plot: Plot<'_>) {
+    let steps = way.size[way.axis];
+    let mut at = way.from.map(|v| v as f64);
+    let by = [0, 1].map(|axis| {
+        let length = (way.to[axis] - way.from[axis]) as f64;
+        float(length / steps.max(1) as f64, bits)
+    });
+    for _ in 0..=steps {
+        plot([rounded(at[0], bits, toward), rounded(at[1], bits, toward)]);
+        at[0] = float(at[0] + by[0], bits);
+        at[1] = float(at[1] + by[1], bits);
+    }
+}
+
+/// A sum of some numbers with their units, such as '2 dv - du'.
+fn sum(parts: [(i64, &str); 3]) -> String {
+    let mut said = String::new();
+    for (number, unit) in parts.into_iter().filter(|(number, _)| *number != 0) {
+        let sign = match (number < 0, said.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        let size = match number.abs() {
+            1 if !unit.is_empty() => unit.trim_start().to_owned(),
+            size => format!("{size}{unit}"),
+        };
+        said += &format!("{sign}{size}");
+    }
+    if said.is_empty() { "0".to_owned() } else { said }
 }
 
 /// A float as a pixel. To the nearest is down after a half is added, which is rounded, too.
