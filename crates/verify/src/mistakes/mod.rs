@@ -148,6 +148,11 @@ impl Explanation {
         missed(&self.wrong) + missed(&self.right)
     }
 
+    /// Whether it misses one answer of a hundred at most.
+    fn explains_nearly_all(&self) -> bool {
+        100 * self.missed() as u64 <= self.wrong.of + self.right.of
+    }
+
     /// A program that is known, with what is wrong with it.
     #[must_use]
     pub fn of_program(name: &'static str, about: String) -> Self {
@@ -162,7 +167,7 @@ impl Explanation {
 pub struct Mistakes {
     /// The mistakes that explain it: several where they explain the same.
     pub causes: Vec<Explanation>,
-    /// The nearest one, where none explains it.
+    /// The nearest one, where none explains every answer.
     pub lead: Option<Explanation>,
     /// What all wrong answers have in common, as sentences; where none explains it.
     pub common: Vec<String>,
@@ -212,7 +217,11 @@ impl Mistakes {
         let is_certain = learned.as_ref().is_some_and(|learned| learned.is_certain);
         match (self.causes.is_empty(), is_certain) {
             (false, false) => self,
-            (false, true) => Self { causes: Vec::new(), ..self }.with_learned(learned),
+            (false, true) => {
+                // Its repair is what mends the program all the same.
+                let lead = self.causes.first().cloned();
+                Self { causes: Vec::new(), lead, ..self }.with_learned(learned)
+            }
             (true, _) => self.with_learned(learned),
         }
     }
@@ -244,6 +253,12 @@ impl Mistakes {
         }
         if let Some(learned) = self.learned.as_ref().filter(|learned| learned.is_certain) {
             said.extend(learned.sentences());
+            let is_like =
+                |lead: &&Explanation| lead.explains_nearly_all() && !lead.repair.is_empty();
+            if let Some(lead) = self.lead.as_ref().filter(is_like) {
+                said.push(format!("The nearest known mistake is that it {}.", lead.does));
+                said.push(format!("Its repair: {}.", lead.repair));
+            }
         }
         if self.is_known() {
             let more = self.causes.len().saturating_sub(MOST_SAID);
