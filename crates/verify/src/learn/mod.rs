@@ -145,12 +145,15 @@ pub struct Start<'a, C> {
     pub is_right: bool,
 }
 
-/// What is right, and then what comes nearest to the program, if that is known and another one.
-pub(crate) fn starts<'a, C: PartialEq>(right: &'a C, nearest: Option<&'a C>) -> Vec<Start<'a, C>> {
-    let mut all = vec![Start { convention: right, is_right: true }];
-    let other = nearest.filter(|nearest| *nearest != right);
-    all.extend(other.map(|convention| Start { convention, is_right: false }));
-    all
+/// What a program is compared with, and then what comes nearest to it, if that is known and another one.
+pub(crate) fn starts<'a, C: PartialEq>(
+    declared: &C,
+    expected: &'a C,
+    nearest: Option<&'a C>,
+) -> Vec<Start<'a, C>> {
+    let start = |convention| Start { convention, is_right: convention == declared };
+    let other = nearest.filter(|nearest| *nearest != expected);
+    std::iter::once(expected).chain(other).map(start).collect()
 }
 
 /// The first certain explanation of a program compared with one convention after another, or the one that predicts most.

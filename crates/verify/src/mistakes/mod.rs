@@ -214,8 +214,9 @@ impl Mistakes {
             return self;
         }
         let learned = learn();
-        let is_certain = learned.as_ref().is_some_and(|learned| learned.is_certain);
-        match (self.causes.is_empty(), is_certain) {
+        // What comes on top of another convention is no simpler than the mistake.
+        let is_better = |learned: &Learned| learned.is_certain && !learned.is_beyond;
+        match (self.causes.is_empty(), learned.as_ref().is_some_and(is_better)) {
             (false, false) => self,
             (false, true) => {
                 // Its repair is what mends the program all the same.
@@ -443,7 +444,7 @@ pub fn of_triangles(
         }
     }
     let why = with_limits(why, answered.len(), limits);
-    let starts = learn::starts(expected, found);
+    let starts = learn::starts(&known.declared, expected, found);
     or_learned(why, answered.len(), || learn?(ask, known, &starts))
 }
 
@@ -668,7 +669,7 @@ pub fn of_lines(
     let why = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
     let limits = thresholds::of_lines(ask, known, expected);
     let why = with_limits(why, is_wrong.len(), limits);
-    let starts = learn::starts(expected, found);
+    let starts = learn::starts(&default, expected, found);
     or_learned(why, is_wrong.len(), || learn::of_lines(ask, known, &starts))
 }
 
