@@ -290,7 +290,7 @@ impl Base {
             Rule::Convention(number) => drawer.right(&q, *number)?,
             Rule::Edges(test) => {
                 drawer.work().spend(EDGES_OF_A_PIXEL * q.pixels());
-                test.draw(&q, drawer.sample(), &|rule| drawer.ties(rule))
+                test.draw(&q, drawer.sample(), drawer.ties(test.ties))
             }
             Rule::Walk(walk) => {
                 let [width, height] = q.extent();

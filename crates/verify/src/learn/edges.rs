@@ -24,7 +24,7 @@ pub(super) enum Form {
     Areas,
 }
 
-/// Where a number is too large for its word, of so many bits; units are as in [`Cut`].
+/// Where a number is too large for its word, of so many bits: differences in 1/256 px, the others in 1/65536 px².
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Word {
     Differences(u32),
@@ -262,17 +262,12 @@ impl EdgeTest {
         said
     }
 
-    /// The picture that it draws; `owns` tells of a rule for ties and a direction that an edge faces whether samples on it are drawn.
-    pub(super) fn draw(
-        &self,
-        q: &AnyQuestion,
-        sample: [i64; 2],
-        owns: &dyn Fn(usize) -> [bool; 8],
-    ) -> Picture {
+    /// The picture that it draws; of each direction that an edge may face, its rule for ties says whether samples on it are `owned`.
+    pub(super) fn draw(&self, q: &AnyQuestion, sample: [i64; 2], owned: [bool; 8]) -> Picture {
         let mut picture = Picture::new(q.side);
         let Some(numbers) = Numbers::of(self, q) else { return picture };
         for at in picture.all() {
-            if numbers.is_inside(at.map(i64::from), sample, owns(self.ties)) {
+            if numbers.is_inside(at.map(i64::from), sample, owned) {
                 picture.set(at, 1);
             }
         }
