@@ -26,7 +26,7 @@ impl Toward {
     pub(super) const ALL: [Self; 5] =
         [Self::Down, Self::Nearest, Self::Up, Self::Zero, Self::HalfAway];
 
-    /// After 'rounded'.
+    /// Which way, as it is said after 'rounded'.
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::Down => "down",
@@ -66,6 +66,31 @@ pub(super) enum From {
     /// The end that is given first.
     First,
     Second,
+}
+
+impl From {
+    /// Whether whoever goes from one place to another begins at the other one.
+    pub(super) fn is_turned<T: PartialOrd>(self, from: T, to: T) -> bool {
+        match self {
+            Self::Before => from > to,
+            Self::After => from < to,
+            Self::First => false,
+            Self::Second => true,
+        }
+    }
+}
+
+/// Adds a formula that differs from this one by a change, unless it is the same.
+pub(super) fn add_changed<F: Copy + PartialEq>(
+    all: &mut Vec<F>,
+    this: &F,
+    change: &dyn Fn(&mut F),
+) {
+    let mut other = *this;
+    change(&mut other);
+    if other != *this {
+        all.push(other);
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,13 +225,7 @@ impl Crossing {
     pub(super) fn variants(&self) -> Vec<Self> {
         let right = Self::RIGHT;
         let mut all = Vec::new();
-        let mut with = |change: &dyn Fn(&mut Self)| {
-            let mut other = *self;
-            change(&mut other);
-            if other != *self {
-                all.push(other);
-            }
-        };
+        let mut with = |change: &dyn Fn(&mut Self)| add_changed(&mut all, self, change);
         // Each field as in the right formula.
         with(&|c| c.from = right.from);
         for way in [0, 1] {
@@ -346,13 +365,7 @@ impl Site {
         let one = 256 / q.one();
         let point = |i: usize| [0, 1].map(|axis| i128::from(q.points[i][axis] * one));
         let [mut a, mut b] = self.points.map(point);
-        let is_turned = match formula.from {
-            From::Before => a[axis] > b[axis],
-            From::After => a[axis] < b[axis],
-            From::First => false,
-            From::Second => true,
-        };
-        if is_turned {
+        if formula.from.is_turned(a[axis], b[axis]) {
             std::mem::swap(&mut a, &mut b);
         }
         if formula.exchanged {

@@ -88,9 +88,9 @@ pub(super) enum Change {
 pub(super) enum Rule {
     /// One of the conventions of a [`Drawer`]; the right one is number 0.
     Convention(usize),
-    /// Of triangles.
+    /// A triangle whose samples are held against its edges in some arithmetic.
     Edges(EdgeTest),
-    /// Of lines.
+    /// A line that is walked pixel by pixel in some arithmetic.
     Walk(Walk),
 }
 

@@ -1,7 +1,7 @@
 //! Pixels decided by the three edges of a triangle: what a program computes of a sample and an edge is a product, and each
 //! part of it has a format.
 
-use super::border::{Toward, float, round, wrap};
+use super::border::{Toward, add_changed, float, round, wrap};
 use super::picture::Picture;
 use super::quantity::ORDINALS;
 use super::question::AnyQuestion;
@@ -12,7 +12,7 @@ use crate::convention::facing;
 pub(super) enum Form {
     /// The product of an edge with the way to the sample from its first end or from its second.
     FromEnd(usize),
-    /// a x + b y + c.
+    /// a x + b y + c, where the products of the ends in c cancel.
     Plane,
     /// The same, added up pixel by pixel from the first one of the box.
     Stepped,
@@ -37,6 +37,63 @@ pub(super) enum Word {
 pub(super) enum Cut {
     Products(u32, Toward),
     Sums(u32, Toward),
+}
+
+impl Form {
+    /// After 'as if'; nothing of the usual form in whole numbers, where the end makes no difference.
+    fn words(self, is_float: bool) -> Option<&'static str> {
+        Some(match self {
+            Self::FromEnd(0) if !is_float => return None,
+            Self::FromEnd(0) => {
+                "a pixel were tested by the cross product of each edge with the way from its first end"
+            }
+            Self::FromEnd(_) => {
+                "a pixel were tested by the cross product of each edge with the way from its second end"
+            }
+            Self::Plane => "a pixel were tested by a x + b y + c of each edge",
+            Self::Stepped => {
+                "a pixel were tested by edge functions that are added up from the first pixel of the box"
+            }
+            Self::Weights(_) => {
+                "a pixel were tested by two weights (products over the area) and what they leave of 1"
+            }
+            Self::Dots => "a pixel were tested by weights from dot products",
+            Self::Areas => {
+                "a pixel were tested by the areas of the three triangles that it makes with the corners, compared with the whole"
+            }
+        })
+    }
+}
+
+/// So many bits of 1/65536 px².
+fn area(bits: u32) -> String {
+    format!("{} px²", f64::from(2).powi(bits as i32 - 16))
+}
+
+impl Word {
+    fn words(self) -> String {
+        let (what, most) = match self {
+            Self::Differences(bits) => {
+                let most = f64::from(2).powi(bits as i32 - 9);
+                return format!(
+                    "differences of coordinates were in words from -{most} to {most} px"
+                );
+            }
+            Self::Products(bits) => ("products of coordinates", area(bits - 1)),
+            Self::Sums(bits) => ("edge functions", area(bits - 1)),
+        };
+        format!("{what} were in words from -{most} to {most}")
+    }
+}
+
+impl Cut {
+    fn words(self) -> String {
+        let (what, bits, way, when) = match self {
+            Self::Products(bits, way) => ("products of coordinates", bits, way, ""),
+            Self::Sums(bits, way) => ("edge functions", bits, way, ", before the fill rule"),
+        };
+        format!("{what} were rounded {}, to multiples of {}{when}", way.words(), area(bits))
+    }
 }
 
 /// How a program decides whether a sample is inside.
@@ -66,12 +123,12 @@ pub(super) struct EdgeTest {
 /// The value of an edge at a sample, positive inside, and what is lost of it.
 struct Numbers<'a> {
     test: &'a EdgeTest,
-    /// In 1/256 px.
+    /// The corners in 1/256 px, exchanged where the test exchanges them.
     corners: [[i64; 2]; 3],
     /// 1 where the corners run clockwise with y down, or -1.
     turn: i64,
-    /// The first pixel of the box, in the window.
-    first: [i64; 2],
+    /// The first and the last column of the box of the corners, and its rows likewise.
+    bounds: [[i64; 2]; 2],
 }
 
 /// Coordinates beyond this are drawn as if they were there: products of all others fit into 62 bits.
@@ -92,7 +149,8 @@ impl EdgeTest {
         looks_beyond: false,
     };
 
-    /// Fields that are not as in the right test.
+    /// Fields that are not as in the right test. Which corners change places shows only where something else is wrong, and is no
+    /// change by itself.
     pub(super) fn changes(&self) -> usize {
         let right = Self::RIGHT;
         [
@@ -115,13 +173,7 @@ impl EdgeTest {
     /// All tests with one other field, of so many rules for ties.
     pub(super) fn variants(&self, rules: usize) -> Vec<Self> {
         let mut all = Vec::new();
-        let mut with = |change: &dyn Fn(&mut Self)| {
-            let mut other = *self;
-            change(&mut other);
-            if other != *self {
-                all.push(other);
-            }
-        };
+        let mut with = |change: &dyn Fn(&mut Self)| add_changed(&mut all, self, change);
         let mut forms = vec![Form::FromEnd(0), Form::FromEnd(1), Form::Plane, Form::Areas];
         // What is added up or divided is the same in whole numbers.
         for form in &forms {
@@ -173,64 +225,10 @@ impl EdgeTest {
     /// What is not as it should be, after 'as if'.
     pub(super) fn words(&self, rules: &[String]) -> Vec<String> {
         let mut said = Vec::new();
-        let form = match self.form {
-            Form::FromEnd(0) if self.float.is_none() => "",
-            Form::FromEnd(0) => {
-                "a pixel were tested by the cross product of each edge with the way from its first end"
-            }
-            Form::FromEnd(_) => {
-                "a pixel were tested by the cross product of each edge with the way from its second end"
-            }
-            Form::Plane => "a pixel were tested by a x + b y + c of each edge",
-            Form::Stepped => {
-                "a pixel were tested by edge functions that are added up from the first pixel of the box"
-            }
-            Form::Weights(_) => {
-                "a pixel were tested by two weights (products over the area) and what they leave of 1"
-            }
-            Form::Dots => "a pixel were tested by weights from dot products",
-            Form::Areas => {
-                "a pixel were tested by the areas of the three triangles that it makes with the corners, compared with the whole"
-            }
-        };
-        if !form.is_empty() {
-            said.push(form.to_owned());
-        }
-        // Products of coordinates are in 1/65536 px².
-        let area = |bits: u32| format!("{} px²", f64::from(2).powi(bits as i32 - 16));
-        if let Some(bits) = self.float {
-            said.push(format!("its numbers were floats of {bits} bits"));
-        }
-        match self.word {
-            None => {}
-            Some(Word::Differences(bits)) => {
-                let most = f64::from(2).powi(bits as i32 - 9);
-                said.push(format!(
-                    "differences of coordinates were in words from -{most} to {most} px"
-                ));
-            }
-            Some(Word::Products(bits)) => {
-                let most = area(bits - 1);
-                said.push(format!("products of coordinates were in words from -{most} to {most}"));
-            }
-            Some(Word::Sums(bits)) => {
-                let most = area(bits - 1);
-                said.push(format!("edge functions were in words from -{most} to {most}"));
-            }
-        }
-        match self.cut {
-            None => {}
-            Some(Cut::Products(bits, way)) => said.push(format!(
-                "products of coordinates were rounded {}, to multiples of {}",
-                way.words(),
-                area(bits)
-            )),
-            Some(Cut::Sums(bits, way)) => said.push(format!(
-                "edge functions were rounded {}, to multiples of {}, before the fill rule",
-                way.words(),
-                area(bits)
-            )),
-        }
+        said.extend(self.form.words(self.float.is_some()).map(str::to_owned));
+        said.extend(self.float.map(|bits| format!("its numbers were floats of {bits} bits")));
+        said.extend(self.word.map(Word::words));
+        said.extend(self.cut.map(Cut::words));
         if self.ties > 0 {
             said.push(format!("a sample on an edge were decided {}", rules[self.ties]));
         }
@@ -274,7 +272,7 @@ impl EdgeTest {
         picture
     }
 
-    /// Whether it draws a pixel.
+    /// The same for one pixel, without a picture.
     pub(super) fn draws(
         &self,
         q: &AnyQuestion,
@@ -304,11 +302,11 @@ impl<'a> Numbers<'a> {
             corners.swap(a, b);
             area = -area;
         }
-        let first = [0, 1].map(|axis| {
-            let least = corners.iter().map(|corner| corner[axis]).min().unwrap_or(0);
-            least.div_euclid(256).max(0)
+        let bounds = [0, 1].map(|axis| {
+            let [a, b, c] = corners.map(|corner| corner[axis].div_euclid(256));
+            [a.min(b).min(c), a.max(b).max(c)]
         });
-        let mut numbers = Self { test, corners, turn: area.signum(), first };
+        let mut numbers = Self { test, corners, turn: area.signum(), bounds };
         if test.turns_by_area {
             numbers.turn = match test.float {
                 Some(bits) => {
@@ -333,10 +331,7 @@ impl<'a> Numbers<'a> {
     }
 
     fn is_in_box(&self, at: [i64; 2]) -> bool {
-        (0..2).all(|axis| {
-            let all = self.corners.map(|corner| corner[axis].div_euclid(256));
-            (all.into_iter().min() <= Some(at[axis])) && (Some(at[axis]) <= all.into_iter().max())
-        })
+        (0..2).all(|axis| (self.bounds[axis][0]..=self.bounds[axis][1]).contains(&at[axis]))
     }
 
     /// Whether a sample on an edge is drawn.
@@ -489,7 +484,8 @@ impl<'a> Numbers<'a> {
         edge: &dyn Fn(usize, [f64; 2]) -> f64,
     ) -> [f64; 3] {
         let sample = point.map(|v| v.rem_euclid(256));
-        let start = [0, 1].map(|axis| 256 * self.first[axis] + sample[axis]);
+        // A loop over the box begins in the window.
+        let start = [0, 1].map(|axis| 256 * self.bounds[axis][0].max(0) + sample[axis]);
         let [columns, rows] = [0, 1].map(|axis| (point[axis] - start[axis]) / 256);
         [0, 1, 2].map(|i| {
             let (a, b) = (self.corners[i], self.corners[(i + 1) % 3]);

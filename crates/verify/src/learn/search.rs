@@ -362,20 +362,35 @@ impl Search<'_> {
     fn worth_of_test(&self, test: &EdgeTest, [wrong, right]: &[Vec<PixelSeen<'_>>; 2]) -> f64 {
         let sample = self.drawer.sample();
         let owned = self.drawer.ties(test.ties);
-        let is_drawn = |seen: &&PixelSeen<'_>| {
+        let is_drawn = |seen: &PixelSeen<'_>| {
             let a = seen.answer;
             test.draws(&a.question, seen.at, sample, owned) == a.drawn.has(seen.at)
         };
-        // Most tests give none of a few.
-        self.drawer.work().spend(EDGES_OF_A_PIXEL * FEW_BORDERS);
         let step = wrong.len().div_ceil(FEW_BORDERS).max(1);
-        if !wrong.iter().step_by(step).any(|seen| is_drawn(&seen)) {
-            return f64::MIN;
+        let few = wrong.iter().step_by(step);
+        match self.drawn_and_broken(EDGES_OF_A_PIXEL, few, [wrong, right], &is_drawn) {
+            Some([drawn, broken]) => drawn - 0.2 * broken - 0.3 * test.changes() as f64,
+            None => f64::MIN,
         }
-        self.drawer.work().spend(EDGES_OF_A_PIXEL * (wrong.len() + right.len()));
-        let drawn = wrong.iter().filter(is_drawn).count() as f64;
-        let broken = right.iter().filter(|seen| !is_drawn(seen)).count() as f64;
-        drawn - 0.2 * broken - 0.3 * test.changes() as f64
+    }
+
+    /// How many wrong borders or pixels a formula gives, and how many right ones it breaks; nothing where it gives none of a few of
+    /// the wrong ones, as most formulas do. Each costs so many steps.
+    fn drawn_and_broken<'s, S: 's>(
+        &self,
+        steps: usize,
+        mut few: impl Iterator<Item = &'s S>,
+        [wrong, right]: [&'s [S]; 2],
+        is_drawn: &dyn Fn(&S) -> bool,
+    ) -> Option<[f64; 2]> {
+        self.drawer.work().spend(steps * FEW_BORDERS);
+        if !few.any(is_drawn) {
+            return None;
+        }
+        self.drawer.work().spend(steps * (wrong.len() + right.len()));
+        let drawn = wrong.iter().filter(|seen| is_drawn(seen)).count();
+        let broken = right.iter().filter(|seen| !is_drawn(seen)).count();
+        Some([drawn as f64, broken as f64])
     }
 
     /// Formulas of borders, one after another, and then pixel rules.
@@ -460,16 +475,12 @@ impl Search<'_> {
     /// How many of some wrong borders a formula gives, less a part of the right ones that it breaks.
     fn worth(&self, crossing: &Crossing, seen: &BordersAtEnds<'_, '_>) -> f64 {
         let [wrong, right] = &seen.some;
-        let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(crossing, self.drawer.sample());
-        // Most formulas give none of a few.
-        self.drawer.work().spend(BORDER * FEW_BORDERS);
-        if !wrong.iter().take(FEW_BORDERS).any(|seen| is_drawn(&seen)) {
-            return f64::MIN;
+        let is_drawn = |seen: &&BorderSeen<'_>| seen.is_drawn_by(crossing, self.drawer.sample());
+        let few = wrong.iter().take(FEW_BORDERS);
+        match self.drawn_and_broken(BORDER, few, [wrong, right], &is_drawn) {
+            Some([drawn, broken]) => drawn - 0.1 * broken - 0.3 * crossing.changes() as f64,
+            None => f64::MIN,
         }
-        self.drawer.work().spend(BORDER * (wrong.len() + right.len()));
-        let drawn = wrong.iter().filter(is_drawn).count() as f64;
-        let broken = right.iter().filter(|seen| !is_drawn(seen)).count() as f64;
-        drawn - 0.1 * broken - 0.3 * crossing.changes() as f64
     }
 
     /// A formula with where it holds, by the facts of borders that were wrong and right before; nothing where that cannot be
@@ -805,7 +816,7 @@ fn row_is_empty(site: &Site, picture: &Picture) -> bool {
     !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
 }
 
-/// A pixel of an answer.
+/// A pixel by which tests are compared, with the answer that shows it.
 struct PixelSeen<'a> {
     answer: &'a LearnedAnswer,
     at: [i32; 2],

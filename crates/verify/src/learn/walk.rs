@@ -41,11 +41,10 @@ pub(super) struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Walk {
     pub(super) method: Method,
-    /// The end that it begins at.
     pub(super) from: From,
     /// The axis that it steps along, whichever is longer; the longer one where that is not said.
     pub(super) along: Option<usize>,
-    /// The word of the error term.
+    /// The bits of the signed word that holds the error term; as many as it needs where that is not said.
     pub(super) bits: Option<u32>,
 }
 
@@ -60,7 +59,7 @@ struct Way {
     axis: usize,
 }
 
-/// Takes the pixels of a line.
+/// Gets each pixel, also those beyond the window.
 type Plot<'a> = &'a mut dyn FnMut([i64; 2]);
 
 /// Steps beyond which a line is not walked.
@@ -260,13 +259,7 @@ impl Walk {
         // Along an axis on which it has no length, no line can be walked.
         let longer = usize::from(size[1] > size[0]);
         let axis = self.along.filter(|along| size[*along] > 0).unwrap_or(longer);
-        let is_turned = match self.from {
-            From::Before => from[axis] > to[axis],
-            From::After => from[axis] < to[axis],
-            From::First => false,
-            From::Second => true,
-        };
-        if is_turned {
+        if self.from.is_turned(from[axis], to[axis]) {
             std::mem::swap(&mut from, &mut to);
         }
         let step = [0, 1].map(|axis| (to[axis] - from[axis]).signum());
