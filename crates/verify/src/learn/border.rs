@@ -19,12 +19,14 @@ pub(super) enum Toward {
     Zero,
     /// To the nearest, and a half away from 0, as the function `round` of many languages.
     HalfAway,
+    /// To the nearest, and a half to the even number, as processors round.
+    HalfEven,
 }
 
 impl Toward {
     /// Those that programs use.
-    pub(super) const ALL: [Self; 5] =
-        [Self::Down, Self::Nearest, Self::Up, Self::Zero, Self::HalfAway];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Down, Self::Nearest, Self::Up, Self::Zero, Self::HalfAway, Self::HalfEven];
 
     /// Which way, as it is said after 'rounded'.
     pub(super) fn words(self) -> &'static str {
@@ -35,6 +37,7 @@ impl Toward {
             Self::Up => "up",
             Self::Zero => "toward 0",
             Self::HalfAway => "to the nearest (a half away from 0)",
+            Self::HalfEven => "to the nearest (a half to the even one)",
         }
     }
 }
@@ -114,6 +117,16 @@ pub(super) enum Slope {
     /// A float of so many bits that is added row by row, or column by column.
     Added {
         bits: u32,
+    },
+    /// A product with the reciprocal of the length, which has so many bits of fraction (of 1/px).
+    Reciprocal {
+        fraction: u32,
+        toward: Toward,
+    },
+    /// The same, where the reciprocal has so many bits from its first one on.
+    Short {
+        bits: u32,
+        toward: Toward,
     },
     /// It is as if the edge went straight.
     None,
@@ -273,6 +286,14 @@ impl Crossing {
                 }
             }
         }
+        for toward in [Toward::Down, Toward::Nearest] {
+            for fraction in [6, 8, 10, 12, 14, 15, 16] {
+                with(&|c| c.slope = Slope::Reciprocal { fraction, toward });
+            }
+            for bits in [8, 9, 11, 12, 16] {
+                with(&|c| c.slope = Slope::Short { bits, toward });
+            }
+        }
         for bits in 4..=20 {
             with(&|c| c.slope = Slope::Word { bits, is_signed: false });
             with(&|c| c.slope = Slope::Word { bits, is_signed: true });
@@ -317,6 +338,11 @@ pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
         Toward::NearestDown => -(den - 2 * num).div_euclid(2 * den),
         Toward::Zero => num / den,
         Toward::HalfAway => num.signum() * (2 * num.abs() + den).div_euclid(2 * den),
+        Toward::HalfEven => {
+            let up = (2 * num + den).div_euclid(2 * den);
+            let is_half = (2 * num + den) % (2 * den) == 0;
+            if is_half { up - up.rem_euclid(2) } else { up }
+        }
     }
 }
 
@@ -427,6 +453,18 @@ impl Site {
                 let size = run.abs() / unit;
                 let size = if is_signed { wrap(size, bits) } else { size & ((1 << bits) - 1) };
                 (run.signum() * size * unit * distance, rise)
+            }
+            Slope::Reciprocal { fraction, toward } => {
+                let over = round(256 << fraction, rise, toward);
+                (run * over * distance, 256 << fraction)
+            }
+            Slope::Short { bits, toward } => {
+                // 2^place is the part of the reciprocal that its last bit counts.
+                let length = rise.unsigned_abs().max(1);
+                let place = FRACTION.saturating_sub(length.ilog2() + bits);
+                let step = 1 << place;
+                let over = round(1 << FRACTION, rise * step, toward) * step;
+                (run * over * distance, 1 << FRACTION)
             }
             Slope::Fixed { fraction, toward, word } => {
                 let slope = round(run << fraction, rise, toward);
@@ -556,24 +594,31 @@ pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2], heights: Option<Toward>) 
         }
         return all;
     }
-    for place in i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN) {
-        let at = place * 256 + sample[1];
-        let is_crossed = |edge: &&[usize; 2]| {
-            let [a, b] = edge.map(|i| q.points[i][1] <= at);
-            a != b
-        };
-        let crossed: Vec<Site> = EDGES
-            .iter()
-            .filter(is_crossed)
-            .map(|points| Site { axis: 1, place, end: 0, points: *points })
-            .collect();
-        let [mut a, mut b] = crossed[..] else { continue };
-        if left_of(&b, &a, &q, at) {
-            std::mem::swap(&mut a, &mut b);
-        }
-        all.extend([a, Site { end: 1, ..b }]);
-    }
+    let places = i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN);
+    all.extend(places.filter_map(|place| row_sites(&q, sample, place)).flatten());
     all
+}
+
+/// The two borders of a row of a triangle, in the window or not; nothing where it has no samples between them.
+fn row_sites(q: &AnyQuestion, sample: [i64; 2], place: i64) -> Option<[Site; 2]> {
+    let at = place * 256 + sample[1];
+    let mut crossed = EDGES.into_iter().filter(|edge| {
+        let [a, b] = edge.map(|i| q.points[i][1] <= at);
+        a != b
+    });
+    let mut site = || Some(Site { axis: 1, place, end: 0, points: crossed.next()? });
+    let [mut a, mut b] = [site()?, site()?];
+    if left_of(&b, &a, q, at) {
+        std::mem::swap(&mut a, &mut b);
+    }
+    Some([a, Site { end: 1, ..b }])
+}
+
+/// The first pixel of a row of a triangle, in the window or not, and the first after it.
+pub(super) fn row_ends(q: &AnyQuestion, sample: [i64; 2], place: i64) -> Option<[i64; 2]> {
+    let [first, last] = row_sites(q, sample, place)?;
+    let [first, end] = [first, last].map(|site| site.evaluate(&Crossing::RIGHT, q, sample));
+    Some([first?, end?])
 }
 
 /// Whether one edge crosses a row left of another.
@@ -595,6 +640,78 @@ pub(super) struct RowRule {
     pub(super) exchanges_ends: bool,
     /// Whether edges have their rows by heights that are rounded to whole pixels; all other rows are empty.
     pub(super) heights: Option<Toward>,
+    pub(super) halves: Halves,
+}
+
+/// Rows of the two halves that the middle corner makes, each between the long edge and a short one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Halves {
+    /// How many rows later than they should the upper half begins and ends, and the lower one.
+    pub(super) later: [[i64; 2]; 2],
+    /// Whether a pixel of both halves is drawn twice.
+    pub(super) counts: bool,
+}
+
+impl RowRule {
+    /// How much it says.
+    pub(super) fn changes(&self) -> usize {
+        let Halves { later, counts } = self.halves;
+        let moved = later.as_flattened().iter().filter(|rows| **rows != 0).count();
+        moved + usize::from(counts)
+    }
+
+    /// With one other field.
+    pub(super) fn variants(&self) -> Vec<Self> {
+        let mut all = Vec::new();
+        let mut with = |change: &dyn Fn(&mut Self)| add_changed(&mut all, self, change);
+        for half in [0, 1] {
+            for end in [0, 1] {
+                for rows in [0, -1, 1] {
+                    with(&|r| r.halves.later[half][end] = rows);
+                }
+            }
+        }
+        with(&|r| r.halves.counts = !r.halves.counts);
+        with(&|r| r.exchanges_ends = !r.exchanges_ends);
+        for heights in Toward::ALL.map(Some).into_iter().chain([None]) {
+            with(&|r| r.heights = heights);
+        }
+        all
+    }
+
+    /// Which rows are drawn, and how.
+    pub(super) fn words(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        if let Some(way) = self.heights {
+            let corners = format!("their corners, rounded {} to whole px", way.words());
+            said.push(format!("Edges have the rows from one to the other of {corners}."));
+        }
+        let rows = |rows: i64| if rows.abs() == 1 { "one row" } else { "some rows" };
+        for (later, half) in self.halves.later.iter().zip(["upper", "lower"]) {
+            let ends = later.iter().zip(["begins", "ends"]).filter(|(by, _)| **by != 0);
+            let ends: Vec<String> = ends
+                .map(|(by, verb)| {
+                    let way = if *by > 0 { "later" } else { "earlier" };
+                    format!("{verb} {} {way}", rows(*by))
+                })
+                .collect();
+            if !ends.is_empty() {
+                let ends = ends.join(" and ");
+                said.push(format!(
+                    "It draws the part {} the middle corner so that it {ends}, between its edges prolonged.",
+                    if half == "upper" { "above" } else { "below" }
+                ));
+            }
+        }
+        if self.halves.counts {
+            said.push("It draws twice what both parts draw.".to_owned());
+        }
+        if self.exchanges_ends {
+            let order = "A row whose ends then come in the wrong order is drawn between them.";
+            said.push(order.to_owned());
+        }
+        said
+    }
 }
 
 /// A picture whose borders are moved: `moved` gives the new place of a border, if it has one.
@@ -605,10 +722,15 @@ pub(super) fn redrawn(
     rows: RowRule,
     moved: &dyn Fn(&Site, i64) -> Option<i64>,
 ) -> Picture {
-    let all = sites(q, sample, rows.heights);
-    let mut after = if rows.heights.is_some() { Picture::new(q.side) } else { before.clone() };
-    let right = |site: &Site| site.evaluate(&Crossing::RIGHT, q, sample);
     let is_line = q.is_line();
+    let has_halves = rows.halves != Halves::default() && !is_line;
+    let all = match has_halves {
+        true => sites_of_halves(q, sample, rows),
+        false => sites(q, sample, rows.heights),
+    };
+    let is_anew = rows.heights.is_some() || has_halves;
+    let mut after = if is_anew { Picture::new(q.side) } else { before.clone() };
+    let right = |site: &Site| site.evaluate(&Crossing::RIGHT, q, sample);
     for row in all.chunks(if is_line { 1 } else { 2 }) {
         let mut borders = Vec::new();
         for site in row {
@@ -620,7 +742,7 @@ pub(super) fn redrawn(
             continue;
         }
         let new: Vec<Option<i64>> = row.iter().zip(&borders).map(|(s, b)| moved(s, *b)).collect();
-        if new.iter().all(Option::is_none) && rows.heights.is_none() {
+        if new.iter().all(Option::is_none) && !is_anew {
             continue;
         }
         let ends: Vec<i64> =
@@ -633,8 +755,43 @@ pub(super) fn redrawn(
         let (axis, place) = (row[0].axis, row[0].place as i32);
         for v in -MARGIN..q.side[1 - axis] + MARGIN {
             let at = if axis == 1 { [v, place] } else { [place, v] };
-            after.set(at, u8::from((first..end).contains(&i64::from(v))));
+            let is_in = (first..end).contains(&i64::from(v));
+            if !has_halves {
+                after.set(at, u8::from(is_in));
+            } else if is_in {
+                let most = if rows.halves.counts { 2 } else { 1 };
+                after.set(at, (after.hits(at) + 1).min(most));
+            }
         }
     }
     after
+}
+
+/// The borders of both halves, in the rows that a rule gives them: a row may come twice.
+fn sites_of_halves(q: &AnyQuestion, sample: [i64; 2], rows: RowRule) -> Vec<Site> {
+    let height = |i: usize| match rows.heights {
+        Some(toward) => round(q.points[i][1].into(), 256, toward) as i64 * 256,
+        None => q.points[i][1],
+    };
+    let mut order = [0, 1, 2];
+    order.sort_by_key(|i| height(*i));
+    let [top, middle, bottom] = order;
+    let [to_middle, to_bottom] = [q.side_of(top, middle), q.side_of(top, bottom)];
+    let is_left = to_bottom[0] * to_middle[1] - to_bottom[1] * to_middle[0] > 0;
+    let edge = |a: usize, b: usize| {
+        EDGES.into_iter().find(|edge| edge.contains(&a) && edge.contains(&b)).unwrap_or(EDGES[0])
+    };
+    // The first row whose sample is not above a corner.
+    let first = |i: usize| -(sample[1] - height(i)).div_euclid(256);
+    let mut all = Vec::new();
+    for (half, (from, to)) in [(top, middle), (middle, bottom)].into_iter().enumerate() {
+        let [begin, end] = rows.halves.later[half];
+        let known = i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN);
+        for place in (first(from) + begin).max(known.start)..(first(to) + end).min(known.end) {
+            let (long, short) = (edge(top, bottom), edge(from, to));
+            let points = if is_left { [short, long] } else { [long, short] };
+            all.extend([0, 1].map(|end| Site { axis: 1, place, end, points: points[end] }));
+        }
+    }
+    all
 }

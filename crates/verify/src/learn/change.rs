@@ -8,6 +8,7 @@ use super::drawer::{Drawer, LearnedAnswer};
 use super::edges::EdgeTest;
 use super::picture::Picture;
 use super::question::AnyQuestion;
+use super::visit::{Visit, VisitedTriangle};
 use super::walk::Walk;
 
 /// Which points are changed.
@@ -26,6 +27,10 @@ pub(super) enum How {
     /// A multiple of so many steps.
     Snap(i64, Toward),
     Add(i64),
+    /// The same of negative ones alone.
+    AddBelow(i64),
+    /// To the nearest multiple of so many steps, where it is at most so many away.
+    SnapNear(i64, i64),
     AtLeast(i64),
     /// Not beyond the side of the window less so many steps.
     AtMostSide(i64),
@@ -67,6 +72,8 @@ pub(super) enum Change {
     },
     /// x and y change places.
     Exchange,
+    /// The shape is moved so that its smallest coordinates are not negative.
+    Shift([bool; 2]),
     /// An end beyond the window comes to its border along the line, the place there rounded to whole pixels: to all sides
     /// of the window, or to those along the longer axis.
     Cut {
@@ -77,10 +84,34 @@ pub(super) enum Change {
     /// The ends come to the borders of the window one after another, in whole numbers, as Cohen and Sutherland do: at each
     /// step the end that lies beyond it, along the line between both ends as they are then.
     Clip(Clip),
+    /// Pixels that are never come to, and tiles that are drawn without a look; of triangles.
+    Visit(Visit),
+    /// Rows beyond the window, or columns, are put into its first or its last one.
+    Gather(Gather),
     /// All points become one, so that nothing is drawn.
     Nothing,
     /// The points come in the other order.
     Reverse,
+}
+
+/// What is put into the first and the last row of the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Gather {
+    /// 1 where it is rows that are put there, 0 where it is columns.
+    pub(super) axis: usize,
+    /// Whether those before the window are, and those after it.
+    pub(super) ends: [bool; 2],
+    pub(super) how: GatherHow,
+}
+
+/// What becomes of pixels that come together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GatherHow {
+    Once,
+    /// They are drawn more than once.
+    Twice,
+    /// All between the first and the last of them are drawn.
+    Between,
 }
 
 /// By what a changed question is drawn.
@@ -126,6 +157,11 @@ impl How {
         match self {
             Self::Snap(step, toward) => border::round(v.into(), step.into(), toward) as i64 * step,
             Self::Add(by) => v + by,
+            Self::AddBelow(by) => v + if v < 0 { by } else { 0 },
+            Self::SnapNear(step, within) => {
+                let near = border::round(v.into(), step.into(), Toward::Nearest) as i64 * step;
+                if (v - near).abs() <= within { near } else { v }
+            }
             Self::AtLeast(least) => v.max(least),
             Self::AtMostSide(less) => v.min(side * one - less),
             Self::IntoWindow(less) => v.max(0).min(side * one - less),
@@ -151,10 +187,16 @@ impl Change {
         match self {
             Self::Exchange => q.points.iter_mut().for_each(|point| point.reverse()),
             Self::Reverse => q.points.reverse(),
+            Self::Shift(axes) => {
+                for axis in (0..2).filter(|axis| axes[*axis]) {
+                    let by = (-q.range(axis)[0]).max(0);
+                    q.points.iter_mut().for_each(|point| point[axis] += by);
+                }
+            }
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
             // It is the picture that changes.
-            Self::Write { .. } | Self::Read { .. } => {}
+            Self::Write { .. } | Self::Read { .. } | Self::Visit(_) | Self::Gather(_) => {}
             Self::Cut { points, toward, all_sides } => cut(q, points, toward, all_sides),
             Self::Clip(clip) => clip.apply(q),
             Self::Move { points, axes, how } => {
@@ -279,14 +321,106 @@ fn written(before: &Picture, axes: [bool; 2], how: How) -> Picture {
     after
 }
 
+/// Rows that are drawn at once beyond the window, and how many of such parts at most.
+const PART_PX: i32 = 32;
+const MOST_PARTS: i64 = 512;
+
+impl Gather {
+    /// The picture with what lies before and after the window; nothing where that is too much.
+    fn apply(
+        self,
+        mut picture: Picture,
+        q: &AnyQuestion,
+        rule: Rule,
+        drawer: &dyn Drawer,
+    ) -> Option<Picture> {
+        let Rule::Convention(rule) = rule else { return None };
+        if self.how == GatherHow::Between {
+            return self.between(picture, q, drawer.sample());
+        }
+        let (axis, one) = (self.axis, q.one());
+        let [least, most] = q.range(axis).map(|v| v.div_euclid(one));
+        let side = i64::from(q.side[axis]);
+        // The parts before the window end where it begins.
+        let parts = [(-least).max(0), (most + 1 - side).max(0)];
+        for end in (0..2).filter(|end| self.ends[*end]) {
+            let count = (parts[end] + i64::from(PART_PX) - 1) / i64::from(PART_PX);
+            if count > MOST_PARTS {
+                return None;
+            }
+            for part in 0..count {
+                let start = match end {
+                    0 => -(part + 1) * i64::from(PART_PX),
+                    _ => side + part * i64::from(PART_PX),
+                };
+                let mut there = q.clone();
+                there.points.iter_mut().for_each(|point| point[axis] -= start * one);
+                there.side[axis] = PART_PX;
+                let drawn = drawer.right(&there, rule)?;
+                for at in drawn.pixels().filter(|at| drawn.has(*at)) {
+                    let mut to = at;
+                    to[axis] = if end == 0 { 0 } else { q.side[axis] - 1 };
+                    let most = if self.how == GatherHow::Twice { 2 } else { 1 };
+                    picture.set(to, (picture.hits(to) + 1).min(most));
+                }
+            }
+        }
+        Some(picture)
+    }
+
+    /// The picture with all between the least and the greatest border of the rows that come together; of rows of triangles.
+    fn between(self, mut picture: Picture, q: &AnyQuestion, sample: [i64; 2]) -> Option<Picture> {
+        let last = i64::from(q.side[1]) - 1;
+        let [least, most] = q.range(1).map(|v| v.div_euclid(256));
+        if self.axis == 0 || q.is_line() || most - least > MOST_PARTS * i64::from(PART_PX) {
+            return None;
+        }
+        for (end, row) in [0, last].into_iter().enumerate().filter(|(end, _)| self.ends[*end]) {
+            let rows = if end == 0 { least..1 } else { last..most + 1 };
+            let [mut first, mut after] = [i64::MAX, i64::MIN];
+            for place in rows {
+                let Some(ends) = border::row_ends(q, sample, place) else { continue };
+                (first, after) = (first.min(ends[0]), after.max(ends[1]));
+            }
+            for x in first.max(0)..after.min(q.side[0].into()) {
+                picture.set([x as i32, row as i32], 1);
+            }
+        }
+        Some(picture)
+    }
+
+    /// What is put where, after 'as if'.
+    pub(super) fn words(self) -> String {
+        let line = ["columns", "rows"][self.axis];
+        let (first, last) =
+            (format!("{line} before the window"), format!("{line} after the window"));
+        let said = match self.ends {
+            [true, true] => {
+                format!("{first} were put into its first one, and those after it into its last")
+            }
+            [true, false] => format!("{first} were put into its first one"),
+            _ => format!("{last} were put into its last one"),
+        };
+        let how = match self.how {
+            GatherHow::Once => "",
+            GatherHow::Twice => ", and drawn there once more",
+            GatherHow::Between => ", which is then filled from its least to its greatest column",
+        };
+        said + how
+    }
+}
+
 /// Steps of [`super::trial::Work`] for a pixel that is held against three edges.
 pub(super) const EDGES_OF_A_PIXEL: usize = 4;
 
 impl Base {
-    pub(super) fn draw(&self, question: &AnyQuestion, drawer: &dyn Drawer) -> Option<Picture> {
-        let mut q = question.clone();
+    /// What it draws where something was answered.
+    pub(super) fn draw(&self, a: &LearnedAnswer, drawer: &dyn Drawer) -> Option<Picture> {
+        let mut q = a.question.clone();
         self.changes.iter().for_each(|change| change.apply(&mut q));
         let mut picture = match &self.rule {
+            // The right picture is known.
+            Rule::Convention(0) if q == a.question => a.right.clone(),
             Rule::Convention(number) => drawer.right(&q, *number)?,
             Rule::Edges(test) => {
                 drawer.work().spend(EDGES_OF_A_PIXEL * q.pixels());
@@ -302,6 +436,13 @@ impl Base {
             match change {
                 Change::Write { axes, how } => picture = written(&picture, *axes, *how),
                 Change::Read { axes, how } => picture = read(&picture, *axes, *how),
+                Change::Visit(visit) => {
+                    drawer.work().spend(q.pixels());
+                    let owned = drawer.ties(0);
+                    let looked = VisitedTriangle { question: &q, sample: drawer.sample(), owned };
+                    picture = visit.apply(&picture, &looked);
+                }
+                Change::Gather(gather) => picture = gather.apply(picture, &q, self.rule, drawer)?,
                 _ => {}
             }
         }
@@ -350,6 +491,13 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         hows.extend(Toward::ALL.map(|toward| How::Snap(step, toward)));
     }
     hows.extend([-1, 1].map(|by| How::Add(by * one)));
+    hows.extend([-1, 1].map(How::AddBelow));
+    if !is_line {
+        hows.extend([-256, -128, 128, 256].map(How::AddBelow));
+        for step in [128, 256] {
+            hows.extend([1, 2, 4, 8, 16, 32].map(|within| How::SnapNear(step, within)));
+        }
+    }
     let mut points = vec![Points::All];
     points.extend((0..if is_line { 2 } else { 3 }).map(Points::Given));
     if !is_line {
@@ -358,6 +506,7 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
     let mut bases: Vec<Base> = (1..rules)
         .map(|number| Base { changes: Vec::new(), rule: Rule::Convention(number) })
         .collect();
+    bases.extend(AXES.map(|axes| Base { changes: vec![Change::Shift(axes)], rule: Rule::RIGHT }));
     bases.extend(
         [Change::Nothing, Change::Exchange, Change::Reverse]
             .map(|change| Base { changes: vec![change], rule: Rule::RIGHT }),
@@ -389,6 +538,17 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         .collect();
     places.extend([How::AtMostSide(2), How::Mirror(1), How::Mirror(0)]);
     places.extend([-2, -1, 1, 2].map(How::Add));
+    for axis in [0, 1] {
+        for ends in [[true, true], [true, false], [false, true]] {
+            for how in [GatherHow::Once, GatherHow::Twice, GatherHow::Between] {
+                let change = Change::Gather(Gather { axis, ends, how });
+                bases.push(Base { changes: vec![change], rule: Rule::RIGHT });
+            }
+        }
+    }
+    let visits = if is_line { Vec::new() } else { Visit::all() };
+    let visits = visits.into_iter().map(Change::Visit);
+    bases.extend(visits.map(|change| Base { changes: vec![change], rule: Rule::RIGHT }));
     for how in (1..=4).map(|bits| How::Snap(1 << bits, Toward::Down)) {
         let all = AXES.map(|axes| Change::Read { axes, how });
         bases.extend(all.map(|change| Base { changes: vec![change], rule: Rule::RIGHT }));
@@ -428,16 +588,18 @@ pub(super) struct Nearness {
 
 /// Pixels of an answer beyond which no more are counted.
 const MOST_PIXELS: usize = 24;
-/// Answers after which a base is left that predicted none, and came nowhere near.
+/// Answers after which a base is left that predicted none, and comes no nearer than the right picture does.
 const FIRST: usize = 12;
 
 pub(super) fn nearness(base: &Base, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Nearness {
     let mut near = Nearness::default();
+    let mut of_right = 0;
     for (number, a) in answers.iter().enumerate() {
-        let missed = base.draw(&a.question, drawer).map_or(MOST_PIXELS, |p| p.differs(&a.drawn));
+        let missed = base.draw(a, drawer).map_or(MOST_PIXELS, |p| p.differs(&a.drawn));
         near.exact += usize::from(missed == 0);
         near.pixels -= missed.min(MOST_PIXELS) as i64;
-        if number == FIRST && near.exact == 0 && near.pixels < -8 * FIRST as i64 {
+        of_right -= a.right.differs(&a.drawn).min(MOST_PIXELS) as i64;
+        if number == FIRST && near.exact == 0 && near.pixels <= of_right {
             near.pixels -= (MOST_PIXELS * (answers.len() - number)) as i64;
             break;
         }

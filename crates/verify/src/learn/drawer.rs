@@ -10,6 +10,7 @@ use crate::convention::{
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
+use std::borrow::Cow;
 
 /// A question with its answer and the right one.
 pub(super) struct LearnedAnswer {
@@ -37,8 +38,13 @@ pub(super) trait Drawer {
     fn most_to_learn(&self) -> usize;
     /// Whether the answers come later, and all is asked again.
     fn is_abandoned(&self) -> bool;
-    /// What is said of each rule, after 'as'; empty for the right one.
+    /// What is said of each rule: of a convention after 'it draws', nothing of the right one; of a known wrong way, which come after
+    /// the conventions, after 'it'.
     fn rules(&self) -> &[String];
+    /// How many rules are conventions.
+    fn conventions(&self) -> usize;
+    /// What mends a rule; nothing of conventions.
+    fn repair(&self, rule: usize) -> &str;
     /// The number of the other convention that it was given.
     fn other(&self) -> usize;
     /// Of a rule, for each direction that an edge faces, whether samples exactly on it are drawn.
@@ -85,9 +91,62 @@ fn window_of(question: &AnyQuestion) -> PixelRect {
     PixelRect::window(question.side[0] as u32, question.side[1] as u32)
 }
 
+/// What is drawn, and what is drawn more than once; nothing where a way says nothing.
+type DrawnTwice<'a, Q> = Box<dyn Fn(&Q) -> Option<[Mask; 2]> + 'a>;
+
+/// A known wrong way to draw, which a program may follow beside other mistakes.
+pub struct KnownWay<'a, Q> {
+    /// What the program does, after 'it'.
+    pub(crate) does: String,
+    pub(crate) repair: Cow<'static, str>,
+    pub(crate) draw: DrawnTwice<'a, Q>,
+}
+
+impl<Q> KnownWay<'_, Q> {
+    /// The picture of a question, in the margin that of the right one.
+    fn picture(&self, asked: &Q, right: Picture) -> Option<Picture> {
+        if right.side.iter().any(|side| *side > BLOCK_PX) {
+            return None;
+        }
+        let [drawn, twice] = (self.draw)(asked)?;
+        let mut picture = right;
+        for [x, y] in picture.pixels() {
+            picture.set([x, y], u8::from(drawn.has(x, y)) + u8::from(twice.has(x, y)));
+        }
+        Some(picture)
+    }
+}
+
+/// The largest window that may be asked for: known wrong ways have no answer in larger ones.
+fn largest<Q>(window_px: (u32, u32), ways: &[KnownWay<'_, Q>]) -> [i64; 2] {
+    let most = if ways.is_empty() { i64::MAX } else { BLOCK_PX.into() };
+    [window_px.0, window_px.1].map(|side| i64::from(side).min(most))
+}
+
+/// Farther out nobody knows what a known way draws.
+const FARTHEST_KNOWN: i64 = 1 << 28;
+
+/// Whether a known way may be asked for a question.
+fn is_near(question: &AnyQuestion) -> bool {
+    question.points.as_flattened().iter().all(|v| v.abs() <= FARTHEST_KNOWN)
+}
+
 /// What is said of a convention, after 'it draws'.
 fn by_convention(words: &str) -> String {
     format!("by another convention (it {words})")
+}
+
+/// A question about a triangle, which keeps to the range that is declared.
+fn triangle(q: &AnyQuestion) -> TriangleQuestion {
+    let corners =
+        [0, 1, 2].map(|i| SubpixelPoint::new(q.points[i][0] as i32, q.points[i][1] as i32));
+    TriangleQuestion { corners, window: window_of(q) }
+}
+
+/// A question about a line, likewise.
+fn line(q: &AnyQuestion) -> LineQuestion {
+    let ends = [0, 1].map(|i| q.points[i].map(|v| v as i32));
+    LineQuestion { ends, window: window_of(q) }
 }
 
 /// A rasterizer of triangles.
@@ -100,6 +159,7 @@ pub(super) struct Triangles<'a> {
     sample: [i64; 2],
     /// Whether a pixel drawn twice cannot be seen.
     is_mask: bool,
+    ways: &'a [KnownWay<'a, TriangleQuestion>],
     work: &'a Work,
 }
 
@@ -110,16 +170,16 @@ impl<'a> Triangles<'a> {
         ask: &'a mut dyn Ask,
         known: &Declarations,
         [expected, other]: [&TriangleConvention; 2],
+        ways: &'a [KnownWay<'a, TriangleQuestion>],
         seed: u64,
         work: &'a Work,
     ) -> Option<Self> {
         let grid = known.grid.clamp(1, SUBPIXELS);
         let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
-        let (width, height) = known.window_px;
         let room = Room {
             rng: Rng::new("learn", seed, 0),
             is_line: false,
-            side: [width, height].map(i64::from),
+            side: largest(known.window_px, ways),
             grain: grain.into(),
             most: i64::from(known.range_px.clamp(1, 1 << 20)) * 256,
             longest: LONGEST_LINE_PX,
@@ -150,15 +210,21 @@ impl<'a> Triangles<'a> {
             rules.push(by_convention(&other.words()));
         }
         let other = conventions.iter().position(|convention| convention == other).unwrap_or(0);
+        rules.extend(ways.iter().map(|way| way.does.clone()));
         let is_plain = expected.mirror == Mirror::None;
         let is_mask = known.mask;
-        is_plain.then_some(Self { ask, conventions, rules, other, room, sample, is_mask, work })
+        let this = Self { ask, conventions, rules, other, room, sample, is_mask, ways, work };
+        is_plain.then_some(this)
     }
 }
 
 impl Drawer for Triangles<'_> {
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
         self.work.spend(PICTURE + question.pixels());
+        if let Some(way) = rule.checked_sub(self.conventions.len()) {
+            let right = self.right(question, 0).filter(|_| is_near(question))?;
+            return self.ways[way].picture(&triangle(question), right);
+        }
         in_blocks(question.side, &|block, window| {
             let corner = |i: usize| {
                 let [x, y] = [0, 1].map(|axis| {
@@ -173,15 +239,7 @@ impl Drawer for Triangles<'_> {
     }
 
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
-        let asked: Vec<TriangleQuestion> = questions
-            .iter()
-            .map(|q| {
-                // Questions keep to the range that is declared.
-                let corners = [0, 1, 2]
-                    .map(|i| SubpixelPoint::new(q.points[i][0] as i32, q.points[i][1] as i32));
-                TriangleQuestion { corners, window: window_of(q) }
-            })
-            .collect();
+        let asked: Vec<TriangleQuestion> = questions.iter().map(triangle).collect();
         let answers = self.ask.ask(&asked);
         let most = if self.is_mask { 1 } else { 2 };
         let picture = |(q, answer): (&AnyQuestion, Option<Coverage>)| {
@@ -212,6 +270,14 @@ impl Drawer for Triangles<'_> {
         &self.rules
     }
 
+    fn conventions(&self) -> usize {
+        self.conventions.len()
+    }
+
+    fn repair(&self, rule: usize) -> &str {
+        rule.checked_sub(self.conventions.len()).map_or("", |way| &self.ways[way].repair)
+    }
+
     fn other(&self) -> usize {
         self.other
     }
@@ -240,6 +306,7 @@ pub(super) struct Lines<'a> {
     rules: Vec<String>,
     other: usize,
     room: Room,
+    ways: &'a [KnownWay<'a, LineQuestion>],
     work: &'a Work,
 }
 
@@ -248,14 +315,14 @@ impl<'a> Lines<'a> {
         ask: &'a mut dyn AskLine,
         known: &Declarations,
         [expected, other]: [&LineConvention; 2],
+        ways: &'a [KnownWay<'a, LineQuestion>],
         seed: u64,
         work: &'a Work,
     ) -> Self {
-        let (width, height) = known.window_px;
         let room = Room {
             rng: Rng::new("learn", seed, 1),
             is_line: true,
-            side: [width, height].map(i64::from),
+            side: largest(known.window_px, ways),
             grain: 1,
             most: known.range_px.clamp(1, 1 << 30).into(),
             longest: LONGEST_LINE_PX,
@@ -275,13 +342,18 @@ impl<'a> Lines<'a> {
             rules.push(by_convention(&other.words()));
         }
         let other = conventions.iter().position(|convention| convention == other).unwrap_or(0);
-        Self { ask, conventions, rules, other, room, work }
+        rules.extend(ways.iter().map(|way| way.does.clone()));
+        Self { ask, conventions, rules, other, room, ways, work }
     }
 }
 
 impl Drawer for Lines<'_> {
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
         self.work.spend(PICTURE + question.pixels());
+        if let Some(way) = rule.checked_sub(self.conventions.len()) {
+            let right = self.right(question, 0).filter(|_| is_near(question))?;
+            return self.ways[way].picture(&line(question), right);
+        }
         in_blocks(question.side, &|block, window| {
             let ends = [0, 1].map(|i| {
                 [0, 1].map(|axis| {
@@ -298,14 +370,7 @@ impl Drawer for Lines<'_> {
     }
 
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
-        let asked: Vec<LineQuestion> = questions
-            .iter()
-            .map(|q| {
-                // Questions keep to the range that is declared.
-                let ends = [0, 1].map(|i| [0, 1].map(|axis| q.points[i][axis] as i32));
-                LineQuestion { ends, window: window_of(q) }
-            })
-            .collect();
+        let asked: Vec<LineQuestion> = questions.iter().map(line).collect();
         let answers = self.ask.ask_lines(&asked);
         let picture = |(q, answer): (&AnyQuestion, Option<Vec<[i32; 2]>>)| {
             let mut picture = Picture::new(q.side);
@@ -331,6 +396,14 @@ impl Drawer for Lines<'_> {
 
     fn rules(&self) -> &[String] {
         &self.rules
+    }
+
+    fn conventions(&self) -> usize {
+        self.conventions.len()
+    }
+
+    fn repair(&self, rule: usize) -> &str {
+        rule.checked_sub(self.conventions.len()).map_or("", |way| &self.ways[way].repair)
     }
 
     fn other(&self) -> usize {

@@ -26,12 +26,17 @@ mod rule;
 mod say;
 mod search;
 pub mod trial;
+mod visit;
 mod walk;
 
 use std::cell::OnceCell;
 
-use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
+use crate::convention::{
+    Ask, AskLine, Count, Declarations, LineConvention, LineQuestion, TriangleConvention,
+    TriangleQuestion,
+};
 use change::{Base, Rule};
+pub use drawer::KnownWay;
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
 use model::{Model, Vocabulary, facts_of};
@@ -65,6 +70,9 @@ pub struct Learned {
     is_by_other: bool,
     /// What is known where not every answer was predicted: when it is wrong, where, and what comes out right beside it.
     pub known: Vec<String>,
+    /// What mends it, where a step is a known mistake.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub repairs: Vec<String>,
 }
 
 impl Learned {
@@ -117,6 +125,7 @@ impl Learned {
         if self.is_certain {
             let part = if self.part.is_empty() { "pixel" } else { self.part };
             said.push(format!("Of new answers, this predicts every {part} of {counts}."));
+            said.extend(self.repairs.iter().map(|repair| format!("Repair: {repair}.")));
             return said;
         }
         if let Some(first) = said.first_mut() {
@@ -186,17 +195,23 @@ fn learned_from<C>(
 }
 
 /// Learns from a rasterizer of triangles, as [`of_triangles`] does.
-pub type LearnTriangles =
-    fn(&mut dyn Ask, &Declarations, &[Start<'_, TriangleConvention>]) -> Option<Learned>;
+pub type LearnTriangles = fn(
+    &mut dyn Ask,
+    &Declarations,
+    &[Start<'_, TriangleConvention>],
+    &[KnownWay<'_, TriangleQuestion>],
+) -> Option<Learned>;
 
-/// Learns from a rasterizer of triangles, compared with one convention after another.
+/// Learns from a rasterizer of triangles, compared with one convention after another. Known wrong ways to draw may be a part of
+/// what it does.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     starts: &[Start<'_, TriangleConvention>],
+    ways: &[KnownWay<'_, TriangleQuestion>],
 ) -> Option<Learned> {
     let learn = |both: [&TriangleConvention; 2], work: &Work| {
-        Learner::new(&mut Triangles::new(ask, known, both, SEED, work)?).learn()
+        Learner::new(&mut Triangles::new(ask, known, both, ways, SEED, work)?).learn()
     };
     learned_from(starts, learn, TriangleConvention::words)
 }
@@ -206,9 +221,10 @@ pub(crate) fn of_lines(
     ask: &mut dyn AskLine,
     known: &Declarations,
     starts: &[Start<'_, LineConvention>],
+    ways: &[KnownWay<'_, LineQuestion>],
 ) -> Option<Learned> {
     let learn = |both: [&LineConvention; 2], work: &Work| {
-        Learner::new(&mut Lines::new(ask, known, both, SEED, work)).learn()
+        Learner::new(&mut Lines::new(ask, known, both, ways, SEED, work)).learn()
     };
     learned_from(starts, learn, LineConvention::words)
 }
@@ -375,7 +391,18 @@ impl<'a> Learner<'a> {
         let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
         let other = Base { changes: Vec::new(), rule: Rule::Convention(self.drawer.other()) };
         let is_by_other = model.chain.iter().any(|step| step.when.is_none() && step.base == other);
-        Learned { is_certain, does, wrong, right, part: "", is_beyond: false, is_by_other, known }
+        let repairs = say::repairs(model, &*self.drawer);
+        Learned {
+            is_certain,
+            does,
+            wrong,
+            right,
+            part: "",
+            is_beyond: false,
+            is_by_other,
+            known,
+            repairs,
+        }
     }
 }
 

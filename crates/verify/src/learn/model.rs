@@ -168,7 +168,7 @@ impl Model {
         vocabulary: &Vocabulary,
     ) -> Option<Picture> {
         let mut drawn = self.start(a, drawer)?;
-        if !self.borders.is_empty() {
+        if !self.borders.is_empty() || self.rows.changes() > 0 {
             drawn = self.with_borders(a, &drawn, drawer.sample(), vocabulary);
         }
         for step in &self.steps {
@@ -180,7 +180,7 @@ impl Model {
     fn start(&self, a: &LearnedAnswer, drawer: &dyn Drawer) -> Option<Picture> {
         let base = self.chain.iter().find(|guarded| guarded.holds(&a.facts));
         match base {
-            Some(guarded) => guarded.base.draw(&a.question, drawer),
+            Some(guarded) => guarded.base.draw(a, drawer),
             None => Some(a.right.clone()),
         }
     }
@@ -230,7 +230,8 @@ impl Model {
         let borders = self.borders.iter().map(|border| {
             border.crossing.changes() + border.when.iter().flatten().map(Vec::len).sum::<usize>()
         });
-        guards.chain(borders).chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
+        let steps = self.steps.iter().map(|step| 1 + step.facts.len());
+        self.rows.changes() + guards.chain(borders).chain(steps).sum::<usize>()
     }
 
     /// Every conjunction in it.

@@ -327,6 +327,13 @@ impl<'a> Scene<'a> {
             &["the number of rows below it in the window"],
             ["it is in the last row of the window", ""],
         );
+        // Width and height are easily taken for each other.
+        out.number(
+            Unit::Paired,
+            height - 1 - column,
+            &["the height of the window less 1 less its column"],
+        );
+        out.number(Unit::Paired, width - 1 - row, &["the width of the window less 1 less its row"]);
         out.group(0, |out| self.places([x, y], out));
         out.group(1, |out| self.neighbours([x, y], out));
         out.group(2, |out| self.tiles([x, y], out));
@@ -490,6 +497,15 @@ impl<'a> Scene<'a> {
                 i64::from(below),
                 &["the number of rows of its ", word, " px tile beyond the bottom of the window"],
             );
+            // A program that has room for so many tiles loses the later ones.
+            if side > 4 {
+                let tiles = [0, 1].map(|axis| self.tiles_of_box(axis, side));
+                let [column, row] =
+                    [0, 1].map(|i| i64::from([x, y][i].div_euclid(side)) - tiles[i][0]);
+                let number = row * tiles[0][1] + column;
+                let noun = ["the number of ", word, " px tiles of its box before its own"];
+                out.number(Unit::Involved, number, &noun);
+            }
             if side <= 4 {
                 let places = (0..side * side).map(|i| [left + i % side, top + i / side]);
                 let filled = places.filter(|at| self.is_shown(*at)).count();
@@ -509,6 +525,14 @@ impl<'a> Scene<'a> {
                 out.number(Unit::Involved, covered as i64, &noun);
             }
         }
+    }
+
+    /// The first tile of the box of the points in the window, and how many tiles it has along an axis.
+    fn tiles_of_box(&self, axis: usize, side: i32) -> [i64; 2] {
+        let q = self.question;
+        let last = i64::from(q.side[axis]) - 1;
+        let tiles = q.range(axis).map(|v| v.div_euclid(q.one()).clamp(0, last) / i64::from(side));
+        [tiles[0], tiles[1] + 1 - tiles[0]]
     }
 
     /// Its place along a line and its distance from it.
@@ -679,6 +703,13 @@ struct Crossings {
     ahead: [i64; 2],
 }
 
+impl Crossings {
+    /// From one crossing to the other, in subpixels: less than two too small.
+    fn length(&self) -> i64 {
+        256 * (self.ends[1] + 1 - self.ends[0]) - self.ahead[1] + self.ahead[0]
+    }
+}
+
 impl Scene<'_> {
     /// The same, each computed once.
     fn crossed(&self, axis: usize, place: i64) -> Option<&Crossings> {
@@ -789,6 +820,9 @@ impl Scene<'_> {
         }
         out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
             (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
+        });
+        out.named(Unit::Subpixels, of(&Crossings::length), || {
+            (format!("the length of its {line} from edge to edge"), String::new())
         });
         let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
         for (value, way, nth) in

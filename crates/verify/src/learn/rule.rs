@@ -28,6 +28,8 @@ pub(super) enum Test {
     Remainder(i64, i64),
     /// It is no multiple.
     NoMultiple(i64),
+    /// Whether it lies in the second half of a group of so many.
+    InSecondHalf(i64, bool),
 }
 
 /// A fact: a quantity with a test.
@@ -67,6 +69,7 @@ impl Test {
                 Self::AtLeast(v) => value >= v,
                 Self::Remainder(by, rest) => value.rem_euclid(by) == rest,
                 Self::NoMultiple(by) => value.rem_euclid(by) != 0,
+                Self::InSecondHalf(by, is_second) => (value & (by / 2) != 0) == is_second,
             }
     }
 
@@ -80,6 +83,9 @@ impl Test {
             // Divisors are powers of two.
             Self::Remainder(by, rest) => bits(values, |value| value & (by - 1) == rest),
             Self::NoMultiple(by) => bits(values, |value| value & (by - 1) != 0),
+            Self::InSecondHalf(by, is_second) => {
+                bits(values, |value| (value & (by / 2) != 0) == is_second)
+            }
         }
     }
 }
@@ -111,7 +117,7 @@ impl Fact {
         let test = match self.test {
             Test::Is(_) => 1.0,
             Test::AtMost(_) | Test::AtLeast(_) | Test::Remainder(2, _) => 1.01,
-            Test::Remainder(..) | Test::NoMultiple(_) => 1.03,
+            Test::Remainder(..) | Test::NoMultiple(_) | Test::InSecondHalf(..) => 1.03,
             Test::IsNot(_) => 1.05,
         };
         of * test
@@ -642,7 +648,12 @@ impl Tested {
             }
             Test::Remainder(by, rest) if by <= DIVISOR => self.remaining(|r| r & (by - 1) == rest),
             Test::NoMultiple(by) if by <= DIVISOR => self.remaining(|r| r & (by - 1) != 0),
-            Test::Remainder(..) | Test::NoMultiple(_) => test.bits(&self.values),
+            Test::InSecondHalf(by, is_second) if by <= DIVISOR => {
+                self.remaining(|r| (r & (by / 2) != 0) == is_second)
+            }
+            Test::Remainder(..) | Test::NoMultiple(_) | Test::InSecondHalf(..) => {
+                test.bits(&self.values)
+            }
         }
     }
 }
@@ -728,6 +739,9 @@ fn tests(names: &[Name], of: Of, with: &[RowValue], without: &[RowValue]) -> Vec
         let rests = if unit == Unit::Subpixels { 1 } else { by };
         all.extend((0..rests).map(|rest| Test::Remainder(by, rest)));
         all.push(Test::NoMultiple(by));
+        if by > 2 && !matches!(unit, Unit::Subpixels | Unit::Pixels) {
+            all.extend([false, true].map(|is_second| Test::InSecondHalf(by, is_second)));
+        }
     }
     all.sort_unstable();
     all.dedup();

@@ -62,6 +62,10 @@ fn modular(noun: &str, unit: Unit, test: Test) -> String {
         (Test::Remainder(by, 0), _) => format!("{noun} is a multiple of {}", step(by)),
         (Test::Remainder(by, rest), _) => format!("{noun} is {rest} modulo {by}"),
         (Test::NoMultiple(by), _) => format!("{noun} is no multiple of {}", step(by)),
+        (Test::InSecondHalf(by, is_second), _) => {
+            let half = ["first", "second"][usize::from(is_second)];
+            format!("{noun} is in the {half} half of each {}", step(by))
+        }
         _ => unreachable!("other tests have words of their own"),
     }
 }
@@ -99,7 +103,9 @@ pub(super) fn fact(fact: &Fact, names: &[Name]) -> String {
         Test::Is(v) => format!("{noun} is {}", number(*unit, v)),
         Test::IsNot(v) => format!("{noun} is not {}", number(*unit, v)),
         test @ (Test::AtMost(_) | Test::AtLeast(_)) => limited(noun, *unit, test),
-        test @ (Test::Remainder(..) | Test::NoMultiple(_)) => modular(noun, *unit, test),
+        test @ (Test::Remainder(..) | Test::NoMultiple(_) | Test::InSecondHalf(..)) => {
+            modular(noun, *unit, test)
+        }
     }
 }
 
@@ -119,13 +125,7 @@ pub(super) fn sentences(
         out.push(base(guarded, number > 0, is_line, drawer, vocabulary));
     }
     out.extend(model.borders.iter().map(|guarded| border(guarded, is_line, vocabulary)));
-    if let Some(way) = model.rows.heights {
-        let corners = format!("their corners, rounded {} to whole px", way.words());
-        out.push(format!("Edges have the rows from one to the other of {corners}."));
-    }
-    if model.rows.exchanges_ends {
-        out.push("A row whose ends then come in the wrong order is drawn between them.".to_owned());
-    }
+    out.extend(model.rows.words());
     for step in &model.steps {
         let said = pixels(step, vocabulary);
         // A step is about what the steps before it draw.
@@ -133,6 +133,16 @@ pub(super) fn sentences(
         out.push(if is_first { said } else { said.replacen("It ", "Of what is left, it ", 1) });
     }
     out
+}
+
+/// What mends the known wrong ways in a model.
+pub(super) fn repairs(model: &Model, drawer: &dyn Drawer) -> Vec<String> {
+    let rules = model.chain.iter().filter_map(|guarded| match guarded.base.rule {
+        Rule::Convention(number) => Some(number),
+        _ => None,
+    });
+    let repairs = rules.map(|rule| drawer.repair(rule).to_owned());
+    repairs.filter(|repair| !repair.is_empty()).collect()
 }
 
 fn base(
@@ -143,9 +153,9 @@ fn base(
     vocabulary: &Vocabulary,
 ) -> String {
     let parts: Vec<String> = guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
-    let rule = match &guarded.base.rule {
-        Rule::Convention(number) => drawer.rules()[*number].clone(),
-        Rule::Edges(_) | Rule::Walk(_) => String::new(),
+    let (rule, is_way) = match &guarded.base.rule {
+        Rule::Convention(number) => (&*drawer.rules()[*number], *number >= drawer.conventions()),
+        Rule::Edges(_) | Rule::Walk(_) => ("", false),
     };
     let is_nothing = guarded.base.is_nothing();
     let mut parts = if is_nothing { Vec::new() } else { parts };
@@ -155,7 +165,9 @@ fn base(
         Rule::Walk(walk) => parts.extend(walk.words()),
     }
     let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
-    if !rule.is_empty() {
+    if is_way {
+        rule.clone_into(&mut how);
+    } else if !rule.is_empty() {
         how += &format!(" {rule}");
     }
     if !parts.is_empty() {
@@ -239,6 +251,14 @@ fn formula(crossing: &Crossing, ends: [bool; 2], is_line: bool) -> Vec<String> {
                 "the slope of {edge} were added up row by row in floats of {bits} bits"
             ));
         }
+        Slope::Reciprocal { fraction, toward: way } => said.push(format!(
+            "the slope of {edge} were a product with a reciprocal of {fraction} bits of fraction, rounded {}",
+            way.words()
+        )),
+        Slope::Short { bits, toward: way } => said.push(format!(
+            "the slope of {edge} were a product with a reciprocal of {bits} significant bits, rounded {}",
+            way.words()
+        )),
         Slope::Word { bits, is_signed } => {
             let kind = if is_signed { "a signed" } else { "an unsigned" };
             said.push(format!("the shorter side of {edge} were in {kind} word of {bits} bits"));
@@ -347,7 +367,17 @@ fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
 fn change(change: &Change, is_line: bool) -> String {
     let (points, axes, how) = match change {
         Change::Nothing => return "nothing were given".to_owned(),
+        Change::Visit(visit) => return visit.words(),
+        Change::Gather(gather) => return gather.words(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
+        Change::Shift(axes) => {
+            let axis = match axes {
+                [true, true] => "x and y are",
+                [true, false] => "x is",
+                _ => "y is",
+            };
+            return format!("it were moved as a whole so that its smallest {axis} not negative");
+        }
         Change::Reverse => return "its ends were exchanged".to_owned(),
         Change::Read { axes, how } => {
             let axis = match axes {
@@ -437,6 +467,12 @@ fn transformed(how: How, one: f64) -> String {
         }
         How::Limit(most) => format!("limited to the range from -{} to {}", px(most), px(most)),
         How::Absolute => "without its sign".to_owned(),
+        How::AddBelow(by) => format!("moved by {} where negative", px(by)),
+        How::SnapNear(step, within) => format!(
+            "moved to a multiple of {} where it is at most {} away",
+            multiple(step, one),
+            px(within)
+        ),
         How::Mirror(less) => format!(
             "mirrored: the side of the window{} less the coordinate",
             lessened(&px(less), less)

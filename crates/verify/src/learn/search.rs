@@ -1,7 +1,7 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
-use super::border::{self, Crossing, RowRule, Site, Tie, Toward};
-use super::change::{self, Base, EDGES_OF_A_PIXEL, Nearness, Rule};
+use super::border::{self, Crossing, Halves, RowRule, Site, Tie, Toward};
+use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, Nearness, Rule};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
 use super::edges::EdgeTest;
@@ -108,7 +108,13 @@ impl Search<'_> {
         let is_much = |tried: &&Tried| !tried.model.chain.is_empty() && tried.wrong > MUCH;
         let changed = tried.iter().filter(is_much).reduce(higher).map(|tried| tried.model.clone());
         if let Some(model) = changed.filter(|_| may_go_on(&tried)) {
-            tried.push(self.tried(self.with_steps(&model, 2, 1)));
+            // A guard may stand for what a pixel rule says better.
+            let bases = model.chain.iter().take(1).map(|guarded| always(&guarded.base));
+            let bare = Model { chain: bases.collect(), ..Model::default() };
+            tried.push(self.tried(self.with_steps(&bare, 2, 1)));
+            if may_go_on(&tried) && bare != model {
+                tried.push(self.tried(self.with_steps(&model, 2, 1)));
+            }
         }
         // Long models may be a formula in other words.
         if may_go_on(&tried) || best(&tried).model.cost() > 5 {
@@ -164,7 +170,7 @@ impl Search<'_> {
                 return best.filter(|_| missed.is_empty());
             }
             // The answers that are not predicted tell most apart; of the others none may be lost for them.
-            let mut variants: Vec<(usize, Model)> = variants(model, self.drawer.rules().len())
+            let mut variants: Vec<(usize, Model)> = variants(model, self.drawer.conventions())
                 .into_iter()
                 .map(|other| (count(&other, &missed), other))
                 .filter(|(more, _)| *more > 0)
@@ -231,7 +237,9 @@ impl Search<'_> {
     fn composed(&self, ranked: &[(Nearness, Base)]) -> Vec<(Nearness, Base)> {
         let answers = self.some(true, RANKED_BY);
         let Some(first) = answers.first() else { return Vec::new() };
-        let all = change::all(first.question.is_line(), self.drawer.rules().len());
+        let mut all = change::all(first.question.is_line(), self.drawer.rules().len());
+        // Another way over the shape changes little of most pictures, and would crowd out the rest.
+        all.retain(|base| !base.changes.iter().any(|change| matches!(change, Change::Visit(_))));
         let mut bases = Vec::new();
         for (_, base) in ranked.iter().take(COMPOSED) {
             for other in &all {
@@ -298,7 +306,7 @@ impl Search<'_> {
         if pixels[0].len() < 2 * NEED {
             return;
         }
-        let rules = self.drawer.rules().len();
+        let rules = self.drawer.conventions();
         let worth = |test: &EdgeTest| self.worth_of_test(test, &pixels);
         let best = climbed(EdgeTest::RIGHT, &|test| test.variants(rules), &worth);
         let base =
@@ -397,6 +405,15 @@ impl Search<'_> {
     fn move_borders(&self, tried: &mut Vec<Tried>) {
         let mut model = Model::default();
         let mut score = self.tried(model.clone()).score();
+        let with_rows = self.with_rows().map(|model| self.tried(model));
+        if let Some(next) = with_rows.filter(|next| next.score() > score) {
+            (model, score) = (next.model.clone(), next.score());
+            let is_whole = next.is_whole();
+            tried.push(next);
+            if is_whole {
+                return;
+            }
+        }
         for _ in (0..MOST_BORDERS).take_while(|_| !self.drawer.work().is_done()) {
             let mut candidates = Vec::new();
             for model in self.bordered(&model) {
@@ -415,9 +432,33 @@ impl Search<'_> {
                 return;
             }
         }
-        if !model.borders.is_empty() {
+        if model != Model::default() {
             tried.push(self.tried(self.with_steps(&model, 2, 1)));
         }
+    }
+
+    /// Other rows of the two halves of a triangle: the rule that predicts most.
+    fn with_rows(&self) -> Option<Model> {
+        let (wrong, right) = (self.some(true, RANKED_BY), self.some(false, RANKED_BY / 2));
+        if wrong.first().is_none_or(|a| a.question.is_line()) {
+            return None;
+        }
+        let of = |rows: &RowRule| Model { rows: *rows, ..Model::default() };
+        let worth = |rows: &RowRule| {
+            let missed = |a: &&LearnedAnswer| {
+                let picture = of(rows).predict(a, self.drawer, self.vocabulary);
+                picture.map_or(MOST_MISSED, |p| p.differs(&a.drawn).min(MOST_MISSED))
+            };
+            let [wrong, right] = [&wrong, &right].map(|some| {
+                let all = some.iter().map(missed);
+                all.fold(0.0, |sum, missed| {
+                    sum + f64::from(u8::from(missed == 0)) - 0.02 * missed as f64
+                })
+            });
+            wrong + 0.5 * right - 0.3 * rows.changes() as f64
+        };
+        let best = climbed(RowRule::default(), &RowRule::variants, &worth);
+        best.first().map(|(_, rows)| of(rows))
     }
 
     /// A model with another formula of borders: for both ends of rows and for each those that explain most of what is wrong.
@@ -822,6 +863,9 @@ struct PixelSeen<'a> {
     at: [i32; 2],
 }
 
+/// Pixels of an answer beyond which no more are counted as missed.
+const MOST_MISSED: usize = 24;
+
 /// Lines by which walks are compared are shorter than this.
 const SHORT_LINE: i64 = 512;
 
@@ -901,6 +945,7 @@ fn climbed<F: Copy + PartialEq>(
         best.extend(more.into_iter().map(|c| (worth(&c), c)));
         best.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         best.dedup_by(|(_, a), (_, b)| a == b);
+        few_of_a_worth(&mut best);
         best.truncate(wanted);
         if best[0].0 <= before {
             break;
@@ -909,6 +954,18 @@ fn climbed<F: Copy + PartialEq>(
     best.retain(|(_, formula)| *formula != start);
     best.truncate(GUARDED_FORMULAS);
     best
+}
+
+/// Formulas of the same worth that are kept: most of them are the same in other words.
+const OF_A_WORTH: usize = 2;
+
+fn few_of_a_worth<F>(best: &mut Vec<(f64, F)>) {
+    let (mut last, mut count) = (f64::NAN, 0);
+    best.retain(|(worth, _)| {
+        count = if *worth == last { count + 1 } else { 1 };
+        last = *worth;
+        count <= OF_A_WORTH
+    });
 }
 
 /// Formulas that are changed in another field, round by round, and those whose guard is learned.
@@ -952,11 +1009,9 @@ fn variants(model: &Model, rules: usize) -> Vec<Model> {
     if !model.borders.is_empty() {
         // A program has one way to round, and uses it everywhere.
         all.extend(Toward::ALL.map(|toward| rounding(model, toward)));
-        let exchanges_ends = !model.rows.exchanges_ends;
-        all.push(Model { rows: RowRule { exchanges_ends, ..model.rows }, ..model.clone() });
-        for heights in Toward::ALL.map(Some).into_iter().chain([None]) {
-            all.push(Model { rows: RowRule { heights, ..model.rows }, ..model.clone() });
-        }
+    }
+    if !model.borders.is_empty() || model.rows != RowRule::default() {
+        all.extend(model.rows.variants().into_iter().map(|rows| Model { rows, ..model.clone() }));
     }
     all
 }
@@ -1005,8 +1060,13 @@ fn shorter(model: &Model) -> Vec<Model> {
             all.push(less);
         }
     }
-    let plain =
-        [RowRule { exchanges_ends: false, ..model.rows }, RowRule { heights: None, ..model.rows }];
+    let halves = Halves { counts: false, ..model.rows.halves };
+    let plain = [
+        RowRule { exchanges_ends: false, ..model.rows },
+        RowRule { heights: None, ..model.rows },
+        RowRule { halves, ..model.rows },
+        RowRule { halves: Halves::default(), ..model.rows },
+    ];
     let less = plain.into_iter().filter(|rows| *rows != model.rows);
     all.extend(less.map(|rows| Model { rows, ..model.clone() }));
     for (i, step) in model.steps.iter().enumerate() {

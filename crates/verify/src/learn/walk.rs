@@ -20,7 +20,46 @@ pub(super) enum Method {
         start: [i64; 2],
     },
     /// Both coordinates are added up in floats of so many bits, and rounded for each pixel.
-    Added { bits: u32, toward: Toward },
+    Added { bits: u32, toward: Toward, steps: Steps },
+}
+
+/// How many steps a line is cut into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Steps {
+    /// The length of the longer side.
+    Longer,
+    /// Its own length, rounded up.
+    Length,
+    /// The length of both sides.
+    Sum,
+    Twice,
+    OneMore,
+}
+
+impl Steps {
+    const ALL: [Self; 5] = [Self::Longer, Self::Length, Self::Sum, Self::Twice, Self::OneMore];
+
+    fn of(self, way: &Way) -> i64 {
+        let [width, height] = way.size;
+        match self {
+            Self::Longer => way.size[way.axis],
+            // Below 2^31, so that the root is off by less than one part in 2^50.
+            Self::Length => ((width * width + height * height) as f64).sqrt().ceil() as i64,
+            Self::Sum => width + height,
+            Self::Twice => 2 * way.size[way.axis],
+            Self::OneMore => way.size[way.axis] + 1,
+        }
+    }
+
+    fn words(self) -> Option<&'static str> {
+        match self {
+            Self::Longer => None,
+            Self::Length => Some("as many as it is long, rounded up"),
+            Self::Sum => Some("as many as both sides have together"),
+            Self::Twice => Some("twice as many as its longer side has"),
+            Self::OneMore => Some("one more than its longer side has"),
+        }
+    }
 }
 
 /// An error term, twice as large as of one that begins with half of `du`.
@@ -85,7 +124,7 @@ impl Walk {
         bits: None,
     };
     pub(super) const ADDED: Self = Self {
-        method: Method::Added { bits: 24, toward: Toward::Nearest },
+        method: Method::Added { bits: 24, toward: Toward::Nearest, steps: Steps::Longer },
         from: From::First,
         along: None,
         bits: None,
@@ -104,7 +143,7 @@ impl Walk {
             Method::BothAxes { is_fresh, start, .. } => {
                 1 + usize::from(is_fresh) + usize::from(start != [1, -1])
             }
-            Method::Added { .. } => 1,
+            Method::Added { steps, .. } => 1 + usize::from(steps != Steps::Longer),
         };
         let is_from_behind = matches!(self.from, From::After | From::Second);
         let others = [self.bits.is_some(), is_from_behind, self.along.is_some()];
@@ -142,10 +181,15 @@ impl Walk {
                     with([x, y], is_fresh, start);
                 }
             }
-            Method::Added { .. } => {
+            Method::Added { bits, toward, steps } => {
+                let mut with = |bits, toward, steps| {
+                    let method = Method::Added { bits, toward, steps };
+                    all.push(Self { method, ..*self });
+                };
+                Steps::ALL.into_iter().for_each(|steps| with(bits, toward, steps));
                 for bits in [24, 53] {
                     for toward in Toward::ALL.into_iter().chain([Toward::NearestDown]) {
-                        all.push(Self { method: Method::Added { bits, toward }, ..*self });
+                        with(bits, toward, steps);
                     }
                 }
             }
@@ -206,7 +250,8 @@ impl Walk {
                     ));
                 }
             }
-            (Method::Added { bits, toward: way }, _) => {
+            (Method::Added { bits, toward: way, steps }, _) => {
+                said.extend(steps.words().map(|words| format!("its steps were {words}")));
                 said.push(format!("its coordinates were added up in floats of {bits} bits"));
                 said.push(format!("each pixel were rounded {}", way.words()));
             }
@@ -244,7 +289,9 @@ impl Walk {
             Method::BothAxes { equal, is_fresh, start } => {
                 self.on_both_axes(equal, is_fresh, start, &way, &mut plot);
             }
-            Method::Added { bits, toward } => added(bits, toward, &way, &mut plot),
+            Method::Added { bits, toward, steps } => {
+                added(bits, toward, steps.of(&way), &way, &mut plot);
+            }
         }
         Some(picture)
     }
@@ -328,8 +375,7 @@ impl Walk {
     }
 }
 
-fn added(bits: u32, toward: Toward, way: &Way, plot: Plot<'_>) {
-    let steps = way.size[way.axis];
+fn added(bits: u32, toward: Toward, steps: i64, way: &Way, plot: Plot<'_>) {
     let mut at = way.from.map(|v| v as f64);
     let by = [0, 1].map(|axis| {
         let length = (way.to[axis] - way.from[axis]) as f64;
@@ -370,6 +416,7 @@ fn rounded(v: f64, bits: u32, toward: Toward) -> i64 {
         Toward::Up => v.ceil(),
         Toward::Zero => v.trunc(),
         Toward::HalfAway => v.round(),
+        Toward::HalfEven => v.round_ties_even(),
     };
     whole as i64
 }

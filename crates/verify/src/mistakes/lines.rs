@@ -8,7 +8,7 @@ use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
-type Ends = [[i64; 2]; 2];
+pub(super) type Ends = [[i64; 2]; 2];
 
 /// What a mistake does, given its parameter. Pixels come from the first end to the second.
 #[derive(Clone, Copy)]

@@ -29,9 +29,9 @@ use crate::convention::{
     LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, RULES, Rounding, Shape, Ties,
     TriangleConvention, TriangleQuestion, Windings,
 };
-use crate::learn::{self, Learned};
+use crate::learn::{self, KnownWay, Learned};
 pub use crate::learn::{LearnTriangles, of_triangles as learn_triangles};
-use lines::Stroke;
+use lines::{Ends, Stroke};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
@@ -64,6 +64,8 @@ struct Mistake<D> {
 #[derive(Clone, Copy)]
 enum Parameters {
     Fixed(&'static [i64]),
+    /// The same, each of which shows from so many pixels on.
+    Words(&'static [i64], fn(i64) -> i64),
     /// All numbers below this one.
     Below(i64),
     /// Limits between what is drawn and what is not, read off the answers.
@@ -346,17 +348,19 @@ impl AnsweredQuestion<TriangleQuestion> {
     /// Whether a mistake predicts it: what is hit twice where only that is wrong, and otherwise hit twice or not. Many programs
     /// test the samples of a box around the corners, and no others.
     fn may_be(&self, drawn: Mask, twice: Mask, draws: Fill) -> bool {
+        self.is(drawn, twice) || !matches!(draws, Fill::Twice(_)) && self.may_be_once(drawn)
+    }
+
+    /// The same of what hits no pixel twice.
+    fn may_be_once(&self, drawn: Mask) -> bool {
         let once = Mask::default();
-        if self.is(drawn, twice) || (self.is(drawn, once) && !matches!(draws, Fill::Twice(_))) {
-            return true;
-        }
-        !matches!(draws, Fill::Twice(_))
-            && self.drawn.beyond(&drawn) == 0
-            && fills::boxes(&self.question.corners).into_iter().any(|bounds| {
-                let mut within = drawn;
-                within.clip(bounds);
-                self.is(within, once)
-            })
+        self.is(drawn, once)
+            || self.drawn.beyond(&drawn) == 0
+                && fills::boxes(&self.question.corners).into_iter().any(|bounds| {
+                    let mut within = drawn;
+                    within.clip(bounds);
+                    self.is(within, once)
+                })
     }
 }
 
@@ -429,13 +433,15 @@ pub fn of_triangles(
     if ask.is_abandoned() {
         return None;
     }
-    let mut why = explain(&answered, &found_bases, programs);
+    let draws_twice = answered.iter().any(|a| !a.twice.is_empty());
+    let (mut why, nearest) = explain(&answered, &found_bases, programs);
     if why.as_ref().is_some_and(|why| !why.is_known())
         && answered.iter().any(|a| !a.twice.is_empty())
     {
         // Pixels may be drawn twice beside another mistake.
         answered.iter_mut().for_each(|a| a.twice = Mask::default());
-        if let Some(once) = explain(&answered, &found_bases, programs).filter(Mistakes::is_known) {
+        let once = explain(&answered, &found_bases, programs).0;
+        if let Some(once) = once.filter(Mistakes::is_known) {
             let mut causes = once.causes;
             for cause in &mut causes {
                 cause.does += " (that it draws pixels more than once is left aside)";
@@ -445,7 +451,8 @@ pub fn of_triangles(
     }
     let why = with_limits(why, answered.len(), limits);
     let starts = learn::starts(&known.declared, expected, found);
-    or_learned(why, answered.len(), || learn?(ask, known, &starts))
+    let ways: Vec<_> = nearest.iter().map(|near| near.way(&found_bases, draws_twice)).collect();
+    or_learned(why, answered.len(), || learn?(ask, known, &starts, &ways))
 }
 
 /// What was learned where no mistake explains it, also where none of so many answers is wrong: others are.
@@ -460,15 +467,85 @@ fn or_learned(
     (is_found || why.learned.is_some()).then_some(why)
 }
 
-/// The mistake that explains answers about triangles.
+/// A mistake of a table with its parameter, and the convention underneath.
+#[derive(Clone, Copy)]
+struct Variant<D: 'static, C> {
+    mistake: &'static Mistake<D>,
+    p: i64,
+    base: C,
+}
+
+impl Variant<Fill, usize> {
+    /// As a way to draw that other mistakes may stand beside; of a program that never draws a pixel twice, without that.
+    fn way(self, bases: &[Base], draws_twice: bool) -> KnownWay<'_, TriangleQuestion> {
+        let Self { mistake, p, base } = self;
+        let Explanation { mut does, repair, .. } = says(mistake, p);
+        let base = &bases[base];
+        does += &base.words(mistake.draws);
+        let draw = move |q: &TriangleQuestion| {
+            let whole = || base.convention.mask(&q.corners, q.window);
+            let [drawn, twice] =
+                fill(mistake.draws, p, &base.convention, &q.corners, q.window, &whole)?;
+            let is_seen = draws_twice || matches!(mistake.draws, Fill::Twice(_));
+            Some([drawn, if is_seen { twice } else { Mask::default() }])
+        };
+        KnownWay { does, repair, draw: Box::new(draw) }
+    }
+}
+
+impl Variant<Stroke, LineConvention> {
+    fn mask(&self, ends: Ends, window: PixelRect) -> Option<Mask> {
+        let Self { mistake, p, base } = self;
+        Some(match mistake.draws {
+            Stroke::Instead(others) => {
+                let mut all = Mask::default();
+                for other in others(ends, window, *p) {
+                    all.add(&lines::of_convention(base, other, window)?);
+                }
+                all
+            }
+            Stroke::Own(pixels) => lines::mask(&pixels(ends, window, *p), window),
+            Stroke::Changed(change) => {
+                let mut mask = lines::of_convention(base, ends, window)?;
+                change(&mut mask, ends, window, *p);
+                mask
+            }
+        })
+    }
+
+    fn says(&self, expected: &LineConvention) -> Explanation {
+        let mut says = says(self.mistake, self.p);
+        if self.base != *expected {
+            says.does += &format!(" (apart from that it {})", self.base.words());
+        }
+        says
+    }
+
+    /// As a way to draw that other mistakes may stand beside.
+    fn way(self, expected: &LineConvention) -> KnownWay<'static, LineQuestion> {
+        let Explanation { does, repair, .. } = self.says(expected);
+        let draw = move |q: &LineQuestion| {
+            let ends = wide(q.ends);
+            let mask = lines::is_walked(ends).then(|| self.mask(ends, q.window))??;
+            Some([mask, Mask::default()])
+        };
+        KnownWay { does, repair, draw: Box::new(draw) }
+    }
+}
+
+fn wide(ends: [[i32; 2]; 2]) -> Ends {
+    ends.map_array(|end| end.map_array(i64::from))
+}
+
+/// The mistake that explains answers about triangles; where there is none, those that come nearest.
 fn explain(
     answered: &[AnsweredQuestion<TriangleQuestion>],
     bases: &[Base],
     programs: &[Program<'_, TriangleQuestion, Coverage>],
-) -> Option<Mistakes> {
+) -> (Option<Mistakes>, Vec<Variant<Fill, usize>>) {
     let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
     if !is_wrong.contains(&true) {
-        return None;
+        return (None, Vec::new());
     }
     let telling = &answered.iter().map(AnsweredQuestion::telling).collect::<Vec<_>>();
     // What each base draws, once it is needed.
@@ -479,11 +556,17 @@ fn explain(
     };
     let drawn_by = &drawn_by;
     let scans = OnceCell::new();
-    let mut hypotheses = Vec::new();
+    let farthest = answered.iter().map(|a| fills::metric(&a.question.corners, fills::FARTHEST));
+    let farthest_px = farthest.max().unwrap_or(0) / 256 + 1;
+    let (mut hypotheses, mut variants) = (Vec::new(), Vec::new());
     for mistake in triangles::TABLE {
         let parameters = match mistake.parameters {
             Parameters::Sizes => limits(answered),
             Parameters::Clamps => triangles::clamps(&clamped(answered)),
+            // What no answer can show is no cause.
+            Parameters::Words(all, from_px) => {
+                all.iter().copied().filter(|p| from_px(*p) <= farthest_px).collect()
+            }
             Parameters::Scans(is_one) => {
                 let all = scans.get_or_init(|| {
                     scans::fitting(&near(answered, &is_wrong, &bases[0].convention))
@@ -519,6 +602,7 @@ fn explain(
                 let mut says = says.clone();
                 says.does += &base.words(mistake.draws);
                 hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                variants.push(Variant { mistake, p, base: number });
             }
         }
     }
@@ -532,13 +616,32 @@ fn explain(
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
     let alone = |among: &[usize]| {
         let missed = |number| {
-            let is_missed = |&&i: &&usize| !answered[i].is_as(drawn_by(number, i));
+            // What a mistake is forgiven is forgiven here, too: that only the samples of a box are tested.
+            let is_missed = |&&i: &&usize| {
+                let drawn = drawn_by(number, i);
+                drawn.is_some_and(|drawn| !answered[i].may_be_once(drawn))
+            };
             among.iter().filter(is_missed).count()
         };
         let conventions = (0..bases.len()).filter(|&number| bases[number].said.is_some());
         conventions.map(missed).min().unwrap_or(usize::MAX)
     };
-    conclude(hypotheses, &is_wrong, &near, &alone, &seen)
+    let why = conclude(&hypotheses, &is_wrong, &near, &alone, &seen);
+    if why.as_ref().is_some_and(Mistakes::is_known) {
+        return (why, Vec::new());
+    }
+    // A part of what a program does is looked for under its own convention alone.
+    let is_plain = |base: &Base| base.said.is_none() || base.is_found();
+    let plain: Vec<bool> = bases.iter().map(is_plain).collect();
+    let nearest = weigh::nearest(&hypotheses, &telling_of(answered), &|i| {
+        variants.get(i).is_some_and(|variant| plain[variant.base])
+    });
+    (why, nearest.into_iter().map(|i| variants[i]).collect())
+}
+
+/// Which answers are wrong and have a pixel: of others, whatever draws nothing is a part.
+fn telling_of<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
+    answered.iter().map(|a| a.is_wrong() && !a.is_blank()).collect()
 }
 
 /// The name of the cause where no answer has a pixel.
@@ -575,7 +678,6 @@ pub fn of_lines(
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention);
     let expected = found.filter(|_| is_certain).unwrap_or(&default);
-    let wide = |ends: [[i32; 2]; 2]| ends.map_array(|end| end.map_array(i64::from));
     // Of lines, pixels that come twice are not told from others.
     let drawn = |question: &LineQuestion, pixels: &[[i32; 2]]| {
         let pixels: Vec<_> = pixels.iter().map(|p| p.map_array(i64::from)).collect();
@@ -613,7 +715,7 @@ pub fn of_lines(
             bases.push(*base);
         }
     }
-    let mut hypotheses = Vec::new();
+    let (mut hypotheses, mut variants) = (Vec::new(), Vec::new());
     for mistake in lines::TABLE {
         let parameters = match mistake.parameters {
             Parameters::Octants => {
@@ -627,36 +729,17 @@ pub fn of_lines(
         };
         // What has its own pixels needs no convention underneath.
         let bases = if matches!(mistake.draws, Stroke::Own(_)) { &bases[..1] } else { &bases };
-        for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
+        for (&p, &base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
+            let variant = Variant { mistake, p, base };
             let answered = &answered;
             let predicts = move |i: usize| {
                 let question = &answered[i].question;
-                let (ends, window) = (wide(question.ends), question.window);
-                let mask = match mistake.draws {
-                    Stroke::Instead(others) => {
-                        let mut all = Some(Mask::default());
-                        for other in others(ends, window, p) {
-                            let mask = lines::of_convention(base, other, window);
-                            all.iter_mut().zip(&mask).for_each(|(all, mask)| all.add(mask));
-                            all = all.filter(|_| mask.is_some());
-                        }
-                        all
-                    }
-                    Stroke::Own(pixels) => Some(lines::mask(&pixels(ends, window, p), window)),
-                    Stroke::Changed(change) => {
-                        lines::of_convention(base, ends, window).map(|mut mask| {
-                            change(&mut mask, ends, window, p);
-                            mask
-                        })
-                    }
-                };
+                let mask = variant.mask(wide(question.ends), question.window);
                 mask.is_none_or(|mask| mask == answered[i].drawn)
             };
-            let mut says = says(mistake, p);
-            if base != expected {
-                says.does += &format!(" (apart from that it {})", base.words());
-            }
+            let says = variant.says(expected);
             hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+            variants.push(variant);
         }
     }
     hypotheses.extend(
@@ -666,11 +749,19 @@ pub fn of_lines(
     let is_near =
         |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
-    let why = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
+    let why = conclude(&hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
+    let is_plain = |base: &LineConvention| base == expected || Some(base) == found;
+    let nearest = match why.as_ref().is_some_and(Mistakes::is_known) {
+        true => Vec::new(),
+        false => weigh::nearest(&hypotheses, &telling_of(&answered), &|i| {
+            variants.get(i).is_some_and(|variant: &Variant<_, _>| is_plain(&variant.base))
+        }),
+    };
     let limits = thresholds::of_lines(ask, known, expected);
     let why = with_limits(why, is_wrong.len(), limits);
     let starts = learn::starts(&default, expected, found);
-    or_learned(why, is_wrong.len(), || learn::of_lines(ask, known, &starts))
+    let ways: Vec<_> = nearest.into_iter().map(|i| variants[i].way(expected)).collect();
+    or_learned(why, is_wrong.len(), || learn::of_lines(ask, known, &starts, &ways))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
@@ -695,7 +786,7 @@ impl<Q, Picture> Program<'_, Q, Picture> {
 
 fn numbers(parameters: Parameters) -> Vec<i64> {
     match parameters {
-        Parameters::Fixed(parameters) => parameters.to_vec(),
+        Parameters::Fixed(parameters) | Parameters::Words(parameters, _) => parameters.to_vec(),
         Parameters::Below(end) => (0..end).collect(),
         Parameters::Sizes | Parameters::Clamps | Parameters::Scans(_) | Parameters::Octants => {
             Vec::new()
@@ -711,13 +802,13 @@ fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
 /// Weighs hypotheses about answers of any kind. `is_wrong` says of each answer whether it is; nothing where none is.
 #[must_use]
 pub fn of_answers(hypotheses: Vec<Hypothesis<'_>>, is_wrong: &[bool]) -> Option<Mistakes> {
-    conclude(hypotheses, is_wrong, &[], &|_| usize::MAX, &Vec::new)
+    conclude(&hypotheses, is_wrong, &[], &|_| usize::MAX, &Vec::new)
 }
 
 /// `near` are the answers of which it is known that numbers cannot have been too large; `alone` says how many of some answers
 /// the best convention misses without a mistake.
 fn conclude(
-    hypotheses: Vec<Hypothesis<'_>>,
+    hypotheses: &[Hypothesis<'_>],
     is_wrong: &[bool],
     near: &[usize],
     alone: &dyn Fn(&[usize]) -> usize,
@@ -735,11 +826,11 @@ fn conclude(
             causes.retain(|cause| 2 * cause.missed() < alone);
         }
     };
-    let (mut causes, lead) = weigh(&hypotheses, is_wrong, &all);
+    let (mut causes, lead) = weigh(hypotheses, is_wrong, &all);
     keep_needed(&mut causes, &all);
     if causes.is_empty() {
         // A mistake may be there beside another one that large numbers show.
-        causes = weigh(&hypotheses, is_wrong, near).0;
+        causes = weigh(hypotheses, is_wrong, near).0;
         keep_needed(&mut causes, near);
         for cause in &mut causes {
             cause.does += &format!(
@@ -1018,7 +1109,7 @@ fn clamped(answered: &[AnsweredQuestion<TriangleQuestion>]) -> Vec<i64> {
 pub fn table() -> Vec<Explanation> {
     fn example<D>(mistake: &Mistake<D>) -> Explanation {
         let p = match mistake.parameters {
-            Parameters::Fixed(parameters) => parameters[0],
+            Parameters::Fixed(parameters) | Parameters::Words(parameters, _) => parameters[0],
             Parameters::Below(_) => 1,
             Parameters::Sizes => triangles::packed_size(0, true, 131_072),
             Parameters::Clamps | Parameters::Scans(_) | Parameters::Octants => 1,
@@ -1031,6 +1122,39 @@ pub fn table() -> Vec<Explanation> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two mistakes at once are told: one of the table, and one that no table has.
+    #[test]
+    fn known_ways_are_parts_of_an_explanation() {
+        let mistake =
+            triangles::TABLE.iter().find(|m| m.name == "corners made by clipping are rounded");
+        let mistake = mistake.unwrap();
+        let known = Declarations { window_px: (24, 24), ..Declarations::default() };
+        let draw = |q: &TriangleQuestion| -> Option<Coverage> {
+            let whole = || None;
+            let [mask, _] = fill(mistake.draws, 1, &known.declared, &q.corners, q.window, &whole)?;
+            let mut picture = Coverage::new(q.window, 0);
+            // Row 0 is lost.
+            for y in 1..q.window.y1 {
+                for x in (0..q.window.x1).filter(|x| mask.has(*x, y)) {
+                    picture.row_mut(y)[x as usize] = 1;
+                }
+            }
+            Some(picture)
+        };
+        let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
+            questions.iter().map(draw).collect()
+        };
+        let starts = [learn::Start { convention: &known.declared, is_right: true }];
+        let alone = learn_triangles(&mut ask, &known, &starts, &[]).unwrap();
+        assert!(!alone.is_certain, "{alone:?}");
+        let why = of_triangles(&mut ask, &known, None, &[], Some(learn_triangles)).unwrap();
+        let said = why.to_string();
+        assert!(why.is_learned(), "{said}");
+        assert!(said.contains("clips triangles at the window"), "{said}");
+        assert!(said.contains("where its row is 0"), "{said}");
+        assert!(said.contains("Repair: "), "{said}");
+    }
 
     /// A mistake whose pixels do not depend on the window draws each of them alone as within the picture.
     #[test]

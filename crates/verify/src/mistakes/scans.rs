@@ -183,7 +183,15 @@ pub(super) struct Scan {
     moved: i64,
     /// 1 where a triangle whose sides are all nearly level or upright is filled as a box.
     boxes: i64,
+    /// Which half has a row of the other one, too, between its edges prolonged: one of `SHARED`.
+    shared: i64,
 }
+
+const SHARED: [&str; 3] = [
+    "",
+    ", and begins the lower half one row early, between its edges prolonged",
+    ", and ends the upper half one row late, between its edges prolonged",
+];
 
 const WHOLE: [&str; 5] = [
     "",
@@ -239,12 +247,12 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: Digits<14> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3, 2]);
+const DIGITS: Digits<15> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3, 2, 3]);
 
 impl Scan {
     fn of(p: i64) -> Self {
         let [slope, lower, above, whole, rows, height, left, right, rest @ ..] = DIGITS.digits(p);
-        let [level, sorted, least, up, moved, boxes] = rest;
+        let [level, sorted, least, up, moved, boxes, shared] = rest;
         let slope = Slope::of(slope);
         Self {
             slope,
@@ -261,6 +269,7 @@ impl Scan {
             up,
             moved,
             boxes,
+            shared,
         }
     }
 
@@ -280,7 +289,7 @@ impl Scan {
         }
         let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, .. } =
             Self::of(p);
-        let Self { least, up, moved, boxes, .. } = Self::of(p);
+        let Self { least, up, moved, boxes, shared, .. } = Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
             words += "sorts them by their exact heights, ";
@@ -304,6 +313,7 @@ impl Scan {
         words += &format!("fills from {} to {}", LEFT[left as usize], RIGHT[right as usize]);
         words += ["", ", but one pixel at least"][least as usize];
         words += LOWER[lower as usize];
+        words += SHARED[shared as usize];
         words += HEIGHTS[height as usize];
         words += &match (rows, whole) {
             (0, _) => String::new(),
@@ -350,9 +360,9 @@ impl Scan {
     /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
-        // The places of the last three digits.
-        let [level_at, sorted_at, least_at, up_at, moved_at, boxes_at] =
-            [8, 9, 10, 11, 12, 13].map(|i| DIGITS.0[..i].iter().product::<i64>());
+        // The places of the last digits.
+        let [level_at, sorted_at, least_at, up_at, moved_at, boxes_at, shared_at] =
+            [8, 9, 10, 11, 12, 13, 14].map(|i| DIGITS.0[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -375,6 +385,10 @@ impl Scan {
                     all.push(frame + slope + Slope::COUNT * begins);
                 }
             }
+            let slopes = 0..SLOPES.len() as i64;
+            all.extend(
+                slopes.flat_map(|slope| [1, 2].map(|shared| frame + slope + shared * shared_at)),
+            );
             if base.whole == 0 {
                 all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
                 all.push(frame + least_at);
@@ -808,6 +822,10 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
     }
     let halves = [(top, middle, starts[0], starts[1]), (middle, bottom, starts[1], end)];
     for (half, (from, to, first, last)) in halves.into_iter().enumerate() {
+        // Each half that has a height has its own rows, and perhaps one of the other's.
+        let is_shared = |kind| how.shared == kind && from[1] != to[1];
+        let first = first - i64::from(half == 1 && is_shared(1));
+        let last = last + i64::from(half == 0 && is_shared(2));
         let mut short = Walk::new(from, to, [first; 2], &how);
         if half == 1 && how.lower == 1 {
             long = Walk::new(top, bottom, [starts[0], first], &how);

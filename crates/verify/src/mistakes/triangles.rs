@@ -39,6 +39,18 @@ pub(super) enum Reach {
 /// The mistake that cannot be told of a program that draws one winding.
 pub(super) const BY_WINDING: &str = "rule by winding";
 
+/// From how many pixels on the products of an edge function do not fit, about.
+fn products_wrap_from(p: i64) -> i64 {
+    let Words { fraction, bits, .. } = Words::of(p);
+    1 << ((bits - 1) / 2 - fraction).max(0)
+}
+
+/// The farthest coordinate that its word holds, in pixels.
+fn coordinates_end_at(p: i64) -> i64 {
+    let (fraction, bits) = (p / 100 % 100, p % 100);
+    1 << (bits - 1 - fraction)
+}
+
 /// Everything known, the simplest first.
 pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
@@ -231,7 +243,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "product overflows",
         sentence: |p| {
             let Words { fraction, bits, products_alone, .. } = Words::of(p);
-            let from = 1_i64 << ((bits - 1) / 2 - fraction).max(0);
+            let from = products_wrap_from(p);
             let what = match products_alone {
                 true => "the products of the edge function",
                 false => "the edge function",
@@ -243,17 +255,20 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "multiply in words of twice the length, or limit the coordinates",
         page: "stability",
         refuted: "a triangle whose products do not fit and that is drawn rightly",
-        parameters: Parameters::Fixed(&[
-            832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632, 2832, 2432, 3832, 3432,
-            824, 424, 24, 1824, 1424, 1024, 2824, 3824, 816, 1816, 848, 1848,
-        ]),
+        parameters: Parameters::Words(
+            &[
+                832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632, 2832, 2432, 3832,
+                3432, 824, 424, 24, 1824, 1424, 1024, 2824, 3824, 816, 1816, 848, 1848,
+            ],
+            |p| products_wrap_from(p) / 4,
+        ),
         draws: Fill::Ruled(Reach::Pixel, fills::wrapping),
     },
     Mistake {
         name: "coordinates overflow",
         sentence: |p| {
             let (how, fraction, bits) = (p / 10_000, p / 100 % 100, p % 100);
-            let most = 1_i64 << (bits - 1 - fraction);
+            let most = coordinates_end_at(p);
             let what = if how == 0 { "wrap around" } else { "are clamped" };
             format!(
                 "keeps coordinates with {fraction} bits of fraction in {bits} bits: corners beyond {most} px {what}"
@@ -262,9 +277,10 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "clip to a guard band that the word holds, or use a longer word",
         page: "stability",
         refuted: "a triangle with such a corner that is drawn rightly",
-        parameters: Parameters::Fixed(&[
-            16, 416, 616, 816, 10_016, 10_416, 10_616, 10_816, 1632, 11_632,
-        ]),
+        parameters: Parameters::Words(
+            &[16, 416, 616, 816, 10_016, 10_416, 10_616, 10_816, 1632, 11_632],
+            coordinates_end_at,
+        ),
         draws: Fill::Instead(|corners, _, p| {
             vec![fills::in_words(corners, p / 10_000 == 1, p / 100 % 100, p % 100)]
         }),

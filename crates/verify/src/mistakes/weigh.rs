@@ -108,6 +108,52 @@ pub(super) fn weigh(
     (named, nearest)
 }
 
+/// Wrong answers by which the nearest hypotheses are found, and those of them that are looked at first.
+const NEAREST_BY: usize = 60;
+const NEAREST_FIRST: usize = 10;
+/// Wrong answers that such a hypothesis predicts at least, and the part of them.
+const LEAST_NEAR: u32 = 4;
+const LEAST_PART: u32 = 12;
+/// How many of these there are, and of one name.
+const MOST_NEAR: usize = 24;
+const NEAR_OF_ONE_NAME: usize = 3;
+
+/// The hypotheses, of those that may be one, that predict most wrong answers, each others than those before it: parts of what a
+/// program does, perhaps.
+pub(super) fn nearest(
+    hypotheses: &[Hypothesis<'_>],
+    is_wrong: &[bool],
+    may_be: &dyn Fn(usize) -> bool,
+) -> Vec<usize> {
+    let wrong = chosen_by(is_wrong).into_iter().filter(|&i| is_wrong[i]);
+    let wrong: Vec<usize> = wrong.take(NEAREST_BY).collect();
+    let least = LEAST_NEAR.max(wrong.len() as u32 / LEAST_PART);
+    // Which wrong answers each predicts, as bits.
+    let mut near: Vec<(u64, usize)> = Vec::new();
+    for (number, hypothesis) in hypotheses.iter().enumerate().filter(|(i, _)| may_be(*i)) {
+        let mut predicted = 0;
+        for (at, &i) in wrong.iter().enumerate() {
+            if at == NEAREST_FIRST && predicted == 0 {
+                break;
+            }
+            predicted |= u64::from((hypothesis.predicts)(i)) << at;
+        }
+        let is_new = || near.iter().all(|(other, _)| *other != predicted);
+        if predicted.count_ones() >= least && is_new() {
+            near.push((predicted, number));
+        }
+    }
+    near.sort_by_key(|(predicted, _)| std::cmp::Reverse(predicted.count_ones()));
+    let mut of_names: BTreeMap<&str, usize> = BTreeMap::new();
+    near.retain(|(_, number)| {
+        let of_name = of_names.entry(hypotheses[*number].says.name).or_default();
+        *of_name += 1;
+        *of_name <= NEAR_OF_ONE_NAME
+    });
+    near.truncate(MOST_NEAR);
+    near.into_iter().map(|(_, number)| number).collect()
+}
+
 /// The weights of hypotheses on some answers, the best first: with how many they missed, there and before. What is much worse
 /// than the best one so far is left out.
 fn weighed<'h, 'a>(
