@@ -99,7 +99,7 @@ fn marked(text: &str) -> Result<Vec<(&str, Range<usize>)>, String> {
             found.extend(names.zip(places).filter(|(name, _)| *name != "-"));
         } else if !text[at..].starts_with(END)
             && !comment.starts_with(" code ")
-            && comment != " end of code "
+            && comment != "/code"
         {
             return Err(format!("'<!--{comment}' is no marker"));
         }

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! <!-- code crates/core/src/raster/scanline.rs fn walk -->
-//! <!-- end of code -->
+//! <!--/code-->
 //! ```
 //!
 //! What follows the path is the beginning of the item's line in the file: `fn walk`, `pub enum Effect`, or
@@ -16,7 +16,7 @@ use std::fs;
 use crate::pages::{Renewal, files, read, root};
 
 const BEGIN: &str = "<!-- code ";
-const END: &str = "<!-- end of code -->";
+const END: &str = "<!--/code-->";
 
 /// The lines of an item, without the comments and attributes before it, moved to the left margin. It ends
 /// with the first line that closes it at its own indentation; where nothing closes an item, as in Python, before the next line there.

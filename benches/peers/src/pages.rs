@@ -47,14 +47,8 @@ const ENGLISH: Words = Words {
 const CHINESE: Words = Words {
     made: "测得这些的命令",
     missing: "那里没有",
-    centres: [
-        "每像素一个采样点，每个三角形的纳秒数；括号里是 `list` 的多少倍",
-        "少画 + 多画",
-    ],
-    areas: [
-        "抗锯齿，每个三角形的纳秒数；括号里是我们之中误差不更大的最快者的多少倍",
-        "误差，最大",
-    ],
+    centres: ["每像素一个采样点，每个三角形的纳秒数；括号里是 `list` 的多少倍", "少画 + 多画"],
+    areas: ["抗锯齿，每个三角形的纳秒数；括号里是我们之中误差不更大的最快者的多少倍", "误差，最大"],
     frames: [
         "每像素一个采样点的帧，毫秒；括号里是同样核数的图块的多少倍",
         "每像素四个采样点的帧，毫秒",
@@ -210,7 +204,12 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
             [(instructions, "rate"), (moved, "copy")].map(|(n, key)| n / number(&run[key]) * 1e3);
         let [of_computed, of_copied] = [computed, copied].map(|bound| bound / ms * 100.0);
         let (millions, moved) = (instructions / 1e6, moved / 1e6);
-        writeln!(page, "{} {ms:.2} | {millions:.0} | {of_computed:.0}% | {moved:.1} | {of_copied:.0}% |", named(row)).unwrap();
+        writeln!(
+            page,
+            "{} {ms:.2} | {millions:.0} | {of_computed:.0}% | {moved:.1} | {of_copied:.0}% |",
+            named(row)
+        )
+        .unwrap();
     }
     let fills: Vec<_> = run["fills"].as_array().unwrap().iter().collect();
     let triangles = |row: &Value| {
@@ -218,8 +217,7 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
         number(&like.find(|other| other["class"] == row["class"]).unwrap()["triangles"])
     };
     page.push('\n');
-    let cell =
-        |row: &Value| format!("{:.0}", number(&row["instructions"]) / triangles(row));
+    let cell = |row: &Value| format!("{:.0}", number(&row["instructions"]) / triangles(row));
     page + &table(&fills, "class", words.limits[1], words, &cell, None)
 }
 
@@ -236,16 +234,15 @@ fn peers(run: &Value, words: &Words) -> String {
         let rows: Vec<_> =
             fills.iter().copied().filter(|row| !row["errors"][kind].is_null()).collect();
         let head = heads[0].to_owned() + &noise(&rows, "ns");
-        let cell = |row: &Value| {
-            time(&row["ns"], number(&row["triangles"]), &ours(&fills, row)["ns"])
-        };
+        let cell =
+            |row: &Value| time(&row["ns"], number(&row["triangles"]), &ours(&fills, row)["ns"]);
         let largest = |rows: &[&Value], of: &str| {
             rows.iter().map(|row| number(&row["errors"]["areas"][of])).fold(0.0, f64::max)
         };
         let wrong = |rows: &[&Value]| match kind {
             "pixels" => {
-                let [missing, extra] = ["missing", "extra"]
-                    .map(|of| sum(rows, |row| &row["errors"]["pixels"][of]));
+                let [missing, extra] =
+                    ["missing", "extra"].map(|of| sum(rows, |row| &row["errors"]["pixels"][of]));
                 format!("{missing}+{extra}")
             }
             _ => format!("{:.1}, {:.0}", largest(rows, "rms"), largest(rows, "worst")),

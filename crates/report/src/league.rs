@@ -39,7 +39,11 @@ const ENGLISH: Words = Words {
     made: |l| {
         format!(
             "Made by rasterproof {}, {} cases of each family, seed {}, from {} to {}.",
-            l.rasterproof, l.cases, l.seed, l.days()[0], l.days()[1]
+            l.rasterproof,
+            l.cases,
+            l.seed,
+            l.days()[0],
+            l.days()[1]
         )
     },
 };
@@ -57,7 +61,11 @@ const CHINESE: Words = Words {
     made: |l| {
         format!(
             "由 rasterproof {} 生成，每族 {} 个案例，种子 {}，{} 至 {}。",
-            l.rasterproof, l.cases, l.seed, l.days()[0], l.days()[1]
+            l.rasterproof,
+            l.cases,
+            l.seed,
+            l.days()[0],
+            l.days()[1]
         )
     },
 };
