@@ -380,7 +380,7 @@ fn site_figures_do_not_wait_for_engines() {
 }
 
 /// On a phone a table keeps the name of a row in sight, and at least half of the width for its numbers. The league shows
-/// scores before dates, and all of its columns on a desktop.
+/// scores alone, and all of its columns on a desktop.
 #[test]
 #[ignore = "needs docs/build"]
 fn site_tables_can_be_read() {
@@ -407,7 +407,11 @@ fn site_tables_can_be_read() {
     let heads = browser.eval(
         "[...document.querySelectorAll('table')[0].querySelectorAll('th')].map(h => h.textContent)",
     );
-    assert_eq!([&heads[0], &heads[1], &heads[9]], ["library", "as is", "version"], "{heads}");
+    assert_eq!(
+        [&heads[0], &heads[1], &heads[9]],
+        [&json!("library"), &json!("as is"), &json!(null)],
+        "{heads}"
+    );
     let cut =
         "[...document.querySelectorAll('.table-wrapper')].map(t => t.scrollWidth - t.clientWidth)";
     assert_eq!(browser.eval(cut)[0], json!(0), "nothing of the league is cut");

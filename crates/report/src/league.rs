@@ -108,7 +108,7 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
         let does = match &kind.mistake {
             // A mistake that is known explains more than a convention beside it.
             Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
-            None => (words.say)(&beyond_the_table(&kind.sentence)),
+            None => without_shares(&(words.say)(&beyond_the_table(&kind.sentence))),
         };
         if does.is_empty() {
             continue;
@@ -142,6 +142,15 @@ fn beyond_the_table(sentence: &str) -> String {
     };
     let kept: String = sentence.split_inclusive(". ").filter(is_kept).collect();
     kept.trim_end().to_owned()
+}
+
+/// A sentence without the shares of each direction of an edge, from north on, which the data has.
+fn without_shares(sentence: &str) -> String {
+    let shares = sentence.split_once(" (N ").and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(')')?;
+        Some(format!("{before}{after}"))
+    });
+    shares.unwrap_or_else(|| sentence.to_owned())
 }
 
 /// Wrong pixels in a million, as declared and by the convention.
