@@ -96,8 +96,7 @@ pub fn tables(league: &League, chinese: bool) -> String {
     out
 }
 
-/// The version of a library, how it was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is
-/// enough.
+/// The version of a library, how it was called, and what it does: where an earlier one of `said` does the same, its name.
 fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let [colon, stop] = words.marks;
     let call = (words.say)(&row.call);
