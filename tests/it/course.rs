@@ -32,7 +32,7 @@ fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
     run
 }
 
-fn has(program: &str) -> bool {
+pub fn has(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
