@@ -231,7 +231,7 @@ fn depth_at(near: f64, z: f64) -> f64 {
     (projected.z / projected.w + 1.0) / 2.0
 }
 
-/// How fast it changes there.
+/// By how much this depth grows for each unit of distance.
 fn depth_slope(near: f64, z: f64) -> f64 {
     let half = 1e-3;
     (depth_at(near, z + half) - depth_at(near, z - half)) / (2.0 * half)

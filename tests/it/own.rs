@@ -48,9 +48,10 @@ stages! {
     stage11: "11-light.rs",
 }
 
+type DrawStage = fn() -> RgbImage;
+
 #[test]
 fn own_stages_draw_their_pictures() {
-    type DrawStage = fn() -> RgbImage;
     let stages: [(&str, DrawStage); 12] = [
         ("1", stage1::stage1),
         ("2a", stage2a::stage2a),
@@ -70,7 +71,7 @@ fn own_stages_draw_their_pictures() {
 }
 
 /// The stages that have files in Python and C++, too: their numbers, files and pictures. The course examines the others.
-const IN_OTHER_LANGUAGES: [(&str, &str, fn() -> RgbImage); 5] = [
+const IN_OTHER_LANGUAGES: [(&str, &str, DrawStage); 5] = [
     ("1", "01-pixels", stage1::stage1),
     ("4", "04-space", stage4::stage4),
     ("9", "09-pipeline", stage9::stage9),

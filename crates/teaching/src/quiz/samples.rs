@@ -9,7 +9,7 @@ use super::{Solution, Text};
 
 solvers!(pattern, outside, left_over, heights);
 
-/// A row of eight pixels.
+/// The row 0 of the chapter's example, eight pixels.
 const ROW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 8, y1: 1 };
 const GRID: [(i32, i32); 4] = [(4, 4), (12, 4), (4, 12), (12, 12)];
 

@@ -10,14 +10,16 @@ use super::{Solution, Text};
 
 solvers!(level, reads, between, seam);
 
-/// Texels along a side of the texture.
-const SIDE: f64 = 256.0;
-
-/// A surface that faces the eye, whose pixels meet 4 texels across and 32 along.
-fn strip() -> Footprint {
+/// A surface that faces the eye: u and v change by so much from pixel to pixel. The texture has `side` texels along each side.
+fn footprint(u: f64, v: f64, side: u32) -> Footprint {
     let places = [[0.0, 0.0], [64.0, 0.0], [0.0, 64.0]];
-    let uv = places.map(|[x, y]| DVec2::new(4.0 * x, 32.0 * y) / SIDE);
-    Footprint::new(corners(places), [1.0; 3], uv, (SIDE as u32, SIDE as u32))
+    let uv = places.map(|[x, y]| DVec2::new(u * x, v * y));
+    Footprint::new(corners(places), [1.0; 3], uv, (side, side))
+}
+
+/// Pixels that meet 4 texels across and 32 along.
+fn strip() -> Footprint {
+    footprint(4.0 / 256.0, 32.0 / 256.0, 256)
 }
 
 fn level(_: &[Text]) -> Solution {
@@ -37,7 +39,7 @@ fn between(_: &[Text]) -> Solution {
 
 fn seam(_: &[Text]) -> Solution {
     let (left, right) = (0.99_f64, 1.01_f64);
-    let level = |difference: f64| (difference * 2.0 * SIDE).abs().log2();
+    let level = |difference: f64| footprint(difference, 0.0, 512).level(DVec2::ZERO, 1.0);
     let wrapped = level(right.fract() - left.fract());
     Solution::number(wrapped, 1).figure(format!("{:.1}", level(right - left)))
 }
