@@ -198,7 +198,7 @@ function reachable(head) {
  */
 function inTabs(main) {
   let count = 0;
-  const printed = /(<pre><code class="language-rust(?:(?!<\/pre>)[^])*<\/pre>)\s*<!-- end of code -->\s*((?:<details><summary>(?:Python|C\+\+)<\/summary>[^]*?<\/details>\s*)+)/g;
+  const printed = /(<pre><code class="language-rust(?:(?!<\/pre>)[^])*<\/pre>)\s*<!--\/code-->\s*((?:<details><summary>(?:Python|C\+\+)<\/summary>[^]*?<\/details>\s*)+)/g;
   return main.replace(printed, (_, rust, others) => {
     count += 1;
     const named = others.replaceAll('<details>', `<details name="code-${count}">`);

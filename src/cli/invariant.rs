@@ -208,7 +208,11 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     print(report, exit::of(problems.is_empty()), streams)
 }
 
-/// The invariants with what they say, by their numbers.
-pub fn listed() -> impl Iterator<Item = (String, &'static str)> {
-    CATALOGUE.iter().map(|i| (format!("{} {}", i.number, i.name), i.statement))
+/// The invariants with what they say and their tolerances, by their numbers.
+pub fn listed() -> impl Iterator<Item = (String, String)> {
+    let about = |i: &Invariant| match i.tolerance {
+        "0" => i.statement.to_owned(),
+        tolerance => format!("{} Tolerance: {tolerance}.", i.statement),
+    };
+    CATALOGUE.iter().map(move |i| (format!("{} {}", i.number, i.name), about(i)))
 }

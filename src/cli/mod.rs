@@ -57,6 +57,7 @@ use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
 use rasterproof_verify::cases::facts::{self, design};
+use rasterproof_verify::mistakes::{self, Explanation};
 use rasterproof_verify::partition;
 
 pub mod exit {
@@ -152,6 +153,9 @@ enum Command {
         /// List the facts of questions instead, of which the families of designs have every two together
         #[arg(long)]
         facts: bool,
+        /// List the mistakes that the judge knows instead, each with what repairs it and what would refute it
+        #[arg(long, conflicts_with = "facts")]
+        mistakes: bool,
     },
 }
 
@@ -415,8 +419,9 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
             playground::run(("your-gpu", &rasterproof_playground::YOUR_GPU), arguments, streams)
         }
         Command::Quiz(arguments) => quiz::run(arguments, streams),
-        Command::List { facts: false } => list(streams),
-        Command::List { facts: true } => list_facts(streams),
+        Command::List { facts: true, .. } => list_facts(streams),
+        Command::List { mistakes: true, .. } => list_mistakes(streams),
+        Command::List { .. } => list(streams),
     }
 }
 
@@ -463,6 +468,17 @@ fn list_facts(streams: &mut Streams<'_>) -> Status {
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 
+/// The mistakes in fills and in lines, each with its first parameter.
+fn list_mistakes(streams: &mut Streams<'_>) -> Status {
+    let about = |m: Explanation| {
+        let Explanation { name, does, repair, refuted, .. } = m;
+        (name, format!("for example, it {does}. Repair: {repair}. Refuted by: {refuted}"))
+    };
+    let known = mistakes::table().into_iter().map(about);
+    let tables = vec![listed("Mistakes that the judge knows", known)];
+    page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
+}
+
 fn facts_of<Q, L>(topic: &facts::Topic<Q, L>) -> Table {
     let mut rows = Vec::new();
     for fact in topic.facts {
@@ -478,7 +494,7 @@ fn facts_of<Q, L>(topic: &facts::Topic<Q, L>) -> Table {
 }
 
 /// A list under a title, what an entry is about beside its name.
-fn listed<'a>(title: &str, entries: impl Iterator<Item = (impl Display, &'a str)>) -> Table {
+fn listed(title: &str, entries: impl Iterator<Item = (impl Display, impl Display)>) -> Table {
     let rows = entries.map(|(name, about)| Row::of(&[&name, &about]));
     Table::new(title, "~name 1 | ~about 1", rows.collect())
 }

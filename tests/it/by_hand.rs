@@ -33,9 +33,18 @@ fn corners(corners_px: [[f64; 2]; 3]) -> Corners {
 
 /// The value at each pixel of a triangle whose corners have these positions and values, by the edge-function engine.
 fn values(corners_px: [[f64; 2]; 3], values: [f64; 3]) -> Vec<([i32; 2], f64)> {
+    values_in_space(corners_px, [1.0; 3], values)
+}
+
+/// The same for corners with these w.
+fn values_in_space(
+    corners_px: [[f64; 2]; 3],
+    w: [f64; 3],
+    values: [f64; 3],
+) -> Vec<([i32; 2], f64)> {
     let vertex = |i: usize| {
         let [x, y] = corners_px[i];
-        ScreenVertex::new(x, y, 0.0, 1.0, values[i]).unwrap()
+        ScreenVertex::new(x, y, 0.0, w[i], values[i]).unwrap()
     };
     let mut found = Vec::new();
     EdgeFunction.fragments(&ScreenTriangle { vertices: [0, 1, 2].map(vertex) }, WINDOW, |f| {
@@ -126,7 +135,8 @@ pub fn plane() -> Vec<f64> {
     let value = value_at([[0.5, 0.5], [8.5, 0.5], [0.5, 8.5]], [100.0, 20.0, 60.0], [3, 3]);
     let triangle = [[1.0, 0.0], [5.0, 2.0], [0.0, 5.0]];
     let [a, b, c] = edge_functions(triangle, [1, 3], 1.0);
-    vec![value, a, b, c, a + b + c, value_at(triangle, [0.0, 10.0, 20.0], [1, 3])]
+    let [first, second] = [[0, 3], [1, 3]].map(|at| value_at(triangle, [0.0, 10.0, 20.0], at));
+    vec![value, a, b, c, a + b + c, second, first]
 }
 
 /// Chapter 5: the shares of the picture that four equal steps in space take.
@@ -172,6 +182,74 @@ pub fn corner_square() -> Vec<f64> {
         assert!(row.iter().enumerate().all(|(x, &n)| n == u8::from(is_in(x))), "row {y_px}");
     }
     vec![hits.covered() as f64]
+}
+
+/// Where the straight line from a to b is at this x.
+fn height(a: [f64; 2], b: [f64; 2], x: f64) -> f64 {
+    a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0])
+}
+
+/// Chapter 1: a snapped coordinate and how far it moved, the crack beside a snapped corner, and small coordinates in subpixels.
+pub fn snapped() -> Vec<f64> {
+    let subpixels = f64::from(SUBPIXELS);
+    let snapped = f64::from(SubpixelPoint::from_px(1.7, 0.0).unwrap().x) / subpixels;
+    let diagonal = |x: f64| height([0.0, 0.0], [9.0, 5.0], x);
+    let upper = height([5.0, 2.5], [9.0, 5.0], 6.5);
+    let small = [0.001, 0.0019].map(|px| px * subpixels);
+    vec![snapped, 1.7 - snapped, diagonal(5.0), upper, diagonal(6.5), small[0], small[1]]
+}
+
+/// Chapter 2b: the first side of a square box that does not fit 32 bits, and the widest box 16 px high that does, both in subpixels.
+pub fn words() -> Vec<f64> {
+    let square = (1i32..).find(|side| side.checked_mul(*side).is_none()).unwrap();
+    let fits = |width: &i64| (width + 256) * (16 * 256 + 256) < 1 << 31;
+    let widest = (1..).take_while(fits).last().unwrap();
+    vec![square.into(), widest as f64]
+}
+
+/// Chapter 2c: where the long edge of the last exercise crosses row 5.
+pub fn crossing() -> Vec<f64> {
+    // Columns and rows exchanged.
+    vec![height([0.0, 0.0], [10.0, 3.0], 5.5)]
+}
+
+/// Chapter 5: the value at three quarters of an edge from w = 4 to w = 1, and the affine one.
+pub fn in_space() -> Vec<f64> {
+    // The centre of pixel (3, 0) lies on the upper edge, which belongs to the triangle.
+    let corners_px = [[0.5, 0.5], [4.5, 0.5], [0.5, 8.5]];
+    let value = |w| {
+        let all = values_in_space(corners_px, w, [0.0, 10.0, 0.0]);
+        all.into_iter().find(|(at, _)| *at == [3, 0]).unwrap().1
+    };
+    vec![value([4.0, 1.0, 1.0]), value([1.0; 3])]
+}
+
+/// The depth from 0 to 1 at a distance, with the far plane at 100.
+fn depth_at(near: f64, z: f64) -> f64 {
+    let projected =
+        frustum(-1.0, 1.0, -1.0, 1.0, near, 100.0).unwrap() * DVec3::new(0.0, 0.0, z).extend(1.0);
+    (projected.z / projected.w + 1.0) / 2.0
+}
+
+/// By how much this depth grows for each unit of distance.
+fn depth_slope(near: f64, z: f64) -> f64 {
+    let half = 1e-3;
+    (depth_at(near, z + half) - depth_at(near, z - half)) / (2.0 * half)
+}
+
+/// Chapter 6: depths, the slope at distance 50, a step of 16 bits and its length there, the same for a near plane at half of the
+/// distance, the slope at the far plane, and how many steps of 0.01 it asks for.
+pub fn depths() -> Vec<f64> {
+    let step = 0.5f64.powi(16);
+    let [slope, nearer, far] =
+        [(1.0, 50.0), (0.5, 50.0), (1.0, 100.0)].map(|(near, z)| depth_slope(near, z));
+    let [two, ten, fifty] = [2.0, 10.0, 50.0].map(|z| depth_at(1.0, z));
+    vec![two, ten, fifty, slope, step, step / slope, step / nearer, nearer, far, 1.0 / (0.01 * far)]
+}
+
+/// Chapter 7: a value at a third of an edge, computed from the end that is farther away.
+pub fn cut() -> Vec<f64> {
+    vec![0.5 - 0.3 * (2.0 / 3.0)]
 }
 
 /// Chapter 10: scaled and moved, moved and scaled, and turned about another point.

@@ -32,7 +32,7 @@ fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
     run
 }
 
-fn has(program: &str) -> bool {
+pub fn has(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
@@ -199,7 +199,7 @@ fn course_names_misconceptions() {
 fn course_page_lists_misconceptions() {
     let page = crate::pages::page("docs", "course");
     for is in misconceptions::all() {
-        let row = format!("| `{}` | {} |", is.name, is.says);
-        assert!(page.contains(&row), "docs/course.md lacks\n{row}");
+        let line = format!("- `{}`: {}\n", is.name, is.says);
+        assert!(page.contains(&line), "docs/course.md lacks\n{line}");
     }
 }

@@ -181,7 +181,7 @@ impl Shares {
         let share = |asked: &AskedClasses| {
             let percent = |part: usize, of: usize| 100.0 * part as f64 / of as f64;
             format!(
-                "{:.1} / {:.1}",
+                "{:.1}/{:.1}",
                 percent(asked.pairs, *of_pairs),
                 percent(asked.triples, *of_triples)
             )

@@ -103,6 +103,12 @@ pub const ALL: &[(&str, Values)] = &[
     ("hand-turns", by_hand::turns),
     ("hand-light", by_hand::light),
     ("hand-exercises", by_hand::exercises),
+    ("hand-snapped", by_hand::snapped),
+    ("hand-words", by_hand::words),
+    ("hand-crossing", by_hand::crossing),
+    ("hand-in-space", by_hand::in_space),
+    ("hand-depths", by_hand::depths),
+    ("hand-cut", by_hand::cut),
     ("lessons", crate::terms::lessons),
     ("hand-shares", by_hand::shares),
     ("hand-share-errors", by_hand::share_errors),
@@ -145,7 +151,7 @@ pub const ALL: &[(&str, Values)] = &[
         vec![hit("no triangle") + hit("two triangles")]
     }),
     ("worst-errors", || {
-        let text = page("docs", "differential");
+        let text = read("docs/differential.txt");
         let all = text.lines().find(|line| line.trim_start().starts_with("all  ")).unwrap();
         let cells: Vec<f64> = all.split_whitespace().skip(8).map(|c| c.parse().unwrap()).collect();
         assert!(cells[1] > cells[0] && cells[3] > cells[2], "B is the edge function");

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::pages::read;
-use crate::program::every;
+use crate::program::{self, every};
 use crate::snapshots::check_words;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
@@ -1704,15 +1704,20 @@ fn mistakes_of_the_table_are_tried() {
     assert_eq!(untried, elsewhere);
 }
 
-/// The page lists every mistake, in both languages.
+/// The page names every mistake, in both languages, and `list --mistakes` prints it with its repair.
 #[test]
 fn mistakes_of_the_table_are_on_the_page() {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     for page in
         [include_str!("../../docs/conventions.md"), include_str!("../../docs/zh/conventions.md")]
     {
         for Explanation { name, .. } in mistakes::table() {
-            assert!(page.contains(&format!("| {name} |")), "{name}");
+            assert!(words(page).contains(&format!("`{name}`")), "{name}");
         }
+    }
+    let printed = words(&program::check("list --mistakes", 0).out);
+    for Explanation { name, repair, .. } in mistakes::table() {
+        assert!(printed.contains(&words(name)) && printed.contains(&words(&repair)), "{name}");
     }
 }
 

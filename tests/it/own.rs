@@ -1,6 +1,9 @@
 //! The program of the page 'Write your own': each stage is compiled from the files up to its own and
 //! draws its picture, and the judge finds it right.
 
+use std::fmt::Write as _;
+use std::process::Command;
+
 use image::RgbImage;
 use rasterproof_core::contract::{DrawLine as _, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
@@ -11,6 +14,9 @@ use rasterproof_core::triangle::{
 use rasterproof_verify::comparison::tolerance::{Bound, Tolerance};
 use rasterproof_verify::comparison::{Options, judge_coverage, judge_values};
 
+use crate::course::has;
+use crate::pages::{read, root};
+use crate::program::Folder;
 use crate::snapshots::{check_picture, each};
 
 /// A module for each stage, of its own file and of all those before it.
@@ -42,9 +48,10 @@ stages! {
     stage11: "11-light.rs",
 }
 
+type DrawStage = fn() -> RgbImage;
+
 #[test]
 fn own_stages_draw_their_pictures() {
-    type DrawStage = fn() -> RgbImage;
     let stages: [(&str, DrawStage); 12] = [
         ("1", stage1::stage1),
         ("2a", stage2a::stage2a),
@@ -61,6 +68,75 @@ fn own_stages_draw_their_pictures() {
         ("11", stage11::stage11),
     ];
     each(stages, |(number, draw)| check_picture(&format!("own-{number}"), &draw()));
+}
+
+/// The stages that have files in Python and C++, too: their numbers, files and pictures. The course examines the others.
+const IN_OTHER_LANGUAGES: [(&str, &str, DrawStage); 5] = [
+    ("1", "01-pixels", stage1::stage1),
+    ("4", "04-space", stage4::stage4),
+    ("9", "09-pipeline", stage9::stage9),
+    ("10", "10-matrices", stage10::stage10),
+    ("11", "11-light", stage11::stage11),
+];
+
+/// A program of the files of stages, put together as the page says: stage 1, the solution of the course, the other stages.
+fn program_of_stages(ending: &str) -> String {
+    let [first, others @ ..] =
+        IN_OTHER_LANGUAGES.map(|(_, file, _)| read(format!("docs/own/{file}.{ending}")));
+    let solution = read(format!("adapters/course/solution.{ending}"));
+    format!("{first}\n{solution}\n{}", others.join("\n"))
+}
+
+/// The pixels of a stored picture of the usual size, three bytes each.
+fn stored_pixels(folder: &Folder, number: &str) -> Vec<u8> {
+    let stored = std::fs::read(folder.join(format!("{number}.ppm"))).unwrap();
+    stored.strip_prefix(b"P6\n160 120\n255\n").expect("a picture of 160 x 120").to_vec()
+}
+
+/// Runs a program that stores the pictures of all stages in a folder, and compares them with those of Rust, pixel by pixel.
+fn draws_as_in_rust(folder: &Folder, run: &mut Command) {
+    let status = run.current_dir(&**folder).status().unwrap();
+    assert!(status.success(), "{run:?}: {status}");
+    for (number, _, draw) in IN_OTHER_LANGUAGES {
+        let differ = stored_pixels(folder, number)
+            .chunks(3)
+            .zip(draw().pixels())
+            .filter(|(other, rust)| *other != rust.0)
+            .count();
+        assert_eq!(differ, 0, "{run:?}: pixels of stage {number} that differ from Rust");
+    }
+}
+
+#[test]
+fn own_stages_draw_the_same_in_python() {
+    if !has("python3") {
+        return;
+    }
+    let folder = Folder::new("own-python");
+    let mut program = program_of_stages("py");
+    for (number, ..) in IN_OTHER_LANGUAGES {
+        writeln!(program, "save(stage{number}(), '{number}.ppm')").unwrap();
+    }
+    folder.put("own.py", program);
+    draws_as_in_rust(&folder, Command::new("python3").args(["-B", "own.py"]));
+}
+
+#[test]
+fn own_stages_draw_the_same_in_cpp() {
+    if !has("c++") {
+        return;
+    }
+    let folder = Folder::new("own-cpp");
+    let mut program = "#include \"rasterproof.h\"\n".to_owned() + &program_of_stages("cpp");
+    program += "int main() {\n";
+    for (number, ..) in IN_OTHER_LANGUAGES {
+        writeln!(program, "stage{number}(); save(\"{number}.ppm\");").unwrap();
+    }
+    folder.put("own.cpp", program + "}\n");
+    let mut build = Command::new("c++");
+    build.args(["-std=c++11", "-O1", "-o", "own", "own.cpp", "-I"]).arg(root().join("adapters"));
+    assert!(build.current_dir(&*folder).status().unwrap().success(), "{build:?}");
+    draws_as_in_rust(&folder, &mut Command::new(folder.join("own")));
 }
 
 /// Every line of a grid, in both directions, is the one that the project's own drawers light.

@@ -4,11 +4,11 @@
 //!
 //! ```text
 //! <!-- code crates/core/src/raster/scanline.rs fn walk -->
-//! <!-- end of code -->
+//! <!--/code-->
 //! ```
 //!
 //! What follows the path is the beginning of the item's line in the file: `fn walk`, `pub enum Effect`, or
-//! `impl EdgeWalk > fn step` for an item inside another one. A path alone prints the whole file. `RASTERPROOF_RENEW=1 cargo test --test it
+//! `impl EdgeWalk > fn step` for an item inside another one. Several items stand with commas between them. A path alone prints the whole file. `RASTERPROOF_RENEW=1 cargo test --test it
 //! printed_code` writes the code into the pages.
 
 use std::fs;
@@ -16,7 +16,7 @@ use std::fs;
 use crate::pages::{Renewal, files, read, root};
 
 const BEGIN: &str = "<!-- code ";
-const END: &str = "<!-- end of code -->";
+const END: &str = "<!--/code-->";
 
 /// The lines of an item, without the comments and attributes before it, moved to the left margin. It ends
 /// with the first line that closes it at its own indentation; where nothing closes an item, as in Python, before the next line there.
@@ -53,15 +53,20 @@ fn item(source: &str, name: &str, is_closed: bool) -> Option<String> {
     Some(moved.collect::<Vec<_>>().join("\n"))
 }
 
-/// The code that a mark asks for: a path, and names of items, each inside the one before.
+/// The code that a mark asks for: a path, and items of its file, with an empty line between them.
 fn code(mark: &str) -> Result<String, String> {
-    let (path, names) = mark.split_once(' ').map_or((mark, None), |(path, n)| (path, Some(n)));
+    let (path, items) = mark.split_once(' ').map_or((mark, None), |(path, n)| (path, Some(n)));
     let source = fs::read_to_string(root().join(path)).map_err(|error| error.to_string())?;
     let whole = source.trim_end().to_owned();
+    let Some(items) = items else { return Ok(whole) };
     let is_closed = !path.ends_with(".py");
-    names.into_iter().flat_map(|names| names.split(" > ")).try_fold(whole, |source, name| {
-        item(&source, name, is_closed).ok_or_else(|| format!("no line begins with '{name}'"))
-    })
+    // The names of an item, each inside the one before.
+    let found = items.split(", ").map(|names| {
+        names.split(" > ").try_fold(whole.clone(), |source, name| {
+            item(&source, name, is_closed).ok_or_else(|| format!("no line begins with '{name}'"))
+        })
+    });
+    Ok(found.collect::<Result<Vec<_>, _>>()?.join("\n\n"))
 }
 
 fn renewed(page: &str) -> Result<String, String> {
@@ -105,6 +110,8 @@ fn printed_code_that_is_stale_or_unknown_is_found() {
     let page = renewed(&format!("a\n{BEGIN}{mark} -->\n{END}\nb")).unwrap();
     assert!(page.contains("```rust,ignore\nfn step(&mut self) {\n") && page.ends_with("\nb"));
     assert_eq!(renewed(&page).unwrap(), page);
+    let both = renewed(&page.replace("fn step -->", "fn step, fn walk -->")).unwrap();
+    assert!(both.contains("\n}\n\nfn walk"));
     let planted = page.replacen("self", "it", 1);
     assert_ne!(renewed(&planted).unwrap(), planted);
     for (wrong, cause) in [

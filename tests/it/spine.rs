@@ -5,7 +5,7 @@ use rasterproof_teaching::course::{self, STEPS, Step};
 use rasterproof_teaching::quiz::{self, page::HEADINGS};
 use rasterproof_teaching::spine::{self, CHAPTERS};
 
-use crate::pages::{Renewal, page, read, root};
+use crate::pages::{page, root};
 use crate::workspace::anchor;
 
 /// The words of the last line of a lesson.
@@ -17,7 +17,6 @@ struct Words {
     step: [&'static str; 2],
     no_stage: &'static str,
     no_step: &'static str,
-    no_quiz: &'static str,
     quiz: &'static str,
     evidence: [&'static str; 2],
 }
@@ -29,7 +28,6 @@ const ENGLISH: Words = Words {
     step: ["Step ", ": "],
     no_stage: "no stage",
     no_step: "no step",
-    no_quiz: "no quiz",
     quiz: "quiz",
     evidence: ["evidence", "no evidence of its own"],
 };
@@ -41,7 +39,6 @@ const CHINESE: Words = Words {
     step: ["第 ", " 步："],
     no_stage: "没有阶段",
     no_step: "没有步",
-    no_quiz: "没有测验",
     quiz: "测验",
     evidence: ["依据", "没有单独的依据"],
 };
@@ -67,10 +64,8 @@ fn last_line(words: &Words, chapter: &str) -> String {
     let check =
         if steps.is_empty() { words.no_step.to_owned() } else { format!("`course check` {links}") };
     let exercises = HEADINGS[usize::from(words.folder == CHINESE.folder)].trim_start_matches("## ");
-    let quiz = match quiz::chapter(number) {
-        Some(_) => format!("[{} {number}](#{})", words.quiz, anchor(exercises)),
-        None => words.no_quiz.to_owned(),
-    };
+    assert!(quiz::chapter(number).is_some(), "chapter {number} has no quiz");
+    let quiz = format!("[{} {number}](#{})", words.quiz, anchor(exercises));
     let [evidence, none] = words.evidence;
     let path = format!("{chapter}-evidence.md");
     let evidence = if root().join("docs").join(&path).exists() {
@@ -81,16 +76,6 @@ fn last_line(words: &Words, chapter: &str) -> String {
     format!("{}{stage} · {check} · {quiz} · {evidence}", words.go_on)
 }
 
-/// A page without the line that leads on, if it has one.
-fn without_last_line(page: &str) -> &str {
-    let marks = [ENGLISH.go_on, CHINESE.go_on];
-    marks
-        .iter()
-        .find_map(|mark| page.split_once(mark))
-        .map_or(page, |(before, _)| before)
-        .trim_end()
-}
-
 /// The line that ends a page, where it is that of a chapter; nothing else ends with one.
 pub fn ending(folder: &str, chapter: &str) -> String {
     let words = if folder == CHINESE.folder { &CHINESE } else { &ENGLISH };
@@ -98,24 +83,6 @@ pub fn ending(folder: &str, chapter: &str) -> String {
         Some(_) => format!("\n{}\n", last_line(words, chapter)),
         None => String::new(),
     }
-}
-
-/// `RASTERPROOF_RENEW=1 cargo test --test it spine` writes the lines.
-#[test]
-fn spine_leads_on_from_lessons_without_a_quiz() {
-    let mut renewal = Renewal::default();
-    for folder in [ENGLISH.folder, CHINESE.folder] {
-        // The test of a quiz writes the line behind it, so that no two tests write one page.
-        for (chapter, _) in
-            CHAPTERS.into_iter().filter(|(_, number)| quiz::chapter(number).is_none())
-        {
-            let path = format!("{folder}/{chapter}.md");
-            let page = read(&path);
-            let lesson = without_last_line(&page);
-            renewal.is(&path, &format!("{lesson}\n{}", ending(folder, chapter)));
-        }
-    }
-    renewal.check("spine");
 }
 
 /// What has a number has that of a chapter: stages and steps.

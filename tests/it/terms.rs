@@ -19,12 +19,13 @@ const MOST_WORDS: usize = 2200;
 fn words(glossary: &str, column: usize) -> Vec<(String, usize)> {
     let mut words = Vec::new();
     for row in glossary.lines().filter(|row| row.starts_with("| ")) {
-        let cells: Vec<_> = row.split(" | ").collect();
-        let (Some(cell), Some(page)) = (cells.get(column - 1), cells.get(4)) else { continue };
-        let page = page.split("](").nth(1).and_then(|link| link.split(".md").next());
-        let place = page.and_then(|page| CHAPTERS.iter().position(|(chapter, _)| *chapter == page));
-        let Some(place) = place.filter(|_| cell.contains("**")) else { continue };
-        let named = cell.replace("**", "");
+        let cell = row.split(" | ").nth(column - 1);
+        let Some((named, page)) = cell.and_then(|cell| cell.split_once("**](")) else { continue };
+        let page = page.split(".md").next();
+        let Some(place) = CHAPTERS.iter().position(|(chapter, _)| Some(*chapter) == page) else {
+            continue;
+        };
+        let named = named.trim_start_matches(['|', ' ', '[', '*']);
         let named = named.split([',', '，']).map(|word| word.trim().to_lowercase());
         words.extend(named.map(|word| (word, place)));
     }
@@ -94,7 +95,7 @@ fn terms_are_used_after_they_are_explained() {
 
 #[test]
 fn a_term_that_comes_too_early_is_found() {
-    let glossary = "| a | **span, edge function** | c | d | [x](ch02-scanline.md) |";
+    let glossary = "| a | [**span, edge function**](ch02-scanline.md) | c | d |";
     let words = words(glossary, 2);
     let check = |page: &str, place| early(&main_text(page, "\n## Pre"), place, &words);
     assert_eq!(check("Spans are runs.", 1).len(), 1);

@@ -9,12 +9,13 @@ use serde_json::Value;
 struct Words {
     made: &'static str,
     missing: &'static str,
+    /// What is timed, and what is wrong in all columns together.
     centres: [&'static str; 2],
     areas: [&'static str; 2],
     frames: [&'static str; 2],
     wrong: &'static str,
     by: &'static str,
-    /// What bounds a frame; the parts of a frame; what fills take.
+    /// What bounds a frame; what fills take.
     limits: [&'static str; 2],
     ends: [&'static str; 2],
 }
@@ -24,20 +25,20 @@ const ENGLISH: Words = Words {
     missing: "Missing there",
     centres: [
         "One sample a pixel, ns for each triangle; in brackets how many times as long as `list`",
-        "Pixels missing and extra, against the oracle",
+        "missing + extra",
     ],
     areas: [
         "Antialiased, ns for each triangle; in brackets how many times as long as the fastest of ours whose errors are no larger",
-        "Root of the mean square of the errors, and the largest, in steps of 1/255",
+        "error, largest",
     ],
     frames: [
         "Frames with one sample a pixel, ms; in brackets how many times as long as the tiles on as many cores",
         "The same with four samples a pixel",
     ],
-    wrong: "Of these, on one core, pixels uncovered, and of another colour",
+    wrong: "uncovered, other",
     by: "by",
     limits: [
-        "| mesh | samples | ms | instructions, millions | at the highest rate, ms | of the time | picture and mesh, MB | at the rate of a copy, ms | of the time | fetched, MB |",
+        "| mesh | samples | ms | instructions, millions | of the time | picture and mesh, MB | of the time |",
         "Instructions of antialiased fills, for each triangle",
     ],
     ends: [": ", "."],
@@ -46,22 +47,16 @@ const ENGLISH: Words = Words {
 const CHINESE: Words = Words {
     made: "测得这些的命令",
     missing: "那里没有",
-    centres: [
-        "每像素一个采样点，每个三角形的纳秒数；括号里是 `list` 的多少倍",
-        "与精确判定器相比，少画和多画的像素",
-    ],
-    areas: [
-        "抗锯齿，每个三角形的纳秒数；括号里是我们之中误差不更大的最快者的多少倍",
-        "误差的均方根，以及最大误差，以 1/255 为单位",
-    ],
+    centres: ["每像素一个采样点，每个三角形的纳秒数；括号里是 `list` 的多少倍", "少画 + 多画"],
+    areas: ["抗锯齿，每个三角形的纳秒数；括号里是我们之中误差不更大的最快者的多少倍", "误差，最大"],
     frames: [
         "每像素一个采样点的帧，毫秒；括号里是同样核数的图块的多少倍",
         "每像素四个采样点的帧，毫秒",
     ],
-    wrong: "其中一个核上，覆盖不同的像素，与颜色不同的像素",
+    wrong: "覆盖不同，颜色不同",
     by: "由谁",
     limits: [
-        "| 网格 | 采样点 | 毫秒 | 指令，百万 | 以最高速率，毫秒 | 占时间 | 画面和网格，MB | 以复制的速率，毫秒 | 占时间 | 取入，MB |",
+        "| 网格 | 采样点 | 毫秒 | 指令，百万 | 占时间 | 画面和网格，MB | 占时间 |",
         "抗锯齿填充的指令数，每个三角形",
     ],
     ends: ["：", "。"],
@@ -87,6 +82,9 @@ fn distinct<'a>(rows: &[&'a Value], key: &str) -> Vec<&'a str> {
     found
 }
 
+/// A last column: its head, and what it says of the row of a name.
+type LastColumn<'a> = (&'a str, &'a dyn Fn(&[&Value]) -> String);
+
 /// A row for each name and number of cores, a column for each value of `key`.
 fn table(
     rows: &[&Value],
@@ -94,11 +92,14 @@ fn table(
     head: &str,
     words: &Words,
     cell: &dyn Fn(&Value) -> String,
+    last: Option<LastColumn>,
 ) -> String {
     let columns = distinct(rows, key);
     let mut table = format!("{head}{}\n\n| {} |", words.ends[0].trim_end(), words.by);
     columns.iter().for_each(|column| write!(table, " `{column}` |").unwrap());
-    write!(table, "\n|---|{}", "---|".repeat(columns.len())).unwrap();
+    last.iter().for_each(|(head, _)| write!(table, " {head} |").unwrap());
+    let count = columns.len() + usize::from(last.is_some());
+    write!(table, "\n|---|{}", "---|".repeat(count)).unwrap();
     for cores in [None, Some(1), Some(2)] {
         let rows: Vec<_> =
             rows.iter().copied().filter(|row| row["cores"].as_u64() == cores).collect();
@@ -109,6 +110,11 @@ fn table(
                 let found =
                     rows.iter().find(|row| text(row, key) == *column && text(row, "name") == name);
                 write!(table, " {} |", found.map_or("-".to_owned(), |row| cell(row))).unwrap();
+            }
+            if let Some((_, says)) = last {
+                let own: Vec<_> =
+                    rows.iter().copied().filter(|row| text(row, "name") == name).collect();
+                write!(table, " {} |", says(&own)).unwrap();
             }
         }
     }
@@ -188,17 +194,22 @@ fn tiles<'a>(frames: &[&'a Value], row: &Value) -> &'a Value {
 
 /// What bounds frames, and what they and fills spend their instructions on.
 fn limits(run: &Value, peers: &Value, words: &Words) -> String {
-    let mut page = machine(run, words) + words.limits[0] + "\n" + &"|---".repeat(10) + "|\n";
+    let mut page = machine(run, words) + words.limits[0] + "\n" + &"|---".repeat(7) + "|\n";
     let frames = run["frames"].as_array().unwrap();
     let named = |row: &Value| format!("| `{}` | {} |", text(row, "mesh"), row["samples"]);
     for row in frames {
-        let [ms, instructions, moved, fetched] =
-            ["ms", "instructions", "moved", "fetched"].map(|key| number(&row[key]));
+        let [ms, instructions, moved] =
+            ["ms", "instructions", "moved"].map(|key| number(&row[key]));
         let [computed, copied] =
             [(instructions, "rate"), (moved, "copy")].map(|(n, key)| n / number(&run[key]) * 1e3);
         let [of_computed, of_copied] = [computed, copied].map(|bound| bound / ms * 100.0);
-        let (millions, moved, fetched) = (instructions / 1e6, moved / 1e6, fetched / 1e6);
-        writeln!(page, "{} {ms:.2} | {millions:.0} | {computed:.2} | {of_computed:.0}% | {moved:.1} | {copied:.2} | {of_copied:.0}% | {fetched:.1} |", named(row)).unwrap();
+        let (millions, moved) = (instructions / 1e6, moved / 1e6);
+        writeln!(
+            page,
+            "{} {ms:.2} | {millions:.0} | {of_computed:.0}% | {moved:.1} | {of_copied:.0}% |",
+            named(row)
+        )
+        .unwrap();
     }
     let fills: Vec<_> = run["fills"].as_array().unwrap().iter().collect();
     let triangles = |row: &Value| {
@@ -206,9 +217,13 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
         number(&like.find(|other| other["class"] == row["class"]).unwrap()["triangles"])
     };
     page.push('\n');
-    page + &table(&fills, "class", words.limits[1], words, &|row| {
-        format!("{:.0}", number(&row["instructions"]) / triangles(row))
-    })
+    let cell = |row: &Value| format!("{:.0}", number(&row["instructions"]) / triangles(row));
+    page + &table(&fills, "class", words.limits[1], words, &cell, None)
+}
+
+/// The sum of a whole number over rows.
+fn sum(rows: &[&Value], number: impl Fn(&Value) -> &Value) -> u64 {
+    rows.iter().map(|row| number(row).as_u64().expect("a count")).sum()
 }
 
 fn peers(run: &Value, words: &Words) -> String {
@@ -219,25 +234,31 @@ fn peers(run: &Value, words: &Words) -> String {
         let rows: Vec<_> =
             fills.iter().copied().filter(|row| !row["errors"][kind].is_null()).collect();
         let head = heads[0].to_owned() + &noise(&rows, "ns");
-        page += &table(&rows, "class", &head, words, &|row| {
-            time(&row["ns"], number(&row["triangles"]), &ours(&fills, row)["ns"])
-        });
-        page += &table(&rows, "class", heads[1], words, &|row| match &row["errors"][kind] {
-            pixels if kind == "pixels" => format!("{}+{}", pixels["missing"], pixels["extra"]),
-            areas => format!("{:.1}, {:.0}", number(&areas["rms"]), number(&areas["worst"])),
-        });
+        let cell =
+            |row: &Value| time(&row["ns"], number(&row["triangles"]), &ours(&fills, row)["ns"]);
+        let largest = |rows: &[&Value], of: &str| {
+            rows.iter().map(|row| number(&row["errors"]["areas"][of])).fold(0.0, f64::max)
+        };
+        let wrong = |rows: &[&Value]| match kind {
+            "pixels" => {
+                let [missing, extra] =
+                    ["missing", "extra"].map(|of| sum(rows, |row| &row["errors"]["pixels"][of]));
+                format!("{missing}+{extra}")
+            }
+            _ => format!("{:.1}, {:.0}", largest(rows, "rms"), largest(rows, "worst")),
+        };
+        page += &table(&rows, "class", &head, words, &cell, Some((heads[1], &wrong)));
     }
     let frames = all("frames");
     for (samples, head) in [1, 4].into_iter().zip(words.frames) {
         let rows: Vec<_> = frames.iter().copied().filter(|row| row["samples"] == samples).collect();
         let head = head.to_owned() + &noise(&rows, "ms");
-        page += &table(&rows, "mesh", &head, words, &|row| {
-            time(&row["ms"], 1.0, &tiles(&rows, row)["ms"])
-        });
-        let alone: Vec<_> = rows.into_iter().filter(|row| row["cores"] == 1).collect();
-        page += &table(&alone, "mesh", words.wrong, words, &|row| {
-            format!("{}, {}", row["uncovered"], row["other"])
-        });
+        let cell = |row: &Value| time(&row["ms"], 1.0, &tiles(&rows, row)["ms"]);
+        let wrong = |rows: &[&Value]| {
+            let [uncovered, other] = ["uncovered", "other"].map(|of| sum(rows, |row| &row[of]));
+            format!("{uncovered}, {other}")
+        };
+        page += &table(&rows, "mesh", &head, words, &cell, Some((words.wrong, &wrong)));
     }
     page
 }

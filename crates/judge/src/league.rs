@@ -57,6 +57,15 @@ pub struct League {
     pub rows: Vec<Ranked>,
 }
 
+impl League {
+    /// The first and the last day on which a library was judged; empty where none was.
+    #[must_use]
+    pub fn days(&self) -> [&str; 2] {
+        let days = || self.rows.iter().map(|row| row.date.as_str());
+        [days().min(), days().max()].map(Option::unwrap_or_default)
+    }
+}
+
 impl Ranked {
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {

@@ -27,7 +27,7 @@ struct Words {
 
 const ENGLISH: Words = Words {
     header: "| library | as is | by its convention | holes | doubles | order | lines as is | lines by theirs | from either \
-             end | version | day |",
+             end |",
     as_declared: "the same",
     unexplained: "unexplained",
     by_mistake: "a mistake",
@@ -38,14 +38,18 @@ const ENGLISH: Words = Words {
     say: str::to_owned,
     made: |l| {
         format!(
-            "Made by rasterproof {}, {} cases of each family, seed {}.",
-            l.rasterproof, l.cases, l.seed
+            "Made by rasterproof {}, {} cases of each family, seed {}, from {} to {}.",
+            l.rasterproof,
+            l.cases,
+            l.seed,
+            l.days()[0],
+            l.days()[1]
         )
     },
 };
 
 const CHINESE: Words = Words {
-    header: "| 库 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 | 版本 | 日期 |",
+    header: "| 库 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
     as_declared: "相同",
     unexplained: "未能解释",
     by_mistake: "已知的错误",
@@ -55,7 +59,14 @@ const CHINESE: Words = Words {
     marks: ["：", "。"],
     say: phrases::chinese,
     made: |l| {
-        format!("由 rasterproof {} 生成，每族 {} 个案例，种子 {}。", l.rasterproof, l.cases, l.seed)
+        format!(
+            "由 rasterproof {} 生成，每族 {} 个案例，种子 {}，{} 至 {}。",
+            l.rasterproof,
+            l.cases,
+            l.seed,
+            l.days()[0],
+            l.days()[1]
+        )
     },
 };
 
@@ -63,7 +74,7 @@ pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
     let mut out = format!("{}\n\n{}\n|---|", (words.made)(league), words.header);
     out += &"---:|".repeat(8);
-    out += "---|---|\n";
+    out.push('\n');
     for row in &league.rows {
         let [as_is, found] = scores(row.triangles.as_ref(), words);
         let [lines, lines_found] = scores(row.lines.as_ref(), words);
@@ -71,14 +82,12 @@ pub fn tables(league: &League, chinese: bool) -> String {
         let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
         let _ = writeln!(
             out,
-            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} | {} | {} |",
+            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
             row.name,
             of(holes, meshes),
             of(doubles, meshes),
             percent(row.orders),
-            percent(row.directions),
-            row.version,
-            row.date
+            percent(row.directions)
         );
     }
     out.push('\n');
@@ -87,17 +96,18 @@ pub fn tables(league: &League, chinese: bool) -> String {
     out
 }
 
-/// How a library was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is enough.
+/// The version of a library, how it was called, and what it does: where an earlier one of `said` does the same, its name.
 fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let [colon, stop] = words.marks;
     let call = (words.say)(&row.call);
-    let _ = writeln!(out, "- **{}**{colon}{call}{stop}", row.name);
+    let version = row.version.strip_prefix(&format!("{}-", row.name)).unwrap_or(&row.version);
+    let _ = writeln!(out, "- **{}**, {version}{colon}{call}{stop}", row.name);
     let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
     for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
         let does = match &kind.mistake {
             // A mistake that is known explains more than a convention beside it.
             Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
-            None => (words.say)(&beyond_the_table(&kind.sentence)),
+            None => without_shares(&(words.say)(&beyond_the_table(&kind.sentence))),
         };
         if does.is_empty() {
             continue;
@@ -133,6 +143,15 @@ fn beyond_the_table(sentence: &str) -> String {
     kept.trim_end().to_owned()
 }
 
+/// A sentence without the shares of each direction of an edge, from north on, which the data has.
+fn without_shares(sentence: &str) -> String {
+    let shares = sentence.split_once(" (N ").and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(')')?;
+        Some(format!("{before}{after}"))
+    });
+    shares.unwrap_or_else(|| sentence.to_owned())
+}
+
 /// Wrong pixels in a million, as declared and by the convention.
 fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     let Some(kind) = kind else { return ["-".to_owned(), "-".to_owned()] };
@@ -147,5 +166,5 @@ fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
 }
 
 fn percent([all, changed]: [u64; 2]) -> String {
-    if all == 0 { "-".to_owned() } else { format!("{:.0} %", 100.0 * changed as f64 / all as f64) }
+    if all == 0 { "-".to_owned() } else { format!("{:.0}%", 100.0 * changed as f64 / all as f64) }
 }

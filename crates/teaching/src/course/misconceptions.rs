@@ -60,7 +60,7 @@ const KNOWN: &[KnownMisconception] = known![
     [|q, t| point_twice(q, t)];
 
     "outside", "you draw pixels outside the window",
-    "The window is 4 pixels wide. Which numbers have its columns, and what does your test say about -1 and about 4?",
+    "Take a window that is 4 pixels wide. Which numbers have its columns, and what does your test say about -1 and about 4?",
     [|q, _| uncut_line(q, false), |q, _| uncut_line(q, true)];
 
     "lost-end-pixel", "your line ends one pixel early",

@@ -35,8 +35,10 @@ mod ch11;
 mod effects;
 mod games101;
 pub mod page;
+mod samples;
 mod stability;
 mod sysu;
+mod textures;
 mod tools;
 
 pub use answer::{Given, Right};
@@ -170,6 +172,8 @@ const SOLVERS: &[(&str, &[(&str, Solve)])] = solvers_of!(
     ch09,
     ch10,
     ch11,
+    samples,
+    textures,
     games101,
     sysu,
     effects,
@@ -248,7 +252,7 @@ mod tests {
             ("2c", "chapter 2c".to_owned())
         );
         assert_eq!(chapter("2c").unwrap().page, "ch02-scanline");
-        assert!(["", "0", "12", "ch", "two"].iter().all(|word| chapter(word).is_none()));
+        assert!(["", "0", "14", "ch", "two"].iter().all(|word| chapter(word).is_none()));
     }
 
     /// A function without an exercise is not counted by the exercises, and an exercise without a function panics.
