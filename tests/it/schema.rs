@@ -7,7 +7,7 @@ use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
 use crate::json_schema::wrong;
-use crate::page::every_section;
+use crate::made_pages::every_section;
 use crate::pages::read;
 use crate::program::{Folder, PROGRAM};
 
