@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use image::{Rgb, RgbImage};
-use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_playground as pages;
 use rasterproof_report::html::{
     Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
@@ -205,30 +204,3 @@ fn a_changed_snapshot_is_accepted() {
     let (status, said) = review(&folder);
     assert_eq!(status, 0, "{said}");
 }
-
-#[test]
-fn page_leaves_out_what_does_not_fit_and_says_so() {
-    // Noise does not compress: 600 x 600 px are more than a megabyte.
-    let mut state: u32 = 1;
-    let noise = RgbImage::from_fn(600, 600, |_, _| {
-        Rgb([0, 1, 2].map(|_| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 24) as u8
-        }))
-    });
-    let view = |name: &str| PictureView {
-        name: name.to_owned(),
-        layers: vec![PictureLayer::new("noise", &noise)],
-        ..PictureView::default()
-    };
-    let frames = vec![
-        view("first"),
-        view("second"),
-        PictureView { name: "small".to_owned(), layers: two_pictures(), ..PictureView::default() },
-    ];
-    let text = page(&Report { frames, ..Report::default() });
-    assert!(text.len() < PAGE_BYTES, "{} bytes", text.len());
-    assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
-    assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
-}
-

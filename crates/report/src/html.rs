@@ -627,6 +627,29 @@ mod tests {
     }
 
     #[test]
+    fn pictures_that_do_not_fit_are_left_out_and_named() {
+        // Noise does not compress: 600 x 600 px are more than a megabyte.
+        let mut state: u32 = 1;
+        let noise = RgbImage::from_fn(600, 600, |_, _| {
+            Rgb([0, 1, 2].map(|_| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8
+            }))
+        });
+        let small = RgbImage::from_pixel(7, 5, Rgb([10, 20, 30]));
+        let view = |name: &str, picture: &RgbImage| PictureView {
+            name: name.to_owned(),
+            layers: vec![PictureLayer::new("noise", picture)],
+            ..PictureView::default()
+        };
+        let frames = vec![view("first", &noise), view("second", &noise), view("small", &small)];
+        let text = page(&Report { frames, ..Report::default() });
+        assert!(text.len() < PAGE_BYTES, "{} bytes", text.len());
+        assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
+        assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
+    }
+
+    #[test]
     fn a_page_stays_small_whatever_it_lists() {
         let rows = (0..20_000).map(|i| Row::of(&[&i, &"x".repeat(200)]));
         let tables = vec![Table::new("many", "a | b", rows.collect())];

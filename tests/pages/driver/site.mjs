@@ -14,6 +14,13 @@ export function names(root = SITE) {
 
 export const pages = (root) => names(root).filter((name) => name.endsWith('.html'));
 
+/**
+ * The pages that are opened. By day every tenth of those that show files of the repository, which one template makes, is among them;
+ * by night, where `RASTERPROOF_ALL` is set, all are.
+ */
+export const opened = () =>
+  pages().filter((page, i) => 'RASTERPROOF_ALL' in process.env || !page.startsWith('files/') || i % 10 === 0);
+
 export const inSite = (name) => path.join(SITE, name);
 
 /** The tags of a page, without what a script holds. */

@@ -1,7 +1,7 @@
 import fs from 'node:fs';
 
 import { SITE } from '../driver/program.mjs';
-import { inSite, none, pages } from '../driver/site.mjs';
+import { inSite, none, opened } from '../driver/site.mjs';
 
 /** What a reader loads before the first view is complete, pictures and scripts included, the compiled engines not. */
 const FIRST_VIEW_BYTES = 300_000;
@@ -18,7 +18,7 @@ export default {
   async check(tab) {
     const wrong = [];
     let heaviest = { weight: 0 };
-    for (const page of pages()) {
+    for (const page of opened()) {
       await tab.resize(360, 740);
       await tab.go(inSite(page));
       // mdBook's text scrolls inside its own element, so the document alone would never be too wide.
@@ -39,7 +39,7 @@ export default {
         .map((link) => link.href.replace(/^file:..|#.*/g, '')).join());
       if (isBook && !page.endsWith('/toc.html') && others !== wanted(page)) wrong.push(`${page} leads to ${others}`);
     }
-    console.log(`${pages().length} pages; the heaviest first view: ${heaviest.weight} bytes, ${heaviest.page}`);
+    console.log(`${opened().length} pages; the heaviest first view: ${heaviest.weight} bytes, ${heaviest.page}`);
     if (heaviest.weight > FIRST_VIEW_BYTES) wrong.push(`the first view of ${heaviest.page} is ${heaviest.weight} bytes`);
     none(wrong);
   },
