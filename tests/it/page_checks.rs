@@ -46,8 +46,10 @@ fn check(folder: &str) {
     let only = std::env::var("RASTERPROOF_CHECK").ok();
     let mut checks = files(&root().join("tests/pages").join(folder), ".mjs");
     checks.retain(|check| only.as_ref().is_none_or(|only| check.file_stem().unwrap() == &**only));
-    assert!(only.is_some() || !checks.is_empty(), "no check in {folder}");
-    run(&checks, folder);
+    if only.is_none() || !checks.is_empty() {
+        assert!(!checks.is_empty(), "no check in {folder}");
+        run(&checks, folder);
+    }
 }
 
 fn run(checks: &[PathBuf], name: &str) {
