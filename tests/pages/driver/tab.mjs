@@ -43,6 +43,7 @@ export class Questions {
 
 export class Tab extends Questions {
   complaints = [];
+  isOpened = false;
 
   /** A tab of its own profile in a browser, which `send` speaks to. */
   static async of(send) {
@@ -83,8 +84,10 @@ export class Tab extends Questions {
 
   /** Opens a file, with a fragment such as `#case-T2`, and waits until its case is drawn. */
   async open(fragment = '', file = this.file) {
+    // A page with another fragment would not be loaded again.
+    if (this.isOpened) await this.call('Page.navigate', { url: 'about:blank' });
+    this.isOpened = true;
     this.file = file;
-    await this.call('Page.navigate', { url: 'about:blank' });
     await this.call('Page.navigate', { url: pathToFileURL(file).href + fragment });
     await this.when(() => document.readyState === 'complete'
       && (document.body.dataset.ready !== undefined || document.querySelector('#cases')?.hidden === true));
@@ -93,6 +96,7 @@ export class Tab extends Questions {
   /** Goes to a page that nobody's script makes ready, as those of the site. */
   async go(file) {
     const url = pathToFileURL(file).href;
+    this.isOpened = true;
     await this.call('Page.navigate', { url });
     // The first page of the site leads on by a script, after which nothing may be asked of it.
     const leadsOn = /site\/index\.html$/.test(url);
