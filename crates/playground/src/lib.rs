@@ -22,6 +22,7 @@ pub const PLAYGROUND: Parts = Parts {
         include_str!("../page/engines.js"),
         include_str!("../page/state.js"),
         include_str!("../page/parts.js"),
+        include_str!("../page/edges.js"),
         include_str!("../page/look.js"),
         include_str!("../page/grips.js"),
         include_str!("../page/scenes.js"),
@@ -39,6 +40,7 @@ pub const YOUR_GPU: Parts = Parts {
     template: include_str!("../page/gpu/page.html"),
     styles: &[include_str!("../page/page.css"), include_str!("../page/gpu/gpu.css")],
     scripts: &[
+        rasterproof_view::PIXEL,
         include_str!("../page/gpu/words.js"),
         include_str!("../page/gpu/rules.js"),
         include_str!("../page/engines.js"),
@@ -46,6 +48,7 @@ pub const YOUR_GPU: Parts = Parts {
         include_str!("../page/gpu/webgl2.js"),
         include_str!("../page/gpu/webgpu.js"),
         include_str!("../page/gpu/run.js"),
+        include_str!("../page/edges.js"),
         include_str!("../page/gpu/show.js"),
     ],
 };
