@@ -309,7 +309,7 @@ pub fn page(report: &Report) -> String {
     let links: Vec<_> = first.into_iter().chain(others).collect();
     let jump = jump(&links);
     fill(|part| match part {
-        "title" => escape(&report.title),
+        "title" => escape(&title(report)),
         "style" => STYLE.clone(),
         "script" => SCRIPT.clone(),
         "head" => head.clone(),
@@ -320,6 +320,12 @@ pub fn page(report: &Report) -> String {
         "data" => data.clone(),
         _ => String::new(),
     })
+}
+
+/// The title of a page says which command wrote it, so that no two reports have one title.
+fn title(report: &Report) -> String {
+    let command = if report.repeat.is_empty() { &report.command } else { &report.repeat };
+    if command.is_empty() { report.title.clone() } else { format!("{} ({command})", report.title) }
 }
 
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.

@@ -59,7 +59,7 @@ function resultOf(result, index) {
     result.renderer ? make('p', {}, `${word('renderer')}: ${result.renderer}`) : null,
     software, totals,
     ...result.notes.map((note) => make('p', { className: 'note' }, said(note))),
-    checks.length ? make('table', {}, make('thead', {}, make('tr', {}, ...['check', 'verdict', 'found', 'rule'].map((head) => make('th', { scope: 'col' }, word(head))))), make('tbody', {}, ...checks.map((check) => row(result, index, check)))) : null);
+    checks.length ? make('table', { className: 'checks' }, make('thead', {}, make('tr', {}, ...['check', 'verdict', 'found', 'rule'].map((head) => make('th', { scope: 'col' }, word(head))))), make('tbody', {}, ...checks.map((check) => row(result, index, check)))) : null);
 }
 
 /** The pixels around what matters: corners and marks, with one to spare. */
