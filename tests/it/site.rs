@@ -407,6 +407,32 @@ fn site_tables_can_be_read() {
     assert_eq!(browser.eval("document.documentElement.scrollWidth <= innerWidth"), true);
 }
 
+/// A picture that a phone shows smaller than three quarters of its size leads to itself. Code has its look before any script
+/// runs: a class that came later would give blocks a scrollbar, and move what is below.
+#[test]
+#[ignore = "needs docs/build"]
+fn site_pictures_are_enlarged_and_code_stays() {
+    let Some(mut browser) = Browser::start("site-pictures") else { return };
+    browser.resize(360, 740);
+    let mut small = 0;
+    for page in ["en/ch02-edge-functions.html", "en/effects.html", "zh/ch06.html"] {
+        go(&mut browser, &site(), page);
+        let seen = browser.eval(
+            "[...document.querySelectorAll('main img')].filter(i => !i.closest('rp-figure') && i.width < 0.75 * i.getAttribute('width'))
+                .map(i => i.closest('a')?.href === i.src)",
+        );
+        let seen: Vec<bool> = serde_json::from_value(seen).unwrap();
+        assert!(seen.iter().all(|leads| *leads), "{page}: {seen:?}");
+        small += seen.len();
+        let text = fs::read_to_string(site().join(page)).unwrap();
+        let blocks = tags(&text);
+        let code = blocks.windows(2).filter(|pair| pair[0] == "pre").map(|pair| pair[1]);
+        let waits: Vec<_> = code.filter(|tag| !tag.contains("hljs")).collect();
+        assert_eq!(waits, [""; 0], "{page}: these get their look from a script");
+    }
+    assert!(small > 0, "no picture is small");
+}
+
 /// A server's page for an address that leads nowhere offers the page that was probably meant.
 #[test]
 #[ignore = "needs docs/build"]

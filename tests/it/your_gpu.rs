@@ -176,7 +176,10 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
     let why = browser.eval("[...document.querySelectorAll('#why .edges tbody tr')].map(row => [row.cells[1].textContent[0] === '-', row.cells[2].textContent])");
     let why: Vec<(bool, String)> = serde_json::from_value(why).unwrap();
     assert_eq!(why.len() % 3, 0, "{why:?}");
-    assert!(!why.is_empty() && why.iter().all(|(below, side)| (side == "outside") == *below), "{why:?}");
+    assert!(
+        !why.is_empty() && why.iter().all(|(below, side)| (side == "outside") == *below),
+        "{why:?}"
+    );
     browser.click("[data-api=webgl2] [data-check=coverage] button");
     // The headline names the check, and the keyboard is where the case is.
     assert_eq!(browser.text("[data-api=webgl2] .verdict"), "coverage: 1 check breaks a promise.");

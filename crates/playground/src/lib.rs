@@ -7,13 +7,15 @@ use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
 use serde_json::{Map, Value, json};
 
 pub struct Parts {
-    template: &'static str,
+    title: &'static str,
+    body: &'static str,
     styles: &'static [&'static str],
     scripts: &'static [&'static str],
 }
 
 pub const PLAYGROUND: Parts = Parts {
-    template: include_str!("../page/page.html"),
+    title: "rasterproof: playground",
+    body: include_str!("../page/page.html"),
     styles: &[include_str!("../page/page.css")],
     scripts: &[
         rasterproof_view::PIXEL,
@@ -37,7 +39,8 @@ pub const PLAYGROUND: Parts = Parts {
 
 /// The page that judges a browser's GPU.
 pub const YOUR_GPU: Parts = Parts {
-    template: include_str!("../page/gpu/page.html"),
+    title: "rasterproof: your GPU",
+    body: include_str!("../page/gpu/page.html"),
     styles: &[include_str!("../page/page.css"), include_str!("../page/gpu/gpu.css")],
     scripts: &[
         rasterproof_view::PIXEL,
@@ -82,14 +85,19 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
         return Err("is no WebAssembly module: it does not begin with \\0asm".to_owned());
     }
     let filled = [
-        ("{{style}}", &rasterproof_view::style(parts.styles)),
-        ("{{script}}", &rasterproof_view::script(parts.scripts)),
-        ("{{clauses}}", &clauses()),
-        ("{{module}}", &STANDARD.encode(module)),
+        ("{{policy}}", " 'wasm-unsafe-eval'"),
+        ("{{about}}", ""),
+        ("{{title}}", parts.title),
+        ("{{body}}", parts.body),
+        ("{{style}}", &*rasterproof_view::style(parts.styles)),
+        ("{{script}}", &*rasterproof_view::script(parts.scripts)),
+        ("{{clauses}}", &*clauses()),
+        ("{{module}}", &*STANDARD.encode(module)),
     ];
-    let page = filled
-        .into_iter()
-        .fold(parts.template.to_owned(), |page, (place, text)| page.replacen(place, text, 1));
+    let page =
+        filled.into_iter().fold(rasterproof_view::FRAME.to_owned(), |page, (place, text)| {
+            page.replacen(place, text, 1)
+        });
     if page.len() > MOST_BYTES {
         return Err(format!(
             "makes a page of {} bytes; at most {MOST_BYTES} are allowed",

@@ -29,7 +29,9 @@ const MOST_LEFT_OUT_NAMES: usize = 20;
 const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
 
-const TEMPLATE: &str = include_str!("page/page.html");
+static TEMPLATE: LazyLock<String> = LazyLock::new(|| {
+    rasterproof_view::FRAME.replacen("{{body}}", include_str!("page/page.html"), 1)
+});
 
 /// The style of all pages, and that of reports.
 static STYLE: LazyLock<String> =
@@ -330,7 +332,7 @@ fn title(report: &Report) -> String {
 
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.
 fn fill(part: impl Fn(&str) -> String) -> String {
-    let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((TEMPLATE, ""));
+    let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((&TEMPLATE, ""));
     let pieces = pieces.split("{{").map(|piece| {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
         part(name) + rest
