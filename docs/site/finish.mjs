@@ -233,8 +233,6 @@ function finished(book, page, place, main, others) {
       pictures += 1;
       return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 ? ' loading="lazy"' : ''}`;
     })
-    // A picture that stands alone leads to itself, as large as it is.
-    .replace(/<p>(<img src="([^"]+)"[^>]*>)<\/p>/g, '<p><a class="picture" href="$2">$1</a></p>')
     // Code has its look from the beginning: mdBook's script would give it the class later, and all below would move.
     .replace(/<a class="header"[^]*?<\/a>|<code(?: class="([^"]*)")?>/g, (whole, others = '') => (
       whole.startsWith('<a') ? whole : `<code class="${`${others} hljs`.trim()}">`));
