@@ -273,7 +273,9 @@ for (const book of ['en', 'zh']) {
     let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
     // Before the text is read, so that no figure is shown first as its still picture.
     if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
-    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + once(foot, '</main>', `</main>\n${TEXT_IS_READ}`));
+    // What stands below the text, search and copying, leaves the line to what the first view needs.
+    const below = once(foot, '</main>', `</main>\n${TEXT_IS_READ}`).replaceAll('<script src="', '<script fetchpriority="low" src="');
+    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + below);
   }
   // The headings of a page come into the contents when the text is there, before these are shown, and not after the last script.
   const contents = path.join(site, book, asset(book, /^toc-.*\.js$/));

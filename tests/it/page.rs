@@ -509,7 +509,7 @@ fn page_of_each_command_is_in_the_index() {
     program("render cube --size 64x48 --report --out other");
     assert_eq!(std::fs::read_to_string(other.join("index.html")).unwrap(), "mine");
     assert!(other.join("render.html").is_file() && other.join("cube.png").is_file());
-    // Two reports of one kind are told apart by their titles.
+    // Two reports of one kind have different titles.
     program("render cube --size 32x24 --report --out other");
     let title = |page: PathBuf| {
         let text = std::fs::read_to_string(page).unwrap();
@@ -588,6 +588,14 @@ pub fn every_section() -> Report {
         }],
         ..Report::default()
     }
+}
+
+#[test]
+fn page_has_thousands_apart_below_a_picture() {
+    let about = "198 of 19200 pixels differ".to_owned();
+    let frames = vec![PictureView { about, layers: two_pictures(), ..PictureView::default() }];
+    let page = page(&Report { frames, ..Report::default() });
+    assert!(page.contains("198 of 19,200 pixels differ"), "{page}");
 }
 
 #[test]

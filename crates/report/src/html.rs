@@ -21,7 +21,7 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 use super::table::{Mark, Table};
-use super::words::{grouped, same, word};
+use super::words::{grouped, same, serialize_grouped, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
@@ -186,6 +186,7 @@ pub struct TextDiff {
 pub struct PictureView {
     /// Its name; unique within the page.
     pub name: String,
+    #[serde(serialize_with = "serialize_grouped")]
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,

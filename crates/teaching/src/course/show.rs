@@ -430,13 +430,12 @@ pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
     // On the page, the pictures that differ most come first.
     let mut on_page = Vec::new();
     for (label, picture) in pictures {
-        let of = u64::from(picture.right.width()) * u64::from(picture.right.height());
+        let of = picture.right.width() * picture.right.height();
         let refused = match picture.unanswered {
             0 => String::new(),
             n => format!("; {n} requests refused or not answered"),
         };
-        let [differing, of] = [picture.differing, of].map(words::thousands);
-        let about = format!("{differing} of {of} pixels differ{refused}");
+        let about = format!("{} of {of} pixels differ{refused}", picture.differing);
         let name = format!("{label}: {}", picture.title);
         report.notes.push(format!("{name}: {about}"));
         let layers = vec![
