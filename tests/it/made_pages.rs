@@ -107,7 +107,8 @@ fn marks() -> Report {
     let [old, new] = [[10, 20, 30], [200, 20, 30]].map(|c| RgbImage::from_pixel(7, 5, Rgb(c)));
     let marks = [(Rgb([200, 20, 30]), "where it is wrong")];
     let layers = vec![PictureLayer::new("picture", &old), PictureLayer::map("marks", &new, &marks)];
-    let frames = vec![PictureView { name: "one".to_owned(), layers, ..PictureView::default() }];
+    let [name, about] = ["one", "198 of 19200 pixels differ"].map(str::to_owned);
+    let frames = vec![PictureView { name, about, layers, ..PictureView::default() }];
     let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned();
     let figures = vec![Figure { caption: "a plot".to_owned(), svg, others: vec![] }];
     Report { frames, figures, ..Report::default() }

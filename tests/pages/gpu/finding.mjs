@@ -66,6 +66,11 @@ export default {
       return [hidden, before.className, before.parentElement.dataset.api, pixels.unit >= 24, pixels.shown.length];
     });
     assert.deepEqual(shown, [false, 'cause', 'webgpu', true, 2]);
+    // The pixel is explained as on every page: a table of edges with the sides that decide.
+    const why = await tab.value(() => [...document.querySelectorAll('#why .edges tbody tr')]
+      .map((row) => [row.cells[1].textContent[0] === '-', row.cells[2].textContent]));
+    assert(why.length > 0 && why.length % 3 === 0, `${why.length} edges`);
+    for (const [isBelow, side] of why) assert.equal(side === 'outside', isBelow, JSON.stringify(why));
     await tab.click('[data-api=webgl2] [data-check=coverage] button');
     // The headline names the check, and the keyboard is where the case is.
     assert.equal(await tab.text('[data-api=webgl2] .verdict'), 'coverage: 1 check breaks a promise.');

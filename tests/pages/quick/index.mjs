@@ -5,7 +5,7 @@ import path from 'node:path';
 import { run } from '../driver/program.mjs';
 
 export default {
-  says: 'Each command has a page of its own, and the index lists them; a folder that has another index keeps it',
+  says: 'Each command has a page of its own, and the index lists them; a folder that has another index keeps it; two reports of one kind have different titles',
   page: 'plan --scene panels --size 64x48 --rounds 1 --report',
   async check(tab) {
     const folder = path.dirname(tab.file), read = (name) => fs.readFileSync(path.join(folder, name), 'utf8');
@@ -22,5 +22,8 @@ export default {
     run('render cube --size 64x48 --report --out other', folder);
     assert.equal(read('other/index.html'), 'mine');
     assert(['render.html', 'cube.png'].every((name) => fs.existsSync(path.join(folder, 'other', name))));
+    run('render cube --size 32x24 --report --out other', folder);
+    const [title, other] = ['render.html', 'other/render.html'].map((name) => read(name).match(/<title>([^]*?)<\/title>/)[1]);
+    assert.notEqual(title, other);
   },
 };
