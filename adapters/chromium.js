@@ -77,32 +77,40 @@ function page(MODE) {
 
 // ---- the browser ----
 
-function start() {
-  const browser = process.env.CHROMIUM || PLACES.find((place) => fs.existsSync(place));
+const find = () => process.env.CHROMIUM || PLACES.find((place) => fs.existsSync(place));
+
+// A browser with these options. What is returned calls a method of the DevTools protocol; `heard` takes what the browser says unasked.
+function start(options, heard = () => {}) {
+  const browser = find();
   if (!browser) throw new Error('no Chromium found; set CHROMIUM to its program');
   // Below target/, so that a program that is killed leaves nothing elsewhere.
   const scratch = path.join(__dirname, '..', 'target', 'adapters');
   fs.mkdirSync(scratch, { recursive: true });
   const profile = fs.mkdtempSync(path.join(scratch, 'chromium-'));
-  const args = ['--headless', '--remote-debugging-pipe', `--user-data-dir=${profile}`, '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', '--force-device-scale-factor=1'];
+  const args = ['--headless', '--remote-debugging-pipe', `--user-data-dir=${profile}`, ...options];
   if (process.getuid() === 0) args.push('--no-sandbox');
-  const child = spawn(browser, args, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+  const env = { ...process.env, TMPDIR: profile };
+  // In a group of its own, so that its helpers end with it and write no more.
+  const child = spawn(browser, args, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], env, detached: true });
   const waiting = new Map();
   let text = '', count = 0;
   child.stdio[4].setEncoding('utf8').on('data', (chunk) => {
     const messages = (text + chunk).split('\0');
     text = messages.pop();
     for (const message of messages.map(JSON.parse)) {
-      const [done, failed] = waiting.get(message.id) || [];
+      if (message.method) {
+        heard(message);
+        continue;
+      }
+      const [done, failed] = waiting.get(message.id);
       if (message.error) failed(new Error(message.error.message));
-      else if (done) done(message.result);
+      else done(message.result);
       waiting.delete(message.id);
     }
   });
   child.on('exit', () => process.exit(1));
   process.on('exit', () => {
-    child.kill('SIGKILL');
+    process.kill(-child.pid, 'SIGKILL');
     fs.rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
   });
   for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
@@ -130,7 +138,7 @@ function read(words, grid) {
 }
 
 async function main() {
-  const ask = start();
+  const ask = start(['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--force-device-scale-factor=1']);
   const { targetId } = await ask('Target.createTarget', { url: 'about:blank' });
   const { sessionId } = await ask('Target.attachToTarget', { targetId, flatten: true });
   const evaluate = async (expression) => {
@@ -166,7 +174,12 @@ async function main() {
   process.exit(0);
 }
 
-main().catch((error) => {
-  console.error(error);
-  process.exit(1);
-});
+// The checks of pages start their browser by this file, too.
+module.exports = { find, start };
+
+if (require.main === module) {
+  main().catch((error) => {
+    console.error(error);
+    process.exit(1);
+  });
+}

@@ -32,6 +32,21 @@ function once(text, old, right) {
   return text.replace(old, () => right);
 }
 
+/** A page that mdBook does not make. */
+const bare = (title, body, more = '') => `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>${escaped(title)}</title>
+<link rel="icon" href="data:,">
+${more}</head>
+<body>
+${body}</body>
+</html>
+`;
+
 // Files of the repository that pages show or lead to: pictures as they are, texts as pages.
 const shown = new Set();
 const SHOWN_AS_IT_IS = /\.(png|svg|gif|gz)$/;
@@ -67,15 +82,8 @@ function filePage(file) {
     body = `<pre><code class="hljs" tabindex="0" role="group" aria-label="${escaped(file)}">${highlighted(read(file), language)}</code></pre>`;
   }
   const sheet = (name, scheme) => `<link rel="stylesheet" href="${root}/en/${name}" media="(prefers-color-scheme: ${scheme})">`;
-  write(path.join(site, place), `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>${escaped(file)} - rasterproof</title>
-<link rel="icon" href="data:,">
-${sheet(asset('en', /^highlight-.*\.css$/), 'light')}
+  const nav = `<nav><a href="${root}/en/index.html">rasterproof</a> · <a href="${root}/zh/index.html" lang="zh-CN">中文</a></nav>`;
+  write(path.join(site, place), bare(`${file} - rasterproof`, `${nav}\n<main>\n<h1>${escaped(file)}</h1>\n${body}\n</main>\n`, `${sheet(asset('en', /^highlight-.*\.css$/), 'light')}
 ${sheet(asset('en', /^tomorrow-night-.*\.css$/), 'dark')}
 <style>
 html { background: canvas; color: canvastext; }
@@ -83,16 +91,7 @@ body { font-family: sans-serif; margin: 1em; overflow-wrap: anywhere; }
 pre { overflow-x: auto; font-size: 0.9em; }
 pre code { display: block; padding: 0.5em; }
 </style>
-</head>
-<body>
-<nav><a href="${root}/en/index.html">rasterproof</a> · <a href="${root}/zh/index.html" lang="zh-CN">中文</a></nav>
-<main>
-<h1>${escaped(file)}</h1>
-${body}
-</main>
-</body>
-</html>
-`);
+`));
 }
 
 /** The name of the one file of a book that matches. */
@@ -234,8 +233,9 @@ function finished(book, page, place, main, others) {
       pictures += 1;
       return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 ? ' loading="lazy"' : ''}`;
     })
-    // A picture that stands alone leads to itself, as large as it is.
-    .replace(/<p>(<img src="([^"]+)"[^>]*>)<\/p>/g, '<p><a class="picture" href="$2">$1</a></p>');
+    // Code has its look from the beginning: mdBook's script would give it the class later, and all below would move.
+    .replace(/<a class="header"[^]*?<\/a>|<code(?: class="([^"]*)")?>/g, (whole, others = '') => (
+      whole.startsWith('<a') ? whole : `<code class="${`${others} hljs`.trim()}">`));
 }
 
 // The style of formulas, with the one kind of fonts that every browser of the last ten years loads.
@@ -273,7 +273,9 @@ for (const book of ['en', 'zh']) {
     let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
     // Before the text is read, so that no figure is shown first as its still picture.
     if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
-    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + once(foot, '</main>', `</main>\n${TEXT_IS_READ}`));
+    // What stands below the text, search and copying, leaves the line to what the first view needs.
+    const below = once(foot, '</main>', `</main>\n${TEXT_IS_READ}`).replaceAll('<script src="', '<script fetchpriority="low" src="');
+    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + below);
   }
   // The headings of a page come into the contents when the text is there, before these are shown, and not after the last script.
   const contents = path.join(site, book, asset(book, /^toc-.*\.js$/));
@@ -371,18 +373,12 @@ for (const name of ['playground', 'your-gpu']) {
 <script>function rasterproofEngines(text) { document.getElementById('module').textContent = text; }</script>
 <script src="engines.js"></script>`));
   } else {
-    write(file, `<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>rasterproof: ${name}</title>
-<link rel="icon" href="data:,">
-<header></header>
+    write(file, bare(`rasterproof: ${name}`, `<header></header>
 <main>
 <h1>rasterproof: ${name}</h1>
 <p>This site was built where the engines could not be compiled for the browser: <code>crates/playground/build</code> says why.</p>
 </main>
-`);
+`));
   }
 }
 // From what the program wrote, the reader gets back to the book.
@@ -391,49 +387,23 @@ for (const name of fs.readdirSync(path.join(site, 'try')).filter((name) => name.
   write(page, once(read(page), '<header>', '<header>\n<p><a href="../index.html">‹ docs · 文档</a></p>\n'));
 }
 
-write(path.join(site, 'index.html'), `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>rasterproof</title>
-<link rel="icon" href="data:,">
-<script>
+const books = (more = '') => `<a${more} href="en/index.html">rasterproof in English</a> · <a${more} href="zh/index.html" lang="zh-CN">rasterproof 中文</a>`;
+write(path.join(site, 'index.html'), bare('rasterproof', `<main>\n<h1>rasterproof</h1>\n<p>${books()}</p>\n</main>\n`, `<script>
 let language = null;
 try { language = localStorage.getItem('rasterproof-language'); } catch {}
 language ??= navigator.language;
 location.replace((language.startsWith('zh') ? 'zh' : 'en') + '/index.html');
 </script>
-</head>
-<body>
-<main>
-<h1>rasterproof</h1>
-<p><a href="en/index.html">rasterproof in English</a> · <a href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
-</main>
-</body>
-</html>
-`);
+`));
 
 // A server shows this page for an address that leads nowhere. It may stand below any folder, so its script looks for the
 // folder of a book in the address, and offers the page whose name is most like the one that was asked for.
 const pageNames = chaptersOf.en.map((chapter) => chapter.replace(/\.md$/, ''));
-write(path.join(site, '404.html'), `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>No such page - rasterproof</title>
-<link rel="icon" href="data:,">
-<style>html { background: canvas; color: canvastext; } body { font-family: sans-serif; max-width: 40em; margin: 3em auto; padding: 0 1em; line-height: 1.5; }</style>
-</head>
-<body>
-<main>
+write(path.join(site, '404.html'), bare('No such page - rasterproof', `<main>
 <h1>There is no page at this address</h1>
 <p lang="zh-CN">这个地址没有网页。</p>
 <p id="near" hidden>Perhaps this one: <a></a></p>
-<p><a class="to-book" href="en/index.html">rasterproof in English</a> · <a class="to-book" href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
+<p>${books(' class="to-book"')}</p>
 </main>
 <script>
 const NAMES = ${JSON.stringify(pageNames)};
@@ -454,9 +424,8 @@ if (best[0] > 0.25) {
   near.lastElementChild.href = root + (book ?? 'en') + '/' + best[1] + '.html';
 }
 </script>
-</body>
-</html>
-`);
+`, `<style>html { background: canvas; color: canvastext; } body { font-family: sans-serif; max-width: 40em; margin: 3em auto; padding: 0 1em; line-height: 1.5; }</style>
+`));
 
 if (wrong.length > 0) {
   console.error(wrong.join('\n'));

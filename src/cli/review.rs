@@ -293,7 +293,7 @@ fn accept(one: &Pending) -> String {
     shell::line(words.into_iter().chain([one.path.as_os_str()]))
 }
 
-/// The command that accepts all that its test file says now: `tests/it/page.rs` is module `page` of
+/// The command that accepts all that its test file says now: `tests/it/snapshots.rs` is module `snapshots` of
 /// the test binary `it`.
 fn update(one: &Pending) -> String {
     let parts: Vec<_> = one.source.trim_end_matches(".rs").split('/').collect();

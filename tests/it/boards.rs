@@ -11,25 +11,7 @@ use rasterproof_study::report::board;
 use sha2::{Digest as _, Sha256};
 
 use crate::pages::{Renewal, files, read, root};
-
-/// Where what the boards time is written: the choices, the engines among them, the scenes that they draw, and the clock.
-const TIMED: [&str; 15] = [
-    "crates/core/src/line",
-    "crates/core/src/raster",
-    "crates/tiles/src/coverage",
-    "crates/tiles/src/frames/planes.rs",
-    "crates/precision/src/ladder",
-    "crates/precision/src/cost/antialiasing.rs",
-    "crates/precision/src/cost/clock.rs",
-    "crates/precision/src/cost/coverage.rs",
-    "crates/precision/src/cost/depth.rs",
-    "crates/precision/src/cost/interpolation.rs",
-    "crates/precision/src/cost/levels.rs",
-    "crates/precision/src/cost/lines.rs",
-    "crates/precision/src/cost/scene.rs",
-    "crates/precision/src/cost/shadow.rs",
-    "crates/precision/src/cost/tiles.rs",
-];
+use crate::program::table;
 
 /// The code of a file, without its tests and its comments, which take no time.
 fn code(text: &str) -> String {
@@ -40,8 +22,8 @@ fn code(text: &str) -> String {
 
 fn digest() -> String {
     let mut hash = Sha256::new();
-    for place in TIMED {
-        let path = root().join(place);
+    for place in table::<1>("timed").concat() {
+        let path = root().join(&place);
         let sources = if path.is_dir() { files(&path, ".rs") } else { vec![path] };
         assert!(!sources.is_empty(), "{place}");
         for source in sources {

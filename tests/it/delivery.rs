@@ -6,7 +6,7 @@ use std::fs;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES};
 
-use crate::program::{Folder, PROGRAM, Run};
+use crate::program::{Folder, PROGRAM, Run, table};
 
 /// A pipe that nobody reads.
 fn unread() -> std::io::PipeWriter {
@@ -19,30 +19,15 @@ impl Folder {
     }
 }
 
-/// Commands with the status that each has when its output is read.
-const VERDICTS: [(&str, u8); 12] = [
-    ("--cases 20", AGREES),
-    ("--cases 20 --plant inclusive-edges", DISAGREES),
-    ("--cases 20 --plant inclusive-edges --json", DISAGREES),
-    ("inspect T2", AGREES),
-    ("inspect T2 --plant inclusive-edges", DISAGREES),
-    ("verify --invariant vertex-order --cases 50", AGREES),
-    ("exhaust lines --reach 2", AGREES),
-    ("exhaust triangles --window 1 --subpixel-bits 1 --plant inclusive-edges", DISAGREES),
-    ("render cube --size 32x32", AGREES),
-    ("specimens --cases 2", AGREES),
-    ("digest --cases 1 --engine dda", AGREES),
-    ("--help", AGREES),
-];
-
 /// Nobody reads standard output, or standard error, which is where `exhaust` says its verdict.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn the_status_does_not_depend_on_a_reader() {
     let folder = Folder::new("delivery-reader");
-    for (words, status) in VERDICTS.into_iter().chain([("quiz 2", DISAGREES)]) {
-        folder.run(words).has(status);
-        folder.run_unread(words).has(status);
+    for [words, status] in table("verdicts") {
+        let status = status.parse().unwrap();
+        folder.run(&words).has(status);
+        folder.run_unread(&words).has(status);
         Run::of(folder.command(words).stderr(unread())).has(status);
     }
 }

@@ -9,30 +9,11 @@ use serde_json::Value;
 
 use crate::json_schema::violation;
 use crate::pages::read;
+use crate::program::table;
 
 pub(crate) fn fixtures() -> Fixtures {
     serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap()
 }
-
-/// Planted faults that no picture of the file shows, and why.
-const NOT_SHOWN: [(&str, &str); 14] = [
-    ("swapped-weights", VALUES),
-    ("affine-attributes", VALUES),
-    ("perspective-depth", VALUES),
-    ("values-at-corner", VALUES),
-    ("values-through-f32", VALUES),
-    ("naive-barycentric", VALUES),
-    ("epsilon-in-denominator", VALUES),
-    ("clamps-inv-w", VALUES),
-    ("line-weights-from-clip", VALUES),
-    ("truncates-towards-zero", ORIGIN),
-    ("seam-between-tiles", ORIGIN),
-    ("line-draws-backwards", "pixels of a line are a set, without an order"),
-    ("tile-tail-of-batch", "it needs more than 16 triangles in one list"),
-    ("tile-wide-ones-last", "pictures say which pixels are hit, not in which order"),
-];
-const VALUES: &str = "the file holds pixels, and no depths or attributes";
-const ORIGIN: &str = "pictures begin at the origin, and this fault is in those that do not";
 
 #[test]
 fn fixtures_are_a_thousand_small_cases() {
@@ -81,7 +62,7 @@ fn fixtures_kill_planted_faults() {
         kills.insert(fault.name(), killed);
     }
     let alive: Vec<_> = kills.iter().filter(|(_, n)| **n == 0).map(|(name, _)| *name).collect();
-    let mut expected: Vec<_> = NOT_SHOWN.iter().map(|(name, _)| *name).collect();
+    let mut expected: Vec<_> = table("not-in-fixtures").into_iter().map(|[name, _]| name).collect();
     expected.sort_unstable();
     assert_eq!(alive, expected, "{kills:?}");
 }

@@ -8,10 +8,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
+use rasterproof::cli::exit::USAGE;
 
 use crate::pages::{files, read, root};
-use crate::program::{Folder, PROGRAM, Run};
+use crate::program::{Folder, PROGRAM, Run, table};
 
 /// All that is read here is refused in milliseconds; what waits would wait for ever, and is ended after so many seconds
 /// with a status of its own.
@@ -36,69 +36,29 @@ const ALL: [Hostile; 7] = {
     [Pipe, Device, Directory, FiveGigabytes, ControlCharacters, Truncated, Missing]
 };
 
+/// A row of the table of options that read a file.
 struct Reader {
-    name: &'static str,
+    name: String,
     /// The command; `{}` is the file.
-    words: &'static str,
-    file: &'static str,
-    /// The beginning of a right file.
-    truncated: &'static [u8],
-    /// Other files that the command needs.
-    beside: &'static [(&'static str, &'static str)],
-    /// Statuses other than [`USAGE`] that are right, and for which files.
-    or: &'static [(u8, &'static [Hostile])],
+    words: String,
+    file: String,
+    /// Other files that the command needs, `NAME=TEXT`.
+    beside: String,
+    /// Statuses other than [`USAGE`] that are right, and for which files: `0 all; 1 Missing`.
+    others: String,
 }
 
-const MODEL: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
-const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0";
-
-const READER: Reader =
-    Reader { name: "", words: "", file: "", truncated: b"", beside: &[], or: &[] };
-
-/// Readers from a table: the option, the command, the file, its beginning, and what is special about it.
-macro_rules! readers {
-    ($($name:literal, $words:literal, $file:literal, $truncated:expr $(, $more:ident: $value:expr)*;)*) => {
-        [$(Reader {
-            name: $name, words: $words, file: $file, truncated: $truncated, $($more: $value,)* ..READER
-        }),*]
-    };
+impl Reader {
+    /// Whether the command may end so with such a file.
+    fn may_end(&self, status: Option<i32>, hostile: Hostile) -> bool {
+        let is_one = |other: &str| {
+            let (code, files) = other.split_once(' ').unwrap();
+            status == code.parse().ok() && (files == "all" || files == format!("{hostile:?}"))
+        };
+        status == Some(USAGE.into())
+            || self.others.split("; ").any(|other| !other.is_empty() && is_one(other))
+    }
 }
-
-#[allow(clippy::needless_update, reason = "some of them state every field")]
-const READERS: [Reader; 18] = readers![
-    "render MODEL", "render --size 16x16 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
-    "plan MODEL", "plan --size 16x16 --rounds 1 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
-    // A model without its materials is drawn grey, and one without a texture in its colour, with a warning.
-    "materials of a model", "render --size 16x16 model.obj", "m.mtl", b"newmtl a\nKd 1 0",
-        beside: &[("model.obj", MODEL)], or: &[(AGREES, &ALL)];
-    "texture of a model", "render --size 16x16 model.obj", "t.png", PNG,
-        beside: &[("model.obj", MODEL), ("m.mtl", "newmtl a\nKd 1 0 0\nmap_Kd t.png\n")], or: &[(AGREES, &ALL)];
-    "render --plan", "render cube --size 16x16 --plan {}", "p.json", b"{\"plan\": {";
-    "merge", "merge {}", "c.json", b"{\"rasterproof\": \"0";
-    "cost --from", "cost --from {}", "c.json", b"{\"version\": \"";
-    // A checkpoint that is not there is a run that begins.
-    "exhaust --checkpoint", "exhaust lines --reach 2 --checkpoint {}", "c.json", b"{\"identity\": {",
-        or: &[(AGREES, &[Hostile::Missing])];
-    "quiz --answers", "quiz 2 --answers {}", "a.txt", b"1\n\xe4\xb8";
-    "playground --module", "playground --module {}", "m.wasm", b"\0asm\x01\0\0\0\x01\x07";
-    "your-gpu --module", "your-gpu --module {}", "m.wasm", b"\0asm\x01\0\0\0\x01\x07";
-    // A baseline that is not there knows no failure.
-    "judge --baseline", "judge --cases 2 --family fan --baseline {} -- PROGRAM engine scanline", "b.txt", b"# rasterproof baseline 1, se",
-        or: &[(AGREES, &[Hostile::Missing])];
-    "judge --league", "judge --league", "adapters/league.json", b"[{\"name\":";
-    // What cannot be shown waits for review all the same.
-    "review, new text", "review", "snapshots/x.snap.new", b"---\nsource: a",
-        or: &[(DISAGREES, &ALL), (AGREES, &ALL)];
-    "review, old text", "review", "snapshots/x.snap", b"---\nsource: a",
-        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\n---\nnew\n")], or: &[(DISAGREES, &ALL)];
-    "review, new picture", "review", "snapshots/x.snap.new.png", PNG,
-        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\nextension: png\nsnapshot_kind: binary\n---\n")], or: &[(DISAGREES, &ALL)];
-    // What is not a page is not listed.
-    "pages beside --report", "--cases 2 --report --out out", "out/x.html", b"<html><ti",
-        or: &[(AGREES, &ALL)];
-    "index of --report", "--cases 2 --report --out out", "out/index.html", b"<html><ti",
-        or: &[(AGREES, &ALL)];
-];
 
 fn put(hostile: Hostile, path: &Path, truncated: &[u8]) {
     match hostile {
@@ -122,13 +82,15 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
     let folder = Folder::new(&name.replace([' ', ','], "_"));
     // A name with control characters, where the name is free.
     let is_free = reader.words.contains("{}") && hostile == Hostile::ControlCharacters;
-    let file = if is_free { format!("\x1b[31m{}", reader.file) } else { reader.file.to_owned() };
+    let file = if is_free { format!("\x1b[31m{}", reader.file) } else { reader.file.clone() };
     let path = folder.join(&file);
     fs::create_dir_all(path.parent().unwrap()).unwrap();
-    for (name, text) in reader.beside {
-        fs::write(folder.join(name), text).unwrap();
+    for (name, text) in reader.beside.split("; ").filter_map(|file| file.split_once('=')) {
+        fs::write(folder.join(name), text.replace("\\n", "\n")).unwrap();
     }
-    put(hostile, &path, reader.truncated);
+    let beginning = reader.name.replace(' ', "-").replace(',', "");
+    let beginning = fs::read(root().join("tests/data/hostile-files").join(beginning)).unwrap();
+    put(hostile, &path, &beginning);
     let words = reader.words.split(' ').map(|word| match word {
         "{}" => &file,
         "PROGRAM" => PROGRAM,
@@ -143,9 +105,7 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
     let message = errors.lines().next().unwrap_or_default();
     println!("{} | {hostile:?} | {} ms | {message}", reader.name, start.elapsed().as_millis());
     let wrong = |what: &str| Err(format!("{what}: status {status:?}\n{out}\n{errors}"));
-    let is_known =
-        |&(code, files): &(u8, &[Hostile])| status == Some(code.into()) && files.contains(&hostile);
-    if status != Some(USAGE.into()) && !reader.or.iter().any(is_known) {
+    if !reader.may_end(status, hostile) {
         return wrong("another status");
     }
     if errors.contains("panicked") || errors.contains("allocation") {
@@ -166,9 +126,10 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn every_option_that_reads_a_file_refuses_what_is_none() {
     let mut wrong = Vec::new();
-    for reader in &READERS {
+    for [name, words, file, beside, others] in table("hostile-files") {
+        let reader = Reader { name, words, file, beside, others };
         for hostile in ALL {
-            let result = check(reader, hostile);
+            let result = check(&reader, hostile);
             wrong.extend(result.err().map(|what| format!("{}, {hostile:?}: {what}", reader.name)));
         }
     }

@@ -10,135 +10,62 @@ use std::sync::LazyLock;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 use rasterproof_core::parallel;
-use rasterproof_report::picture;
 
-use crate::program::{Folder, PROGRAM, Run};
+use crate::pages::root;
+use crate::program::{Folder, PROGRAM, Run, table};
 
 /// A command line. In its words `{o}` stands for a name that is typed for an output, and `PROGRAM` for the program.
-#[derive(Clone, Copy)]
 struct Line {
-    words: &'static str,
-    inputs: &'static [&'static str],
+    words: String,
+    inputs: Vec<String>,
     /// What `{o}` stands for where it names a file of its own.
-    typed: &'static str,
+    typed: String,
     /// An input that the command writes anew.
-    updated: &'static str,
+    updated: String,
 }
-
-const fn line(words: &'static str, inputs: &'static [&'static str]) -> Line {
-    Line { words, inputs, typed: "typed.png", updated: "" }
-}
-
-const MODEL: &[&str] = &["m.obj", "m.mtl", "t.png"];
-const GLTF: &[&str] = &["m.gltf", "m.bin", "t.png"];
-const SNAPSHOTS: &[&str] = &["snapshots/a.snap", "snapshots/a.snap.new"];
 
 /// Every command that reads a file or writes one.
-const LINES: [Line; 32] = [
-    line("--cases 2 --family fan --report --out out", &[]),
-    line("verify --cases 2 --family fan --plant inclusive-edges --report --out out", &[]),
-    line("verify m.obj --size 32x24", MODEL),
-    line("inspect T2 -o {o} --report --out out", &[]),
-    line("inspect m.obj#1 --size 32x24 -o {o} --report --out out", MODEL),
-    line("inspect m.obj#1 --size 32x24 --out out", MODEL),
-    Line {
-        updated: "known.txt",
-        ..line(
-            "judge --cases 2 --family fan --baseline known.txt --update-baseline --report --out out -- \
-             PROGRAM engine scanline",
-            &["known.txt"],
-        )
-    },
-    line("judge --cases 2 --family fan --league --out out", &["adapters/league.json"]),
-    line("course start mine", &[]),
-    Line {
-        updated: "course.toml",
-        ..line("course check pixel --cases 1 -- PROGRAM engine scanline", &["course.toml"])
-    },
-    line("course show --out out pixel", &["course.toml"]),
-    line("course show --model m.obj --size 32x24 --out out -- PROGRAM engine scanline", MODEL),
-    line("course --grade --folder submissions", &["submissions/a/course.toml"]),
-    line("specimens --cases 1 --specimen book-ch2 -o {o} --report --out out", &[]),
-    line("render m.obj --size 32x24 -o {o} --report --out out", MODEL),
-    line("render m.gltf --size 32x24 --out out", GLTF),
-    Line { typed: "typed.gif", ..line("render m.obj --size 32x24 --spin 2 -o {o}", MODEL) },
-    line("render m.obj --size 32x24 --spin 2 --out out", MODEL),
-    line("render m.obj --size 32x24 --map --out out", MODEL),
-    line("render m.obj --size 32x24 --engine tiles -o {o}", MODEL),
-    line("render cube --size 32x24 --plan plan.json -o {o}", &["plan.json"]),
-    line("plan m.obj --size 32x24 --rounds 1 --whole --report --out out", MODEL),
-    line("plan m.obj --size 32x24 --without depth --out out", MODEL),
-    line("study m.obj --size 16x12 --quick --report --out out", MODEL),
-    line("exhaust lines --reach 2 -o {o} --checkpoint c.json", &[]),
-    line("merge 0.json 1.json -o {o}", &["0.json", "1.json"]),
-    Line { typed: "typed.html", ..line("review snapshots -o {o}", SNAPSHOTS) },
-    line("review snapshots --out out", SNAPSHOTS),
-    line("cost lines --from costs.json --report --out out", &["costs.json"]),
-    Line { typed: "typed.html", ..line("playground --module m.wasm -o {o}", &["m.wasm"]) },
-    Line { typed: "typed.html", ..line("your-gpu --module m.wasm -o {o}", &["m.wasm"]) },
-    line("quiz 2 --answers answers.txt", &["answers.txt"]),
-];
+static LINES: LazyLock<Vec<Line>> = LazyLock::new(|| {
+    let line = |[words, inputs, typed]: [String; 3]| {
+        let updated = inputs.strip_suffix('*').unwrap_or_default().to_owned();
+        let inputs = inputs.trim_end_matches('*').split_whitespace();
+        Line { words, inputs: inputs.map(str::to_owned).collect(), typed, updated }
+    };
+    table("inputs-as-outputs").into_iter().map(line).collect()
+});
 
 /// Commands without a file that they read, or with none but the picture that `--plot` names.
 const WITHOUT_FILES: [&str; 7] =
     ["engine", "mutants", "tolerances", "digest", "fixtures", "list", "help"];
 
-const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-
-/// A model of one triangle with a texture.
-fn gltf() -> String {
-    serde_json::json!({
-        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0 }] }],
-        "materials": [{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }],
-        "textures": [{ "source": 0 }], "images": [{ "uri": "t.png" }],
-        "buffers": [{ "uri": "m.bin", "byteLength": 60 }],
-        "bufferViews": [
-            { "buffer": 0, "byteLength": 36 }, { "buffer": 0, "byteOffset": 36, "byteLength": 24 }
-        ],
-        "accessors": [
-            { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-              "min": [0, 0, 0], "max": [1, 1, 0] },
-            { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" }
-        ]
-    })
-    .to_string()
-}
-
 /// The inputs of all lines, each with its content.
-static INPUTS: LazyLock<BTreeMap<&str, Vec<u8>>> = LazyLock::new(inputs);
+static INPUTS: LazyLock<BTreeMap<String, Vec<u8>>> = LazyLock::new(inputs);
 
-fn inputs() -> BTreeMap<&'static str, Vec<u8>> {
+/// Those of `tests/data/inputs-as-outputs`, and what the program writes itself.
+fn inputs() -> BTreeMap<String, Vec<u8>> {
     let made = Folder::new("inputs-as-outputs-made");
     let printed = |words: &str| made.check(words, AGREES).out.into_bytes();
-    let texture = picture::png(&image::RgbImage::from_pixel(2, 2, image::Rgb([200, 40, 10])));
-    let floats = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
     let adapter = serde_json::json!([{
         "name": "own", "library": "own", "call": "own", "command": [PROGRAM, "engine", "scanline"]
     }]);
     let course = format!("run = [\"{PROGRAM}\", \"engine\", \"scanline\"]\nstep = \"pixel\"\n");
     let judge = "judge --cases 2 --family fan --update-baseline --baseline known.txt --";
     made.check(format!("{judge} {PROGRAM} engine scanline"), AGREES);
-    BTreeMap::from([
-        ("m.obj", format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n").into()),
-        ("m.mtl", b"newmtl a\nKd 1 1 1\nmap_Kd t.png\n".to_vec()),
-        ("t.png", texture),
-        ("m.gltf", gltf().into()),
-        ("m.bin", floats.iter().flat_map(|value| value.to_le_bytes()).collect()),
+    let made = [
         ("known.txt", fs::read(made.join("known.txt")).unwrap()),
         ("adapters/league.json", adapter.to_string().into()),
         ("course.toml", course.into()),
-        ("submissions/a/course.toml", b"run = [\"false\"]\nstep = \"pixel\"\n".to_vec()),
         ("plan.json", printed("plan cube --size 32x24 --rounds 1 --whole --json")),
         ("0.json", printed("exhaust lines --reach 2 --shard 0/2")),
         ("1.json", printed("exhaust lines --reach 2 --shard 1/2")),
         ("snapshots/a.snap", b"---\nsource: a.rs\n---\nold\n".to_vec()),
         ("snapshots/a.snap.new", b"---\nsource: a.rs\n---\nnew\n".to_vec()),
         ("costs.json", printed("cost lines --quick --json")),
-        ("m.wasm", b"\0asm\x01\0\0\0".to_vec()),
-        ("answers.txt", b"\n\n".to_vec()),
-    ])
+    ];
+    let kept = root().join("tests/data/inputs-as-outputs");
+    let read = |name: String| (name.clone(), fs::read(kept.join(name)).unwrap());
+    let kept = files(&kept, "").into_iter().map(read);
+    kept.chain(made.map(|(name, content)| (name.to_owned(), content))).collect()
 }
 
 /// A folder with the inputs of a line in it.
@@ -150,8 +77,9 @@ struct Place {
 impl Place {
     fn new(number: usize, line: &Line) -> Self {
         let folder = Folder::new(&format!("inputs-as-outputs-{number}"));
-        let all = INPUTS.iter().filter(|(name, _)| line.inputs.contains(*name));
-        let inputs: Vec<_> = all.map(|(name, content)| (*name, &content[..])).collect();
+        let all = INPUTS.iter().filter(|(name, _)| line.inputs.contains(name));
+        let inputs: Vec<_> = all.map(|(name, content)| (&**name, &content[..])).collect();
+        assert_eq!(inputs.len(), line.inputs.len(), "an input of {} is missing", line.words);
         for (name, content) in &inputs {
             fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();
             folder.put(name, content);
@@ -191,14 +119,14 @@ fn files(folder: &Path, from: &str) -> BTreeSet<String> {
 /// Runs a line as it is meant; the files that it writes, which are those that it makes and those that it writes anew.
 fn outputs(number: usize, line: &Line) -> Vec<String> {
     let place = Place::new(number, line);
-    let run = place.run(line, line.typed);
+    let run = place.run(line, &line.typed);
     assert!(run.status != Some(USAGE.into()) || line.words.contains("grade"), "{run}");
     assert!(
         [Some(AGREES.into()), Some(DISAGREES.into()), Some(USAGE.into())].contains(&run.status)
     );
     place.is_unchanged(line, "as it is meant", &run);
     let mut written = files(&place.folder, "");
-    written.retain(|name| !line.inputs.contains(&&**name) || *name == line.updated);
+    written.retain(|name| !line.inputs.contains(name) || *name == line.updated);
     written.into_iter().collect()
 }
 
@@ -221,10 +149,10 @@ fn link(folder: &Folder, from: &str, to: &str, kind: Link) {
 /// Tries a line with each of its inputs as each of its outputs.
 fn try_all(number: usize, line: &Line) {
     let outputs = outputs(number, line);
-    for input in line.inputs {
+    for input in &line.inputs {
         if line.words.contains("{o}") {
             // As it is typed, where the program takes its name for an output, and written otherwise.
-            for typed in [(*input).to_owned(), format!("./no/../{input}")] {
+            for typed in [input.clone(), format!("./no/../{input}")] {
                 let place = Place::new(number, line);
                 let run = place.run(line, &typed);
                 place.is_unchanged(line, &format!("with {typed} as its output"), &run);
@@ -233,12 +161,12 @@ fn try_all(number: usize, line: &Line) {
         }
         for output in &outputs {
             for kind in [Link::Hard, Link::Symbolic] {
-                if output == line.updated {
+                if *output == line.updated {
                     continue;
                 }
                 let place = Place::new(number, line);
                 link(&place.folder, input, output, kind);
-                let run = place.run(line, line.typed);
+                let run = place.run(line, &line.typed);
                 let how = format!("with {output} as a {kind:?} link to {input}");
                 place.is_unchanged(line, &how, &run);
             }
@@ -246,7 +174,7 @@ fn try_all(number: usize, line: &Line) {
         // Standard output is one more output.
         let place = Place::new(number, line);
         let out = File::options().append(true).open(place.folder.join(input)).unwrap();
-        let words = line.words.replace("{o}", line.typed).replace("PROGRAM", PROGRAM);
+        let words = line.words.replace("{o}", &line.typed).replace("PROGRAM", PROGRAM);
         let run = Run::of(place.folder.command(words).stdout(out));
         place.is_unchanged(line, &format!("with {input} as standard output"), &run);
     }
@@ -270,7 +198,7 @@ fn names_that_the_program_chooses_replace_only_what_it_made() {
             fs::create_dir(place.folder.join("out")).unwrap();
             for foreign in ["mine\n", "<!DOCTYPE html>\n<html></html>\n", "\u{89}PNG"] {
                 place.folder.put(output, foreign);
-                let run = place.run(line, line.typed);
+                let run = place.run(line, &line.typed);
                 assert_eq!(place.folder.text(output), foreign, "{output}: {run}");
                 // An index of somebody else's pages is left alone without a word.
                 let is_said = run.errors.contains("rasterproof did not make it");
@@ -282,7 +210,7 @@ fn names_that_the_program_chooses_replace_only_what_it_made() {
             // With --force it is replaced, and from then on without.
             for force in ["--force --out out", "--out out"] {
                 let words = line.words.replace("--out out", force);
-                let words = words.replace("{o}", line.typed).replace("PROGRAM", PROGRAM);
+                let words = words.replace("{o}", &line.typed).replace("PROGRAM", PROGRAM);
                 let run = place.folder.run(words);
                 let is_said = run.errors.contains("rasterproof did not make it");
                 assert!(!is_said && run.status != Some(USAGE.into()), "{output}: {run}");

@@ -10,7 +10,6 @@ use image::{Rgb, RgbImage};
 use rasterproof_core::random::Rng;
 use rasterproof_models::{BadFile, LoadOptions, Model, load_texture};
 use rasterproof_render::scene::{Shading, shapes};
-use serde_json::json;
 
 use crate::model_cases::FOLDER;
 use crate::program::Folder;
@@ -164,29 +163,13 @@ fn a_double_sided_material_is_lit_on_either_side() {
 #[test]
 fn holes_have_the_level_of_their_colours() {
     let folder = Folder::new("models-holes");
-    let text = include_str!("../data/models/double-sided-front.gltf");
+    let text = include_str!("../data/drawn/holes.gltf");
     let columns =
         image::RgbaImage::from_fn(2, 2, |x, _| image::Rgba([255, 255, 255, 255 * x as u8]));
     columns.save(folder.join("columns.png")).unwrap();
     let share = |sampler: u32, cutoff: f64, words: &str| {
-        let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
-        let views = document["bufferViews"].as_array_mut().unwrap();
-        views.push(json!({ "buffer": 0, "byteLength": 48, "byteStride": 12 }));
-        let accessors = document["accessors"].as_array_mut().unwrap();
-        accessors
-            .push(json!({ "bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC2" }));
-        document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(3);
-        document["materials"] = json!([{
-            "alphaMode": "MASK", "alphaCutoff": cutoff,
-            "extensions": { "KHR_materials_unlit": {} },
-            "pbrMetallicRoughness": { "baseColorTexture": {
-                "index": 0, "extensions": { "KHR_texture_transform": { "scale": [100, 100] } },
-            } },
-        }]);
-        document["textures"] = json!([{ "source": 0, "sampler": 0 }]);
-        document["samplers"] = json!([{ "minFilter": sampler }]);
-        document["images"] = json!([{ "uri": "columns.png" }]);
-        folder.put("holes.gltf", document.to_string());
+        let text = text.replace("SAMPLER", &sampler.to_string());
+        folder.put("holes.gltf", text.replace("CUTOFF", &cutoff.to_string()));
         let (picture, _) = drawn(&folder, &format!("holes.gltf {words}"));
         let seen = picture.pixels().filter(|pixel| pixel.0[0] > 100).count();
         folder.check("render holes.gltf --size 96x72 -o out.png", 0).prints("AGREES");
@@ -412,19 +395,7 @@ fn what_is_unlit_is_filtered_and_interpolated_in_linear_light() {
         }
     }
     // White and black corners: between them, the light of a pixel grows by a 56th of all from column to column.
-    let mut coloured = document.clone();
-    let colours: Vec<u8> =
-        [0.0f32, 1.0, 1.0, 0.0].iter().flat_map(|c| [*c; 3]).flat_map(f32::to_le_bytes).collect();
-    let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&colours));
-    let add = |list: &mut serde_json::Value, one| list.as_array_mut().unwrap().push(one);
-    add(&mut coloured["buffers"], json!({ "byteLength": colours.len(), "uri": uri }));
-    add(&mut coloured["bufferViews"], json!({ "buffer": 1, "byteLength": colours.len() }));
-    let accessor = json!({ "bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC3" });
-    add(&mut coloured["accessors"], accessor);
-    coloured["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(3);
-    let pbr = &mut coloured["materials"][0]["pbrMetallicRoughness"];
-    pbr.as_object_mut().unwrap().remove("baseColorTexture");
-    folder.put("m.gltf", coloured.to_string());
+    folder.put("m.gltf", include_str!("../data/drawn/coloured.gltf"));
     for words in ["", "--shading gouraud"] {
         let drawn = picture(words);
         for (x, y) in (3..45).flat_map(|y| (4..60).map(move |x| (x, y))) {

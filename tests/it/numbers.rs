@@ -8,30 +8,7 @@ use std::time::{Duration, Instant};
 
 use rasterproof_core::parallel;
 
-use crate::program::{Folder, PROGRAM, every};
-
-/// Commands with what each needs beside its options. `engine` has none; `fixtures` and `tolerances` only a seed, and take a minute.
-const COMMANDS: [(&str, &str); 19] = [
-    ("verify", ""),
-    ("verify --invariant vertex-order", ""),
-    ("inspect", "T2"),
-    ("judge", "-- PROGRAM engine scanline"),
-    ("course check", "pixel -- PROGRAM engine scanline"),
-    ("course show", "pixel -- PROGRAM engine scanline"),
-    ("course --grade", "PROGRAM engine scanline"),
-    ("specimens", ""),
-    ("render", "cube"),
-    ("render", "m.obj"),
-    ("plan", "cube"),
-    ("study", "m.obj --quick"),
-    ("exhaust triangles", ""),
-    ("exhaust lines", ""),
-    ("exhaust edges", ""),
-    ("merge", "0.json"),
-    ("cost", "m.obj --quick"),
-    ("digest", ""),
-    ("quiz", "2"),
-];
+use crate::program::{Folder, PROGRAM, every, table};
 
 /// 2^32, 2^63 and 2^64 - 1, and a large number for what is no count.
 const NUMBERS: [&str; 4] = ["4294967296", "9223372036854775808", "18446744073709551615", "1e308"];
@@ -99,7 +76,7 @@ fn numbers_have_bounds_or_cost_nothing() {
     folder.put("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.put("0.json", folder.run("exhaust lines --reach 2 --shard 0/1").out);
     let mut lines = Vec::new();
-    for (command, rest) in COMMANDS {
+    for [command, rest] in table("numbers") {
         let help = folder.check(format!("{command} --help"), 0).out;
         let all = options(&help);
         assert!(!all.is_empty(), "{command}");

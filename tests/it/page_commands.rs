@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::process::Command;
 
-use crate::program::{Folder, PROGRAM, Run};
+use crate::program::{Folder, PROGRAM, Run, table};
 
 /// Runs the program; the command that its page shows.
 fn shown(folder: &Folder, words: &[String]) -> String {
@@ -42,36 +42,13 @@ fn every_option_is_on_the_page() {
     let judge =
         "--cases 5 --family sliver --timeout 9 --jobs 2 --seed 2 --declare 'rule=top-left mask'";
     let mut tried = BTreeSet::new();
-    for (name, options) in [
-        ("render", format!("{model} --engine both --effects all")),
-        ("plan", format!("{model} --engine edge-function --rounds 1")),
-        // Options that do not go together with those above.
-        ("render", "--scene panels --size 32x24 --wireframe --output drawn.png --json".into()),
-        ("render", "panels --size 32x24 --plan plan.json".into()),
-        ("render", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24".into()),
-        ("plan", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24 --rounds 1".into()),
-        ("study", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24 --quick".into()),
-        ("render", "camera.gltf --subpixel-bits 12 --size 32x24".into()),
-        ("render", "camera.gltf --unsnapped --size 32x24".into()),
-        ("study", "camera.gltf --subpixel-bits 12 --size 32x24 --quick".into()),
-        ("study", "camera.gltf --unsnapped --size 32x24 --quick".into()),
-        ("plan", "--scene panels --size 32x24 --json --whole --rounds 1".into()),
-        ("study", format!("{model} --quick --all")),
-        ("study", "--scene panels --size 32x24 --quick --json".into()),
-        (
-            "inspect",
-            "-0.5,0.5 5.5,0.5 5.5,5.5 --window 0,0,8x8 --plant inclusive-edges --pixel 1,1".into(),
-        ),
-        ("specimens", "--seed 3 --cases 2 --specimen book-ch2".into()),
-        (
-            "verify",
-            "--seed 3 --cases 20 --family sliver --shard 1/2 --plant exclusive-edges".into(),
-        ),
-        ("cost", "lines --quick --seed 3".into()),
-        ("judge", format!("{judge} -- {PROGRAM} engine scanline")),
-    ] {
+    for [name, options] in table("page-commands") {
+        let options = options.replace("MODEL", model).replace("JUDGE", judge);
+        let options = options.replace("PROGRAM", PROGRAM);
         let typed = words_of(&format!("{name} --report --out pages --force {options}"));
-        tried.extend(typed.iter().map(|word| (name, word.split('=').next().unwrap().to_owned())));
+        tried.extend(
+            typed.iter().map(|word| (name.clone(), word.split('=').next().unwrap().to_owned())),
+        );
         let again = words_of(&shown(&folder, &typed)).split_off(1);
         let sorted = |words: &[String]| {
             let mut words = words.to_vec();
@@ -93,7 +70,10 @@ fn every_option_is_on_the_page() {
         let options: Vec<_> = listed.map(|line| format!("--{}", name_of(line))).collect();
         assert!(options.len() > 12, "{help}");
         for option in options.iter().filter(|option| !WITHOUT_PAGE.contains(&option.as_str())) {
-            assert!(tried.contains(&(name, option.clone())), "{name} {option} is not tried");
+            assert!(
+                tried.contains(&(name.to_owned(), option.clone())),
+                "{name} {option} is not tried"
+            );
         }
     }
 }

@@ -132,6 +132,17 @@ pub fn shared() -> &'static Folder {
     &SHARED
 }
 
+/// The rows of a table in `tests/data/tables`, a line each with its cells between bars. `#` begins a remark.
+pub fn table<const N: usize>(name: &str) -> Vec<[String; N]> {
+    let path = format!("{}/tests/data/tables/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let row = |line: &str| -> [String; N] {
+        let cells: Vec<String> = line.split('|').map(|cell| cell.trim().to_owned()).collect();
+        cells.try_into().unwrap_or_else(|cells| panic!("{path}: not {N} cells: {cells:?}"))
+    };
+    text.lines().filter(|line| !line.starts_with('#')).map(row).collect()
+}
+
 /// The step through a long list: each of its items is tried where `.ci/run --all` asks for that, which it does every night,
 /// and otherwise every `step`-th.
 pub fn every(step: usize) -> usize {

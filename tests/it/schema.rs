@@ -7,37 +7,9 @@ use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
 use crate::json_schema::wrong;
-use crate::page::every_section;
+use crate::made_pages::every_section;
 use crate::pages::read;
-use crate::program::{Folder, PROGRAM};
-
-/// Each JSON by its name in the schema, with the commands that print it.
-const PRINTED: [(&str, &[&str]); 15] = [
-    ("verify", &["--cases 8 --json", "--cases 20 --plant inclusive-edges --json"]),
-    ("verify-model", &["verify m.obj --json", "verify m.obj --plant inclusive-edges --json"]),
-    (
-        "judge",
-        &[
-            "judge --cases 5 --json -- PROGRAM engine games101-strict",
-            "judge --cases 5 --format json -- PROGRAM engine dda",
-        ],
-    ),
-    ("specimens", &["specimens --cases 1 --json"]),
-    (
-        "plan",
-        &["plan m.obj --rounds 1 --size 64x48 --json", "plan fog --rounds 1 --size 64x48 --json"],
-    ),
-    ("plan-stages", &["plan m.obj --show stages --json", "plan fog --show stages --json"]),
-    ("render", &["render m.obj --json", "render cube --json --engine scanline --aa msaa4"]),
-    ("study", &["study m.obj --once --size 64x48 --json"]),
-    ("study-views", &["study m.obj --once --size 64x48 --views 2 --json"]),
-    ("cost", &["cost lines --quick --json"]),
-    ("cost-model", &["cost m.obj --once --size 64x48 --json"]),
-    ("tolerances", &["tolerances --json"]),
-    ("digest", &["digest --cases 1 --engine dda --json"]),
-    ("certificate", &["exhaust lines --reach 4", "exhaust edges --window 2 --subpixel-bits 1"]),
-    ("grade", &["course grade --cases 2 --format json PROGRAM engine scanline"]),
-];
+use crate::program::{Folder, PROGRAM, table};
 
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
@@ -46,15 +18,9 @@ fn every_json_is_as_its_schema_says() {
     folder.put("m.obj", read("tests/data/ties.obj"));
     folder.put("ties.mtl", read("tests/data/ties.mtl"));
     let mut found = Vec::new();
-    for (name, commands) in PRINTED {
-        for words in commands {
-            let words: Vec<_> =
-                words.split(' ').map(|word| word.replace("PROGRAM", PROGRAM)).collect();
-            let run = folder.run(&words);
-            found.extend(
-                wrong(name, &run.json()).into_iter().map(|one| format!("{words:?}: {one}")),
-            );
-        }
+    for [name, words] in table("schema") {
+        let run = folder.run(words.replace("PROGRAM", PROGRAM));
+        found.extend(wrong(&name, &run.json()).map(|one| format!("{words}: {one}")));
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

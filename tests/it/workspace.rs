@@ -12,7 +12,7 @@ use rasterproof_render::scene::chapters::SCENES;
 use rasterproof_verify::{cases, partition};
 
 use crate::pages::{files, read, root};
-use crate::program::{Run, check};
+use crate::program::{Run, check, table};
 use crate::protocol::ask;
 
 pub(crate) fn source_folders() -> Vec<String> {
@@ -128,31 +128,16 @@ fn what_a_crate_depends_on_is_called() {
     assert!(looked_at > 100, "{looked_at}");
 }
 
-/// Two implementations that are compared with each other share nothing but what both are built on: neither
-/// names the other, and the oracle names neither.
 #[test]
 fn what_is_compared_is_independent() {
-    let rules = [
-        ("crates/core/src/raster/scanline", &["edge_function"][..]),
-        ("crates/core/src/raster/edge_function", &["scanline"]),
-        ("crates/core/src/line/dda", &["bresenham"]),
-        ("crates/core/src/line/bresenham", &["dda"]),
-        ("crates/oracle/src", &["scanline", "edge_function", "dda", "bresenham"]),
-        // What all other code computes of corners.
-        ("crates/core/src/raster", &["geometry"]),
-        ("crates/core/src/line", &["geometry"]),
-        ("crates/oracle/src", &["geometry"]),
-        // Only the edge function decides signs by the crate `robust`.
-        ("crates/core/src/raster/scanline_exact", &["orient2d"]),
-        ("crates/oracle/src/rational", &["orient2d"]),
-    ];
+    let rules = table::<2>("independent");
     let mut looked_at = 0;
     for path in source_folders().iter().flat_map(|folder| files(&root().join(folder), ".rs")) {
         let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
         let text = read(&path);
-        for (_, others) in rules.iter().filter(|(beginning, _)| name.starts_with(beginning)) {
+        for [_, others] in rules.iter().filter(|[beginning, _]| name.starts_with(beginning)) {
             looked_at += 1;
-            let named = others.iter().find(|other| names_module(without_tests(&text), other));
+            let named = others.split(' ').find(|other| names_module(without_tests(&text), other));
             assert_eq!(named, None, "{name}");
         }
     }
@@ -613,25 +598,20 @@ fn commands_are_written_in_one_way() {
     assert_eq!(bare_commands("```sh\nrasterproof cost\ncargo run\n```\nrasterproof x\n"), 1);
 }
 
-/// The sections of the book, by its table of contents.
-const SECTIONS: &str = "1.1 1.2 1.3 1.4 1.5 1.5.1 1.5.2 1.6 2.1 2.2 3.1 3.2 3.2.1 3.2.2 3.2.3 3.2.4 \
-    3.2.5 3.3 4.1 4.2 4.2.1 4.2.2 4.2.3 5.1 5.2 5.3 5.4 5.5 5.5.1 5.5.2 5.5.3 5.5.4 6.1 6.2 7.1 7.2 \
-    7.3 7.4 7.5 7.5.1 8.1 8.2 8.3 8.4 9.1 9.2 9.3 9.4 9.4.1 9.4.2 10.1 10.2 10.3 10.4 10.5 10.6 11.1 \
-    11.2 11.3 11.4";
-
 /// Every section of the book has a row in the table, which leads to the page of its chapter; that
 /// page names the section.
 #[test]
 fn table_has_every_section() {
-    let table = read("docs/sections.md");
-    let table = table.as_str();
+    let page = read("docs/sections.md");
     let mut listed = Vec::new();
-    for row in rows(table).filter(|row| row[0] != "section") {
+    for row in rows(&page).filter(|row| row[0] != "section") {
         assert_eq!(row.len(), 4, "{row:?}");
         let numbers = row[0].split(", ").filter_map(|cell| cell.strip_prefix('['));
         listed.extend(numbers.filter_map(|cell| cell.split_once("](")));
     }
-    for section in SECTIONS.split_whitespace() {
+    let chapters = table::<1>("sections").concat();
+    let sections: Vec<&str> = chapters.iter().flat_map(|row| row.split(' ')).collect();
+    for &section in &sections {
         let chapter = section.split('.').next().unwrap().parse::<u32>().unwrap();
         let link = listed.iter().find(|(listed, _)| *listed == section);
         let page = link.map(|(_, link)| link.trim_end_matches(')'));
@@ -643,7 +623,7 @@ fn table_has_every_section() {
         assert!(words.any(|word| word.trim_matches('.') == section), "{page} lacks {section}");
     }
     for (section, _) in &listed {
-        assert!(SECTIONS.split_whitespace().any(|s| s == *section), "{section} is not in the book");
+        assert!(sections.contains(section), "{section} is not in the book");
     }
 }
 

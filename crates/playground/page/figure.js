@@ -5,7 +5,7 @@
 // element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
 // before a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
 // A figure that is `open` begins with its answer.
-import { arrowOf, button, make } from './dom.js';
+import { arrowOf, button, make, say } from './dom.js';
 
 const WORDS = {
   en: {
@@ -89,7 +89,12 @@ function numbersOf(name) {
   });
 }
 
-const redraw = () => { for (const figure of live) figure.draw(); };
+const redraw = () => {
+  for (const figure of live) {
+    figure.isDark = isDark(figure);
+    figure.draw();
+  }
+};
 new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
 
@@ -147,29 +152,29 @@ class Figure extends HTMLElement {
   }
 
   /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
-  answer(isDark) {
-    if (!this.exports) return this.first[isDark ? 'dark' : 'light'];
+  answer() {
+    if (!this.exports) return this.first[this.isDark ? 'dark' : 'light'];
     return ask({
-      ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: isDark,
+      ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: this.isDark,
     });
   }
 
   /** Draws the figure for where its grips are. */
   draw() {
-    const dark = isDark(this);
-    this.toggleAttribute('data-dark', dark);
-    const answer = this.answer(dark);
+    this.isDark ??= isDark(this);
+    this.toggleAttribute('data-dark', this.isDark);
+    const answer = this.answer();
     if (answer.error) throw new Error(answer.error);
     this.now = answer;
     this.at = answer.at;
     // What is shown is for these positions: the test compares both.
     this.dataset.at = JSON.stringify(answer.at);
     this.stage.classList.remove('waits');
-    this.question.textContent = answer.question;
-    this.says.textContent = this.isAnswered ? answer.answer : '';
+    say(this.question, answer.question);
+    say(this.says, this.isAnswered ? answer.answer : '');
     this.link.href = (own.dataset.playground ?? beside('playground.html')) + answer.link + (this.language === 'zh' ? '&lang=zh' : '');
     if (this.isAnswered) this.numbers ??= numbersOf(this.getAttribute('scene'));
-    for (const { shown, value } of this.numbers ?? []) if (shown.textContent !== answer.values[value]) shown.textContent = answer.values[value];
+    for (const { shown, value } of this.numbers ?? []) say(shown, answer.values[value]);
     this.show();
   }
 

@@ -23,7 +23,9 @@ function drawFrame() {
   }
   pressTools();
   clearTimeout(explaining);
+  clearTimeout(settling);
   explaining = setTimeout(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
+  settling = setTimeout(settled, 100);
 }
 
 /** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, and follow a drag ten times a second. */
@@ -32,25 +34,30 @@ let explaining = 0;
 function explain(answer) {
   explained = performance.now();
   drawCorners();
-  const same = command();
-  if ($('command').textContent !== same) $('command').textContent = same;
-  $('as-command').hidden = same === '';
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
     last.look = look.error ? null : look;
   }
-  fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+  renew($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+}
+
+/** What is said once nothing moves: the command, and what a screen reader reads aloud. */
+let settling = 0;
+function settled() {
+  const same = command();
+  say($('command'), same);
+  $('as-command').hidden = same === '';
   const grip = grips()[state.chosen];
   const outputs = view.shown.map((panel) => panel.canvas.getAttribute('aria-label'));
   // Of triangles the reason, which is short; elsewhere the numbers are what there is to say.
   const told = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
   const texts = [...told].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
   const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。?？]$/.test(text) ? text : `${text}.`)).join(' ');
-  if ($('announce').textContent !== said) $('announce').textContent = said;
+  say($('announce'), said);
 }
 
 function trouble(text) {
   $('trouble').hidden = !text;
-  $('trouble').textContent = text ?? '';
+  say($('trouble'), text ?? '');
 }

@@ -1,24 +1,11 @@
 // What is said about a pixel: its edges as the engines have them, and how the scanline came to its row.
 
-/** A float with as many digits as a table holds. */
-const short = (value) => (value === 0 || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6) ? round(value, 3) : value.toExponential(2));
-
-/** An edge of a triangle as the engines see it from a sample, for the table of edges. */
-function edgeOf({ ends, value, bound, sign, topLeft: isTopLeft, byFilter }, corners, all) {
-  const letter = (end) => corner(all.findIndex((handle) => handle.members.includes(corners[end])));
-  const [from, to] = ends.map((end) => corners[end]);
-  return {
-    name: ends.map(letter).join(' → '), sign, isTopLeft, kind: kindOfEdge(to.x - from.x, to.y - from.y), isByExact: byFilter === false,
-    ...(bound === undefined ? { value } : { value: short(Number(value)), bound: bound.toExponential(0) }),
-  };
-}
-
 function aboutPixel() {
   const head = make('h2', {}, `${word('pixel')} ${state.px?.join(', ') ?? ''}`);
   if (!last.look) return [head];
   const all = handles();
-  const triangles = last.look.triangles.map((triangle, i) => ({ ...triangle, i, edges: triangle.edges?.map((edge) => edgeOf(edge, state.triangles[i], all)) }));
-  const { nodes, listed } = aboutTriangles(triangles, state.by, state.snap ? 8 : 0);
+  const nameOf = (place) => corner(all.findIndex((handle) => handle.members.includes(place)));
+  const { nodes, listed } = aboutTriangles(withEdges(last.look.triangles, picture(), nameOf), state.by, state.snap ? 8 : 0);
   const walked = listed.find((triangle) => triangle.rows?.length || triangle.crossings);
   return [head, ...nodes, ...(walked ? [walked.rows ? walkOf(walked) : crossingsOf(walked)] : [])];
 }

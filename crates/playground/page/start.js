@@ -11,7 +11,6 @@ function drawAll() {
   $('keys').textContent = viewWords().keys;
   view.speak();
   cornersFor = '';
-  clearTimeout(explaining);
   explained = 0;
   hunt = null;
   drawTools();

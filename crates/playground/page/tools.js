@@ -13,7 +13,7 @@ function slide(label, get, [low, high, step], set) {
   sliding.push(() => {
     const text = String(get());
     if (range.value !== text) range.value = text;
-    if (says.textContent !== text) says.textContent = text;
+    say(says, text);
   });
   return make('label', { className: 'group' }, `${label} `, range, ' ', says);
 }

@@ -7,13 +7,15 @@ use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
 use serde_json::{Map, Value, json};
 
 pub struct Parts {
-    template: &'static str,
+    title: &'static str,
+    body: &'static str,
     styles: &'static [&'static str],
     scripts: &'static [&'static str],
 }
 
 pub const PLAYGROUND: Parts = Parts {
-    template: include_str!("../page/page.html"),
+    title: "rasterproof: playground",
+    body: include_str!("../page/page.html"),
     styles: &[include_str!("../page/page.css")],
     scripts: &[
         rasterproof_view::PIXEL,
@@ -22,6 +24,7 @@ pub const PLAYGROUND: Parts = Parts {
         include_str!("../page/engines.js"),
         include_str!("../page/state.js"),
         include_str!("../page/parts.js"),
+        include_str!("../page/edges.js"),
         include_str!("../page/look.js"),
         include_str!("../page/grips.js"),
         include_str!("../page/scenes.js"),
@@ -36,9 +39,11 @@ pub const PLAYGROUND: Parts = Parts {
 
 /// The page that judges a browser's GPU.
 pub const YOUR_GPU: Parts = Parts {
-    template: include_str!("../page/gpu/page.html"),
+    title: "rasterproof: your GPU",
+    body: include_str!("../page/gpu/page.html"),
     styles: &[include_str!("../page/page.css"), include_str!("../page/gpu/gpu.css")],
     scripts: &[
+        rasterproof_view::PIXEL,
         include_str!("../page/gpu/words.js"),
         include_str!("../page/gpu/rules.js"),
         include_str!("../page/engines.js"),
@@ -46,6 +51,7 @@ pub const YOUR_GPU: Parts = Parts {
         include_str!("../page/gpu/webgl2.js"),
         include_str!("../page/gpu/webgpu.js"),
         include_str!("../page/gpu/run.js"),
+        include_str!("../page/edges.js"),
         include_str!("../page/gpu/show.js"),
     ],
 };
@@ -79,14 +85,19 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
         return Err("is no WebAssembly module: it does not begin with \\0asm".to_owned());
     }
     let filled = [
-        ("{{style}}", &rasterproof_view::style(parts.styles)),
-        ("{{script}}", &rasterproof_view::script(parts.scripts)),
-        ("{{clauses}}", &clauses()),
-        ("{{module}}", &STANDARD.encode(module)),
+        ("{{policy}}", " 'wasm-unsafe-eval'"),
+        ("{{about}}", ""),
+        ("{{title}}", parts.title),
+        ("{{body}}", parts.body),
+        ("{{style}}", &*rasterproof_view::style(parts.styles)),
+        ("{{script}}", &*rasterproof_view::script(parts.scripts)),
+        ("{{clauses}}", &*clauses()),
+        ("{{module}}", &*STANDARD.encode(module)),
     ];
-    let page = filled
-        .into_iter()
-        .fold(parts.template.to_owned(), |page, (place, text)| page.replacen(place, text, 1));
+    let page =
+        filled.into_iter().fold(rasterproof_view::FRAME.to_owned(), |page, (place, text)| {
+            page.replacen(place, text, 1)
+        });
     if page.len() > MOST_BYTES {
         return Err(format!(
             "makes a page of {} bytes; at most {MOST_BYTES} are allowed",

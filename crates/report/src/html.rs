@@ -21,7 +21,7 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 use super::table::{Mark, Table};
-use super::words::{grouped, same, word};
+use super::words::{grouped, same, serialize_grouped, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
@@ -29,7 +29,9 @@ const MOST_LEFT_OUT_NAMES: usize = 20;
 const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
 
-const TEMPLATE: &str = include_str!("page/page.html");
+static TEMPLATE: LazyLock<String> = LazyLock::new(|| {
+    rasterproof_view::FRAME.replacen("{{body}}", include_str!("page/page.html"), 1)
+});
 
 /// The style of all pages, and that of reports.
 static STYLE: LazyLock<String> =
@@ -184,6 +186,7 @@ pub struct TextDiff {
 pub struct PictureView {
     /// Its name; unique within the page.
     pub name: String,
+    #[serde(serialize_with = "serialize_grouped")]
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,
@@ -309,7 +312,7 @@ pub fn page(report: &Report) -> String {
     let links: Vec<_> = first.into_iter().chain(others).collect();
     let jump = jump(&links);
     fill(|part| match part {
-        "title" => escape(&report.title),
+        "title" => escape(&title(report)),
         "style" => STYLE.clone(),
         "script" => SCRIPT.clone(),
         "head" => head.clone(),
@@ -322,9 +325,15 @@ pub fn page(report: &Report) -> String {
     })
 }
 
+/// The title of a page says which command wrote it, so that no two reports have one title.
+fn title(report: &Report) -> String {
+    let command = if report.repeat.is_empty() { &report.command } else { &report.repeat };
+    if command.is_empty() { report.title.clone() } else { format!("{} ({command})", report.title) }
+}
+
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.
 fn fill(part: impl Fn(&str) -> String) -> String {
-    let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((TEMPLATE, ""));
+    let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((&TEMPLATE, ""));
     let pieces = pieces.split("{{").map(|piece| {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
         part(name) + rest
@@ -624,6 +633,29 @@ mod tests {
         assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
         // Twenty texts share two seconds; to prepare each takes some more.
         assert!(begin.elapsed() < std::time::Duration::from_secs(30), "{:?}", begin.elapsed());
+    }
+
+    #[test]
+    fn pictures_that_do_not_fit_are_left_out_and_named() {
+        // Noise does not compress: 600 x 600 px are more than a megabyte.
+        let mut state: u32 = 1;
+        let noise = RgbImage::from_fn(600, 600, |_, _| {
+            Rgb([0, 1, 2].map(|_| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8
+            }))
+        });
+        let small = RgbImage::from_pixel(7, 5, Rgb([10, 20, 30]));
+        let view = |name: &str, picture: &RgbImage| PictureView {
+            name: name.to_owned(),
+            layers: vec![PictureLayer::new("noise", picture)],
+            ..PictureView::default()
+        };
+        let frames = vec![view("first", &noise), view("second", &noise), view("small", &small)];
+        let text = page(&Report { frames, ..Report::default() });
+        assert!(text.len() < PAGE_BYTES, "{} bytes", text.len());
+        assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
+        assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
     }
 
     #[test]

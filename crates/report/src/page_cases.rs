@@ -27,9 +27,11 @@ use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
     pub name: String,
+    #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub about: String,
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
+    #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub found: String,
     pub command: String,
     pub chapter: Chapter,

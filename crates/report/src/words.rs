@@ -28,6 +28,14 @@ pub fn grouped(text: &str) -> String {
     out + rest
 }
 
+/// The same for a text of a page's data.
+pub fn serialize_grouped<S: serde::Serializer>(
+    text: &str,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&grouped(text))
+}
+
 /// A number with what is counted: `1 kind`, `2 kinds`.
 pub fn count(number: u64, one: &str, several: &str) -> String {
     format!("{} {}", thousands(number), if number == 1 { one } else { several })

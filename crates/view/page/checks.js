@@ -1,4 +1,4 @@
-// Checks of the viewer, which tests/it/view.rs runs in a browser: each is a sentence with what makes it true, and throws where it is not.
+// Checks of the viewer, which tests/pages/quick/view.mjs runs in a browser: each is a sentence with what makes it true, and throws where it is not.
 import { make } from './dom.js';
 import { colours } from './paint.js';
 

@@ -20,6 +20,36 @@ export function fill(element, ...children) {
   if (focused) $(focused)?.focus();
 }
 
+/** Says a text, where it is another one: what is set anew is laid out anew. */
+export function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/**
+ * Makes an element like another one, and changes only what differs. For what follows a drag: a table that is put in anew is laid out as a
+ * whole, one whose numbers change is not. What listens stays as it is, so both listen to the same.
+ */
+export function become(old, next) {
+  for (const { name } of [...old.attributes]) if (!next.hasAttribute(name)) old.removeAttribute(name);
+  for (const { name, value } of next.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+  const [before, after] = [old, next].map(({ childNodes }) => [...childNodes]);
+  after.forEach((made, i) => {
+    const there = before[i];
+    if (!there) old.append(made);
+    else if (there.nodeName !== made.nodeName) there.replaceWith(made);
+    else if (made.nodeType === Node.ELEMENT_NODE) become(there, made);
+    else if (there.data !== made.data) there.data = made.data;
+  });
+  for (const left of before.slice(after.length)) left.remove();
+}
+
+/** New contents like `fill`, made of what is there. */
+export function renew(element, ...children) {
+  const next = element.cloneNode(false);
+  fill(next, ...children);
+  become(element, next);
+}
+
 /** The language of the page, one of two. */
 export const pageLanguage = () => (document.documentElement.lang.startsWith('zh') ? 'zh' : 'en');
 

@@ -10,7 +10,7 @@
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
 //   high      the largest share of the window's height, and `most`, the largest pixel
-import { arrowOf, button, fill, make, pageLanguage } from './dom.js';
+import { arrowOf, become, button, fill, make, pageLanguage, say } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
 /** Pixels along the longer side, from the nearest view to the farthest. */
@@ -110,7 +110,7 @@ class View extends HTMLElement {
       fill(shown.caption, panel.head?.() ?? panel.label, shown.says);
     }
     const says = panel.says ?? '';
-    if (shown.says.textContent !== says) shown.says.textContent = says;
+    say(shown.says, says);
     shown.says.className = panel.isBad === undefined ? '' : panel.isBad ? 'bad' : 'good';
     const label = [panel.label, says].filter(Boolean).join(': ');
     if (shown.canvas.getAttribute('aria-label') !== label) shown.canvas.setAttribute('aria-label', label);
@@ -161,12 +161,13 @@ class View extends HTMLElement {
   paint() {
     const { bounds, covers = [] } = this.source;
     const grips = this.grips();
-    this.dataset.cell = String(Math.round(this.unit * 1000) / 1000);
-    this.scale.textContent = this.source.isPicture ? `${Math.round(100 * this.unit)}%` : `${Math.round(this.unit * 10) / 10} : 1`;
+    const cell = String(Math.round(this.unit * 1000) / 1000);
+    if (this.dataset.cell !== cell) this.dataset.cell = cell;
+    say(this.scale, this.source.isPicture ? `${Math.round(100 * this.unit)}%` : `${Math.round(this.unit * 10) / 10} : 1`);
     const canMove = !bounds || this.seen[0] > bounds[0] || this.seen[1] > bounds[1] || this.seen[2] < bounds[2] || this.seen[3] < bounds[3];
     this.shown.forEach((shown, i) => {
       shown.frame.style.touchAction = canMove ? 'none' : 'pan-y';
-      this.paintPanel(shown);
+      this.paintPanel(shown, grips);
       const own = grips.flatMap((grip, index) => (grip.view === shown.of.view ? [{ grip, index }] : []));
       // The keyboard stops at a grip once, on the first panel that shows it.
       const isFirst = this.shown.findIndex(({ of }) => of.view === shown.of.view) === i;
@@ -179,18 +180,19 @@ class View extends HTMLElement {
   }
 
   /** A panel is a drawing of its own (`svg`), or layers over one another, each {mark | image, from, to, veil}: from one column to another, the next over the last through a veil. */
-  paintPanel(shown) {
+  paintPanel(shown, grips) {
     const { canvas, frame, above, beside, of: panel } = shown;
     const [width, height] = this.size;
     const [x0, y0, x1, y1] = this.seen;
     canvas.hidden = panel.svg !== undefined;
     if (panel.svg !== undefined) {
-      if (shown.svg !== panel.svg) {
-        shown.svg = panel.svg;
-        frame.querySelector('svg')?.remove();
-        frame.insertAdjacentHTML('afterbegin', panel.svg);
-      }
-      frame.querySelector('svg').setAttribute('viewBox', [x0, y0, x1 - x0, y1 - y0].join(' '));
+      const seen = [x0, y0, x1 - x0, y1 - y0].join(' ');
+      if (shown.svg === panel.svg && shown.drawing.getAttribute('viewBox') === seen) return;
+      const next = make('template', { innerHTML: panel.svg }).content.firstElementChild;
+      next.setAttribute('viewBox', seen);
+      if (shown.drawing) become(shown.drawing, next);
+      else frame.prepend(shown.drawing = next);
+      shown.svg = panel.svg;
       return;
     }
     const g = contextOf(canvas, width, height);
@@ -212,7 +214,7 @@ class View extends HTMLElement {
     if (panel.hasGrid !== false && !(this.source.isPicture && this.unit < 6)) paintGrid(sheet);
     for (const outline of panel.outlines ?? []) paintOutline(sheet, outline);
     if (panel.samples) paintSamples(sheet, panel.samples);
-    for (const { from, x, y, view } of this.grips()) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
+    for (const { from, x, y, view } of grips) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
     panel.over?.(sheet);
     if (this.source.cursor) paintCursor(sheet, this.source.cursor);
     if (panel.corners) paintCorners(sheet, panel.corners);

@@ -11,6 +11,9 @@ pub const VIEW_STYLE: &str = include_str!("../page/view.css");
 /// The look of everything on a page of the program that is not the viewer.
 pub const PAGE_STYLE: &str = include_str!("../page/style.css");
 
+/// What is around every page: its head, with places for all that differs.
+pub const FRAME: &str = include_str!("../page/frame.html");
+
 /// The modules of the viewer, each behind those that it uses.
 pub const MODULES: [&str; 3] = [
     include_str!("../page/dom.js"),

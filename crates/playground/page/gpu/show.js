@@ -59,7 +59,7 @@ function resultOf(result, index) {
     result.renderer ? make('p', {}, `${word('renderer')}: ${result.renderer}`) : null,
     software, totals,
     ...result.notes.map((note) => make('p', { className: 'note' }, said(note))),
-    checks.length ? make('table', {}, make('thead', {}, make('tr', {}, ...['check', 'verdict', 'found', 'rule'].map((head) => make('th', { scope: 'col' }, word(head))))), make('tbody', {}, ...checks.map((check) => row(result, index, check)))) : null);
+    checks.length ? make('table', { className: 'checks' }, make('thead', {}, make('tr', {}, ...['check', 'verdict', 'found', 'rule'].map((head) => make('th', { scope: 'col' }, word(head))))), make('tbody', {}, ...checks.map((check) => row(result, index, check)))) : null);
 }
 
 /** The pixels around what matters: corners and marks, with one to spare. */
@@ -76,6 +76,7 @@ function crop({ cell, outlines, marks }) {
 function seenIn(view, heads) {
   const [[x0, x1], [y0, y1]] = crop(view);
   const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
+  const corners = placesOf(view).map((at, i) => ({ at, name: letter(i), text: letter(i) }));
   const panels = (wanted.length ? wanted : [0]).flatMap((plane) => [view.ours, view.theirs].map((planes, i) => {
     const label = heads[i] + (view.samples.length ? ` (${word('sample')(plane)})` : '');
     const [dx, dy] = view.samples[plane] ?? [128, 128];
@@ -86,7 +87,7 @@ function seenIn(view, heads) {
       if (hits === '0' && !found) return null;
       return { fill: found ? { outside: 'missing', allowed: 'extra' }[found.word] : 'agrees', glyph: hits };
     };
-    return { key: `${state.lang} ${label}`, label, layers: [{ mark }], outlines: view.outlines, samples: [dx / 256, dy / 256] };
+    return { key: `${state.lang} ${label}`, label, layers: [{ mark }], outlines: view.outlines, corners, samples: [dx / 256, dy / 256] };
   }));
   const part = [x0, y0, x1, y1];
   const first = view.marks.find(({ plane }) => plane === (wanted[0] ?? 0));
@@ -106,12 +107,29 @@ function seenIn(view, heads) {
 /** The one viewer of the page, which is put where a case is shown. */
 const pixels = make('rp-view');
 
-/** What is said of the pixel that is looked at. */
+/** The corners of a case, each place once. */
+const placesOf = ({ outlines }) => [...new Map(outlines.flat().map((place) => [String(place), place])).values()];
+const letter = (i) => String.fromCharCode(65 + (i % 26));
+
+/** What the engines say of the triangles of a case at a sample, which is moved to where they sample: the middle of a pixel. */
+function whyAt(view, [x, y], [dx, dy] = [128, 128]) {
+  const places = placesOf(view).map(String);
+  const nameOf = ({ place }) => letter(places.indexOf(String(place)));
+  const moved = (place) => ({ x: place[0] + 0.5 - dx / 256, y: place[1] + 0.5 - dy / 256, place });
+  const triangles = view.outlines.filter(({ length }) => length === 3).map((outline) => outline.map(moved));
+  const snap = triangles.flat().every((corner) => [corner.x, corner.y].every((v) => Number.isInteger(256 * v)));
+  const plain = triangles.map((triangle) => triangle.map((corner) => ({ x: corner.x, y: corner.y })));
+  const answer = ask({ ask: 'look', picture: { window: [x, y, x + 1, y + 1], snap, triangles: plain }, px: [x, y] });
+  return answer.error ? [] : aboutTriangles(withEdges(answer.triangles, { triangles }, nameOf), [], snap ? 8 : 0).nodes;
+}
+
+/** What is said of the pixel that is looked at: what was drawn, and why which triangle has the sample in question. */
 function tellPixel(view, [x, y]) {
   const at = y * view.cell + x;
-  const notes = view.marks.filter((mark) => mark.x === x && mark.y === y).map(({ note }) => note).filter(Boolean);
+  const marks = view.marks.filter((mark) => mark.x === x && mark.y === y);
   const hits = [view.ours, view.theirs].map((planes) => planes.map((plane) => plane[at]).join(' '));
-  fill($('pixel'), `${word('pixelSays')(x, y, ...hits)} ${notes.join('; ')}`);
+  say($('pixel'), `${word('pixelSays')(x, y, ...hits)} ${marks.map(({ note }) => note).filter(Boolean).join('; ')}`);
+  renew($('why'), whyAt(view, [x, y], view.samples[marks[0]?.plane ?? 0]));
 }
 
 /** The rows of a plane as text, for a report. */
@@ -217,7 +235,8 @@ function drawFinding() {
   const text = report(result, check, view);
   fill(finding,
     make('h2', { tabIndex: -1 }, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : view.marks.length ? 'example' : 'alike')}`),
-    pixels, make('p', { id: 'pixel', role: 'status' }), make('p', { className: 'quiet' }, word('legend')(check)),
+    make('div', { className: 'look' }, pixels, make('div', {}, make('p', { id: 'pixel', role: 'status' }), make('div', { id: 'why' }))),
+    make('p', { className: 'quiet' }, word('legend')(check)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
     make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', { tabIndex: 0 }, corners(view.subject)),
     make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),

@@ -1,5 +1,5 @@
 // The report page: its cases and pictures in the viewer, which of them is shown and how, and the address that leads to it.
-import { $, button, copyText, fill, make } from './dom.js';
+import { $, button, copyText, fill, make, renew } from './dom.js';
 import { MOST_CORNERS, judge } from './paint.js';
 import { viewWords } from './view.js';
 import { aboutPixel, plural } from './explain.js';
@@ -115,7 +115,7 @@ const tellPixel = (delay) => {
     return;
   }
   const { nodes, words } = aboutPixel(item, a, b, cursor);
-  fill($('about-pixel'), nodes);
+  renew($('about-pixel'), nodes);
   clearTimeout(announcing);
   if (delay) announcing = setTimeout(() => { $('announce').textContent = words; }, delay);
 };

@@ -1,5 +1,5 @@
 // The tables below the picture.
-import { $, fill, table } from './dom.js';
+import { $, fill, renew, table } from './dom.js';
 import { colourOf, hex, hitsOf } from './items.js';
 import { spanOf } from './explain.js';
 
@@ -22,7 +22,7 @@ export const layerTable = ({ item, cursor, a, b }) => {
   const rows = item.layers.map((layer, i) => (
     { cells: [layer.everybody, ...cellsOf(layer)], className: [i === a && 'is-a', i === b && 'is-b'].filter(Boolean).join(' ') }));
   const caption = item.isCase ? `Who draws what, judged by ${target(item)}` : 'Pictures';
-  fill($('layers'), table(heads, rows, { caption }));
+  renew($('layers'), table(heads, rows, { caption }));
 };
 
 const runsOfRow = (item, layer, y) => {

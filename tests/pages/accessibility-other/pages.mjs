@@ -1,0 +1,3 @@
+import { half } from '../driver/axe-pages.mjs';
+
+export default half(1);
