@@ -83,6 +83,7 @@ mod tiled;
 mod tiles;
 mod tolerances;
 mod transcripts;
+mod verbs;
 mod view;
 mod watch;
 mod workspace;

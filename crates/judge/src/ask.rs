@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::declared::Declared;
 use super::text::{Words, printable, px};
 use rasterproof_core::grid::SubpixelPoint;
-use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
+use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span, WideLine};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::partition::{self, Polygon};
@@ -46,6 +46,8 @@ pub enum Asked {
     Near(Triangle),
     /// A: the same, with an attribute that new corners get as well.
     Carried(Triangle),
+    /// W: the pixels of a line with a width.
+    Wide(WideLine),
     /// Y: the triangles of a polygon; the window has no part in it.
     Polygon(Polygon),
 }
@@ -61,6 +63,7 @@ impl Asked {
             Self::Depth(_) => b"DV",
             Self::Near(_) => b"NG",
             Self::Carried(_) => b"AB",
+            Self::Wide(_) => b"WC",
             Self::Polygon(_) => b"YZ",
         }
     }
@@ -293,6 +296,10 @@ impl Question {
                 let centre = if *whole { 0.0 } else { 0.5 };
                 ends.iter().for_each(|p| add(&[p.x, p.y].map(|px| f64::from(px) + centre)));
             }
+            Asked::Wide(line) => {
+                line.ends.iter().for_each(|p| add(&at(*p)));
+                add(&[px(line.width)]);
+            }
             Asked::Depth(list) => {
                 for v in list.iter().flat_map(|triangle| &triangle.vertices) {
                     add(&at(v.position));
@@ -333,20 +340,20 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
-        let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_));
+        let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_) | Asked::Wide(_));
         if letter != self.of.letters()[1] && !has_hits {
             return Err("its letter does not belong to the request");
         }
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
         let answer = match self.of {
-            Asked::Coverage(_) if has_hits => {
+            Asked::Coverage(_) | Asked::Wide(_) if has_hits => {
                 let mut runs = Vec::new();
                 for (run, hits) in each(n, words, marked)? {
                     runs.extend(iter::repeat_n(run, usize::from(hits)));
                 }
                 Answer::Coverage(runs)
             }
-            Asked::Coverage(_) => Answer::Coverage(each(n, words, span)?),
+            Asked::Coverage(_) | Asked::Wide(_) => Answer::Coverage(each(n, words, span)?),
             Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
             Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
             Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),

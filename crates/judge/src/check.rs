@@ -19,6 +19,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::facts;
+use rasterproof_verify::cases::wide::{self, wide_line};
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::Winding;
@@ -43,6 +44,8 @@ pub enum Check {
     Near,
     /// The attributes of these corners, too.
     Carried,
+    /// Each line with a width against the expected picture.
+    Wide,
     /// A triangle with its vertices in another order against itself.
     Order,
     /// A mesh has no holes and no doubles.
@@ -120,7 +123,7 @@ impl Check {
     #[must_use]
     pub fn counted(self) -> Counted {
         match self {
-            Self::Coverage | Self::Line | Self::Values => Counted::Pixels,
+            Self::Coverage | Self::Line | Self::Values | Self::Wide => Counted::Pixels,
             Self::Samples => Counted::Samples,
             Self::Depth => Counted::Seen,
             Self::Near | Self::Carried => Counted::Corners,
@@ -165,7 +168,7 @@ impl Check {
                 (twice, "twice"),
                 (order, "show what lies behind"),
             ],
-            Self::Coverage | Self::Line | Self::Values => vec![
+            Self::Coverage | Self::Line | Self::Values | Self::Wide => vec![
                 (missing, "missing"),
                 (extra, "extra"),
                 (twice, "twice"),
@@ -196,21 +199,25 @@ impl Check {
     #[must_use]
     pub fn fits(self, case: &Case) -> bool {
         match &case.shape {
-            Shape::Triangles { disjoint, .. } => self != Self::Watertight || *disjoint,
+            Shape::Triangles { disjoint, list } => match self {
+                Self::Watertight => *disjoint,
+                Self::Wide => list.iter().all(wide::has_width),
+                _ => true,
+            },
             _ => self != Self::Watertight,
         }
     }
 
     /// Whether each answer is compared with an expected one, not with others.
     pub(super) fn is_one_by_one(self) -> bool {
-        use Check::{Carried, Coverage, Depth, Line, Near, Values};
-        matches!(self, Coverage | Line | Values | Depth | Near | Carried)
+        use Check::{Carried, Coverage, Depth, Line, Near, Values, Wide};
+        matches!(self, Coverage | Line | Values | Depth | Near | Carried | Wide)
     }
 
     /// Its name as a property: of checks that a family is made for, the name of that family.
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
-            Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
+            Self::Coverage | Self::Line | Self::Depth | Self::Near | Self::Wide => family,
             Self::Values => "values",
             Self::Carried => "clip-attributes",
             Self::Samples => "samples4",
@@ -253,6 +260,11 @@ impl Check {
                 }
                 if declared.clip_attributes {
                     checks.push(Self::Carried);
+                }
+            }
+            Shape::Triangles { .. } if family.starts_with("wide-line") => {
+                if declared.wide_line && declared.shape == declared::Shape::Sample {
+                    checks.push(Self::Wide);
                 }
             }
             Shape::Triangles { .. } if family == facts::samples::TOPIC.name => {
@@ -330,6 +342,7 @@ impl Check {
                     Self::Samples => Asked::Samples(t.corners()),
                     Self::Near => Asked::Near(*t),
                     Self::Carried => Asked::Carried(*t),
+                    Self::Wide => Asked::Wide(wide_line(t)),
                     // A mesh is wound as the program draws.
                     Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
                     _ => Asked::Coverage(t.corners()),
@@ -401,6 +414,19 @@ impl Check {
                         near_plane::compare(&mut judged, &triangle, corners, &truth.declared);
                     }
                 }
+            }
+            (Shape::Triangles { list, .. }, Self::Wide) => {
+                for (triangle, answer) in list.iter().zip(answers) {
+                    let picture = truth.expect.wide(&wide_line(triangle), case.window);
+                    let (Some(picture), Answer::Coverage(runs)) = (picture, answer) else {
+                        continue;
+                    };
+                    judged.shapes += 1;
+                    judged.pixels += length(&picture.must);
+                    let tally = &mut judged.finding.tally;
+                    compare(tally, &mut judged.mark, runs, &picture, case.window);
+                }
+                judged.unscored += u64::from(truth.recognised.is_some());
             }
             (Shape::Triangles { list, .. }, _) => {
                 for (triangle, answer) in list.iter().zip(answers) {
@@ -620,6 +646,9 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             truth.expect.picture(corners, window).map(|picture| Answer::Coverage(picture.must))
         }
         Asked::Line { ends, .. } => truth.expect.line(ends, window).map(Answer::Line),
+        Asked::Wide(line) => {
+            truth.expect.wide(line, window).map(|picture| Answer::Coverage(picture.must))
+        }
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
             let exact = exact_values(triangle, &truth.declared);

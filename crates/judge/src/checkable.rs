@@ -46,6 +46,11 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             out.expected = plain(&picture.must);
             out.either = may_be(&picture.must, picture.may.as_deref(), window);
         }
+        Asked::Wide(line) => {
+            let picture = truth.expect.wide(line, window)?;
+            out.expected = plain(&picture.must);
+            out.either = may_be(&picture.must, picture.may.as_deref(), window);
+        }
         Asked::Line { ends, .. } => {
             let line = truth.expect.line(ends, window)?;
             out.expected = line.into_iter().map(|(x, y)| pixel(x, y, Vec::new())).collect();

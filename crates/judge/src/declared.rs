@@ -8,6 +8,7 @@ use std::fmt;
 
 use super::text::{number, printable, px};
 use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
+use rasterproof_core::triangle::WideForm;
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rasterproof_verify::partition::{self, Tessellation};
 
@@ -32,6 +33,10 @@ pub struct Declared {
     pub clip: bool,
     /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
+    /// Answers W.
+    pub wide_line: bool,
+    /// The shape of its lines with a width.
+    pub wide: WideForm,
     /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
     pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
@@ -96,7 +101,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 13] = [
+const FLAGS: [&str; 14] = [
     "coverage",
     "line",
     "attributes",
@@ -104,6 +109,7 @@ const FLAGS: [&str; 13] = [
     "depth",
     "clip",
     "clip-attributes",
+    "wide-line",
     "partition",
     "t-junctions",
     "degenerate",
@@ -113,13 +119,14 @@ const FLAGS: [&str; 13] = [
 ];
 
 /// The values of words that have one of a few.
-fn listed() -> [(&'static str, Vec<&'static str>); 8] {
+fn listed() -> [(&'static str, Vec<&'static str>); 9] {
     [
         ("rule", Rule::ALL.iter().map(|(word, _)| *word).collect()),
         ("winding", vec!["cw", "ccw", "both"]),
         ("grid", vec!["1", "16", "64", "256"]),
         ("shape", Shape::ALL.iter().map(|shape| shape.name()).collect()),
         ("near", vec!["zero", "minus-w"]),
+        ("wide", WideForm::ALL.iter().map(|form| form.name()).collect()),
         ("fill-rule", FILL_RULES.iter().map(|(word, _)| *word).collect()),
         ("triangles", WINDINGS.iter().map(|(word, _)| *word).collect()),
         ("coordinates", COORDINATES.iter().map(|(word, _)| *word).collect()),
@@ -201,6 +208,8 @@ impl Default for Declared {
             depth: false,
             clip: false,
             clip_attributes: false,
+            wide_line: false,
+            wide: WideForm::default(),
             convention: Convention::default(),
             shape: Shape::Sample,
             range: None,
@@ -270,6 +279,10 @@ impl Declared {
             ("depth", None) => self.depth = true,
             ("clip", None) => self.clip = true,
             ("clip-attributes", None) => self.clip_attributes = true,
+            ("wide-line", None) => self.wide_line = true,
+            ("wide", Some(v)) => {
+                self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
+            }
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
@@ -332,6 +345,7 @@ impl Declared {
             depth: self.depth && other.depth,
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
+            wide_line: self.wide_line && other.wide_line,
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -368,6 +382,7 @@ impl Declared {
             ("depth", self.depth),
             ("clip", self.clip),
             ("clip-attributes", self.clip_attributes),
+            ("wide-line", self.wide_line),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
@@ -403,6 +418,9 @@ impl fmt::Display for Declared {
         }
         if self.shape != Shape::Sample {
             write!(f, " shape={}", self.shape.name())?;
+        }
+        if self.wide != WideForm::default() {
+            write!(f, " wide={}", self.wide.name())?;
         }
         if self.near_is_zero {
             f.write_str(" near=zero")?;

@@ -276,6 +276,7 @@ pub fn mistakes(
                     Check::Values => "values",
                     Check::Samples => "samples",
                     Check::Depth => "depths",
+                    Check::Wide => "lines with a width",
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };

@@ -12,6 +12,7 @@ mod samples;
 mod search;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 use std::cell::RefCell;
 
@@ -38,6 +39,7 @@ use rasterproof_verify::mistakes::{
 };
 use samples::SampleMask;
 use search::{Mistake, Quantity, Says, Spot, Stage, common, of_pixels};
+use wide::WideDrawn;
 
 /// A case with its answers, and whether they are wrong.
 pub struct Answered {
@@ -114,6 +116,7 @@ fn families(check: Check) -> &'static [&'static str] {
         Check::Samples => &["uniform", "half-integer"],
         Check::Depth => &["depth-order", "depth-near-tie"],
         Check::Near | Check::Carried => &["near-plane"],
+        Check::Wide => &["wide-line"],
         _ => &[],
     }
 }
@@ -159,6 +162,7 @@ fn known(
         Check::Samples => of_stage::<SampleMask>(all, &truth.declared, programs),
         Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
         Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
+        Check::Wide => of_stage::<WideDrawn>(all, &truth.declared, programs),
         _ => None,
     }
 }
@@ -181,6 +185,7 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
         Check::Samples => identified::<SampleMask>(all, &truth.declared),
         Check::Depth => identified::<DepthTest>(all, &truth.declared),
         Check::Near | Check::Carried => identified::<NearCut>(all, &truth.declared),
+        Check::Wide => identified::<WideDrawn>(all, &truth.declared),
         _ => Vec::new(),
     }
 }

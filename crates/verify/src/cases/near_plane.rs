@@ -7,7 +7,7 @@ use glam::DVec2;
 
 pub use super::clip::{ClipCorner, clip_corners};
 use super::facts;
-use super::{Case, Family, Shape, Triangle, designed, family, sub};
+use super::{Case, Family, Shape, Triangle, designed, family, sub, wide};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -23,6 +23,12 @@ pub const FAMILIES: &[Family] = &[
     designed(facts::meshes::TOPIC, "every two facts of a mesh together"),
     designed(facts::depth::TOPIC, "every two facts of some triangles together"),
     designed(facts::near::TOPIC, "every two facts of a triangle of clip space together"),
+    family(
+        "wide-line",
+        "lines with a width, with samples on their border, thin ones, and long ones",
+        wide::drawn,
+    ),
+    designed(facts::wide::TOPIC, "every two facts of a line with a width together"),
 ];
 
 /// Side of the window of a pile, in pixels.

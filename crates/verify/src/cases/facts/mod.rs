@@ -18,6 +18,7 @@ pub mod samples;
 mod table;
 pub mod triangles;
 pub mod values;
+pub mod wide;
 
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
@@ -275,7 +276,7 @@ impl<Q, L> Topic<Q, L> {
 }
 
 /// Every kind of question about triangles and lines. Polygons have [`crate::partition::design::TOPIC`].
-pub const TOPICS: [Topic; 7] = [
+pub const TOPICS: [Topic; 8] = [
     triangles::TOPIC,
     values::TOPIC,
     lines::TOPIC,
@@ -283,6 +284,7 @@ pub const TOPICS: [Topic; 7] = [
     meshes::TOPIC,
     depth::TOPIC,
     near::TOPIC,
+    wide::TOPIC,
 ];
 
 /// A side of a window in pixels: mostly small, since every pixel of it is compared; each class of size and divisor occurs.

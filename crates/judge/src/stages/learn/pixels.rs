@@ -1,0 +1,99 @@
+//! Pixels of shapes, each on its own: what a stage of such pixels states is enough to learn of it.
+
+use std::marker::PhantomData;
+
+use super::{Learnable, LearnedCase};
+use crate::declared::Declared;
+use crate::stages::search::{Stage, singles};
+use crate::stages::wide::{WideDrawn, WidePixel};
+use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::facts::{Topic, wide};
+use rasterproof_verify::learn::rows::{Quantities, Unit};
+use rasterproof_verify::learn::trial::Work;
+
+/// A stage whose parts are pixels.
+pub trait PixelStage: Stage {
+    /// The kind of question, with its facts.
+    const TOPIC: Topic;
+    /// What is drawn, in the plural.
+    const WHAT: &'static str;
+
+    /// The quantities of a pixel.
+    fn of_pixel(pixel: &Self::Part<'_>, out: &mut Quantities);
+}
+
+/// The pixels of a stage.
+pub struct Pixels<S>(PhantomData<S>);
+
+impl<S: PixelStage> Learnable for Pixels<S> {
+    type Part<'a> = S::Part<'a>;
+    type Change = S;
+    const TOPIC: Topic = S::TOPIC;
+    const PART: &'static str = "pixel";
+
+    fn of_question(_: &Case, _: &mut Quantities) {}
+
+    fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<S::Part<'a>> {
+        S::parts(&asked.question, &asked.answer, declared, S::NOISE[0])
+    }
+
+    fn is_right(part: &S::Part<'_>) -> bool {
+        S::default().explains(part)
+    }
+
+    fn explains(change: &S, part: &S::Part<'_>) -> bool {
+        change.explains(part)
+    }
+
+    fn of_part(part: &S::Part<'_>, _: Option<&S>, out: &mut Quantities) {
+        S::of_pixel(part, out);
+    }
+
+    fn changes<'a>(wrong: &[&S::Part<'a>], right: &[&S::Part<'a>], _: &Work) -> Vec<S> {
+        let pixels: Vec<_> = wrong.iter().chain(right).copied().collect();
+        singles(&pixels)
+    }
+
+    fn both(a: &S, b: &S) -> Option<S> {
+        let both = a.with(b);
+        (both != *b).then_some(both)
+    }
+
+    fn says(change: &S) -> String {
+        let said = change.said().into_iter().map(|said| said.does.replace("{}", S::WHAT));
+        said.collect::<Vec<_>>().join(", and ")
+    }
+}
+
+impl PixelStage for WideDrawn {
+    const TOPIC: Topic = wide::TOPIC;
+    const WHAT: &'static str = "lines with a width";
+
+    fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
+        let [column, row] = pixel.spot.at.map(i64::from);
+        out.number(Unit::Count, column, &["the column"]);
+        out.number(Unit::Count, row, &["the row"]);
+        out.number(
+            Unit::Count,
+            i64::from(pixel.spot.window.x1) - 1 - column,
+            &["the number of columns to the right of it"],
+        );
+        out.number(
+            Unit::Count,
+            i64::from(pixel.spot.window.y1) - 1 - row,
+            &["the number of rows below it"],
+        );
+        let [beside, beyond] = pixel.outside().map(|v| v.ceil() as i64);
+        out.number(
+            Unit::Subpixels,
+            beside,
+            &["the distance of the sample from the long sides (below 0 between them)"],
+        );
+        out.number(
+            Unit::Subpixels,
+            beyond,
+            &["the distance of the sample from the ends (below 0 between them)"],
+        );
+        out.flag(pixel.right[0], &["the pixel is covered"], "the pixel is not covered");
+    }
+}
