@@ -74,6 +74,8 @@ struct rasterproof_drawers {
     rasterproof_clip clip;
     rasterproof_clip_attributes clip_attributes;
     rasterproof_wide_line wide_line;
+    /* The share of each pixel that is covered: the mask is a level, and 255 a pixel that is covered whole. */
+    rasterproof_samples area;
 };
 
 enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
@@ -246,8 +248,8 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
         drawers->triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
     else if (verb == 'W')
         drawers->wide_line(v[2], v[3], v[4], v[5], v[6], (int)v[0], (int)v[1], rasterproof_hit_pixel);
-    else if (verb == 'S')
-        drawers->samples(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
+    else if (verb == 'S' || verb == 'R')
+        (verb == 'S' ? drawers->samples : drawers->area)(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
     else if (verb == 'D') {
         struct rasterproof_point triangles[RASTERPROOF_MOST_TRIANGLES][3];
         for (i = 0; i < numbers / 3; i++) {
@@ -300,7 +302,8 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     int is_known = !verb[1] && ((verb[0] == 'T' && drawers->triangle) || (verb[0] == 'L' && drawers->line) ||
                                 (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
                                 (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip) ||
-                                (verb[0] == 'A' && drawers->clip_attributes) || (verb[0] == 'W' && drawers->wide_line));
+                                (verb[0] == 'A' && drawers->clip_attributes) || (verb[0] == 'W' && drawers->wide_line) ||
+                                (verb[0] == 'R' && drawers->area));
     if (strcmp(verb, "HELLO") == 0) {
         char known[100] = "";
         if (drawers->triangle) strcat(known, " coverage");
@@ -311,6 +314,7 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         if (drawers->clip) strcat(known, " clip");
         if (drawers->clip_attributes) strcat(known, " clip-attributes");
         if (drawers->wide_line) strcat(known, " wide-line");
+        if (drawers->area) strcat(known, " area");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -325,6 +329,7 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     else if (verb[0] == 'I') rasterproof_write_values(out, id);
     else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);
     else if (verb[0] == 'D') rasterproof_write_marked(out, 'V', id);
+    else if (verb[0] == 'R') rasterproof_write_marked(out, 'K', id);
     else if (verb[0] == 'N' || verb[0] == 'A') rasterproof_write_polygon(out, id, verb[0] == 'A');
     else rasterproof_write_line(out, id);
 }
@@ -351,7 +356,7 @@ static int rasterproof_serve_all(const char *name, const char *declares, struct 
 
 /* The same for a program that draws triangles and lines alone. */
 static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
-    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL, NULL};
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
     return rasterproof_serve_all(name, declares, drawers);
 }
 

@@ -45,8 +45,9 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
 
 
 # What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them. And verb W:
-# wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel), set_pixel(x, y) for every pixel of a line with a width.
-values = samples = depth = clip = clip_attributes = wide_line = None
+# wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel), set_pixel(x, y) for every pixel of a line with a width. And verb R:
+# area, as triangle, with set_pixel(x, y, level), where 255 is a pixel that is covered whole.
+values = samples = depth = clip = clip_attributes = wide_line = area = None
 
 
 # ---- the line protocol: nothing to change from here on ----
@@ -95,11 +96,11 @@ def number(word, is_coordinate=True):
 
 def answer(words):
     verb, id = words[0], words[1] if len(words) > 1 else "-"
-    wide = globals().get("wide_line")
+    wide, shares = (globals().get(name) for name in ("wide_line", "area"))
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
         more = {"attributes": values, "samples4": samples, "depth": depth, "clip": clip}
-        more.update({"clip-attributes": clip_attributes, "wide-line": wide})
+        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares})
         known += "".join(f" {word}" for word, has in more.items() if has is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
@@ -108,7 +109,7 @@ def answer(words):
         }.get(tuple(words[1:]), "E - say HELLO 1 or HELLO 2")
     verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
     verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G"), "A": (clip_attributes, 15, "B")})
-    verbs["W"] = (wide, 5, "C")
+    verbs.update({"W": (wide, 5, "C"), "R": (shares, 6, "K")})
     draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
@@ -137,7 +138,7 @@ def answer(words):
             found = [tuple(map(float, corner)) for corner in draw(corners)]
             if any(len(corner) != size for corner in found):
                 raise Refused("a corner of the polygon has x, y, z, w" + ", a" * (verb == "A"))
-        elif verb == "S":
+        elif verb in "SR":
             found = [(y, x, x + 1, operator.index(mask)) for y, x, mask in drawn(draw, numbers, *sides) if mask]
         else:
             found = [(x, y) for y, x in drawn(draw, [math.floor(n) for n in numbers], *sides)]

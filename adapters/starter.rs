@@ -61,13 +61,14 @@ fn line(
 }
 
 // What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them.
-// And verb W, a line with a width.
+// And verb W, a line with a width, and verb R, whose masks are levels: 255 is a pixel that is covered whole.
 const VALUES: Option<Values> = None;
 const SAMPLES: Option<Samples> = None;
 const DEPTH: Option<Depth> = None;
 const CLIP: Option<Clip<4>> = None;
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 const WIDE_LINE: Option<WideLine> = None;
+const AREA: Option<Samples> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -209,11 +210,11 @@ fn draw(words: &[&str]) -> Result<String, String> {
         let group =
             |(y, x, t): (i32, i32, usize)| vec![y.into(), x.into(), (x + 1).into(), t as f64];
         ("V", hits.into_iter().map(group).collect())
-    } else if let ("S", Some(samples)) = (verb, SAMPLES) {
+    } else if let ("S", Some(samples)) | ("R", Some(samples)) = (verb, if verb == "S" { SAMPLES } else { AREA }) {
         let hits = drawn(width, height, |set| samples(corners, width, height, set))?;
         let group =
             |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
-        ("M", hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
+        (if verb == "S" { "M" } else { "K" }, hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
     } else {
         let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
         let (from, to) = (pixel(0), pixel(2));
@@ -253,7 +254,7 @@ fn reply(letter: &str, id: &str, groups: &[Vec<f64>]) -> String {
 fn answer(words: &[&str]) -> String {
     let more = [VALUES.is_some(), SAMPLES.is_some(), DEPTH.is_some(), CLIP.is_some()];
     let [values, samples, depth, clip] = more;
-    let (carries, wide) = (CLIP_ATTRIBUTES.is_some(), WIDE_LINE.is_some());
+    let (carries, wide, area) = (CLIP_ATTRIBUTES.is_some(), WIDE_LINE.is_some(), AREA.is_some());
     let has = [
         (HAS_LINES, " line"),
         (values, " attributes"),
@@ -262,6 +263,7 @@ fn answer(words: &[&str]) -> String {
         (clip, " clip"),
         (carries, " clip-attributes"),
         (wide, " wide-line"),
+        (area, " area"),
     ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
@@ -274,7 +276,7 @@ fn answer(words: &[&str]) -> String {
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         [verb, ..]
-            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide)]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area)]
                 .contains(&(*verb, true)) =>
         {
             draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))

@@ -78,6 +78,7 @@ const DEPTH: Option<Depth> = Some(depth);
 const CLIP: Option<Clip<4>> = Some(clip);
 const CLIP_ATTRIBUTES: Option<Clip<5>> = Some(clip);
 const WIDE_LINE: Option<WideLine> = None;
+const AREA: Option<Samples> = None;
 
 fn line(
     from: (i32, i32),

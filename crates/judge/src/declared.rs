@@ -37,6 +37,12 @@ pub struct Declared {
     pub wide_line: bool,
     /// The shape of its lines with a width.
     pub wide: WideForm,
+    /// Answers R.
+    pub area: bool,
+    /// The steps of a share of a pixel.
+    pub levels: u8,
+    /// How many steps a share may be off.
+    pub area_tolerance: f64,
     /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
     pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
@@ -101,7 +107,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 14] = [
+const FLAGS: [&str; 15] = [
     "coverage",
     "line",
     "attributes",
@@ -110,6 +116,7 @@ const FLAGS: [&str; 14] = [
     "clip",
     "clip-attributes",
     "wide-line",
+    "area",
     "partition",
     "t-junctions",
     "degenerate",
@@ -134,13 +141,15 @@ fn listed() -> [(&'static str, Vec<&'static str>); 9] {
 }
 
 /// The form of words whose values are numbers.
-fn numbered() -> [(&'static str, String); 5] {
+fn numbered() -> [(&'static str, String); 7] {
     [
         ("origin", "origin=X,Y, each a multiple of 1/256 from -2 to 2".to_owned()),
         ("range", format!("range=N, a whole number from 1 to {}", DOMAIN_PX - 1)),
         ("window", format!("window=WxH, each from 1 to {MAX_SIDE_PX}")),
         ("batch", "batch=N, a whole number above 0".to_owned()),
         ("tolerance", "tolerance=T, a number from 0 to 1".to_owned()),
+        ("levels", "levels=N, a whole number from 1 to 255".to_owned()),
+        ("area-tolerance", "area-tolerance=T, a number of steps from 0 to 255".to_owned()),
     ]
 }
 
@@ -191,6 +200,12 @@ fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str 
 
 /// A tolerance for programs that compute in f32 and declare none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-4;
+/// Rounding a share to the nearest step is off by half a step at most.
+const HALF_A_STEP: f64 = 0.5;
+/// Beside the tolerance, in steps: what lies just beside the middle of two steps may be rounded to either by a program that computes in
+/// `f64`. There a cut of an edge that reaches to the end of the domain, 2^23 px, is rounded by 2^-30 px. Four cuts, one for each side of
+/// a pixel, move a border by 2^-28 px at most, and 255 x 2^-28 is less than this.
+const ROUNDING_OF_STEPS: f64 = 1e-6;
 /// The most requests that are ever in flight.
 pub const MOST_IN_FLIGHT: usize = 4096;
 /// Words of an unknown meaning that are kept.
@@ -210,6 +225,9 @@ impl Default for Declared {
             clip_attributes: false,
             wide_line: false,
             wide: WideForm::default(),
+            area: false,
+            levels: u8::MAX,
+            area_tolerance: HALF_A_STEP,
             convention: Convention::default(),
             shape: Shape::Sample,
             range: None,
@@ -280,6 +298,11 @@ impl Declared {
             ("clip", None) => self.clip = true,
             ("clip-attributes", None) => self.clip_attributes = true,
             ("wide-line", None) => self.wide_line = true,
+            ("area", None) => self.area = true,
+            ("levels", Some(v)) => self.levels = whole(v, 255)? as u8,
+            ("area-tolerance", Some(v)) => {
+                self.area_tolerance = number(v).filter(|t| (0.0..=255.0).contains(t))?;
+            }
             ("wide", Some(v)) => {
                 self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
             }
@@ -346,6 +369,8 @@ impl Declared {
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
             wide_line: self.wide_line && other.wide_line,
+            area: self.area && other.area && self.levels == other.levels,
+            area_tolerance: self.area_tolerance.max(other.area_tolerance),
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -373,6 +398,12 @@ impl Declared {
         self.samples4 && self.shape == Shape::Sample && self.convention.is_standard()
     }
 
+    /// How many steps a share may be off, with what roundings of floats add.
+    #[must_use]
+    pub fn steps_off(&self) -> f64 {
+        self.area_tolerance + ROUNDING_OF_STEPS
+    }
+
     pub fn capabilities(&self) -> Vec<&'static str> {
         let all = [
             ("coverage", self.coverage),
@@ -383,6 +414,7 @@ impl Declared {
             ("clip", self.clip),
             ("clip-attributes", self.clip_attributes),
             ("wide-line", self.wide_line),
+            ("area", self.area),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
@@ -421,6 +453,9 @@ impl fmt::Display for Declared {
         }
         if self.wide != WideForm::default() {
             write!(f, " wide={}", self.wide.name())?;
+        }
+        if self.area {
+            write!(f, " levels={} area-tolerance={}", self.levels, self.area_tolerance)?;
         }
         if self.near_is_zero {
             f.write_str(" near=zero")?;

@@ -41,6 +41,7 @@ impl From<&Entry> for Declared {
             samples4: is_engine,
             wide_line: wide.is_some(),
             wide: wide.unwrap_or_default(),
+            area: matches!(entry.variant, Some(Variant::Area(_))),
             depth: is_engine,
             clip: is_engine,
             clip_attributes: is_engine,

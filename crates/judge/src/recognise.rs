@@ -277,6 +277,7 @@ pub fn mistakes(
                     Check::Samples => "samples",
                     Check::Depth => "depths",
                     Check::Wide => "lines with a width",
+                    Check::Area => "shares of pixels",
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };

@@ -1,7 +1,7 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
-pub use crate::variants::{TouchedPixels, WideLines};
+pub use crate::variants::{AreaLevels, TouchedPixels, WideLines};
 use rasterproof_core::contract::{
     Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact, Run,
 };
@@ -430,6 +430,8 @@ pub enum Variant {
     Touched(TouchedPixels),
     /// Lines with a width.
     WideLines(WideLines),
+    /// The shares of pixels.
+    Area(AreaLevels),
 }
 
 const NOBODY: Entry = Entry {
@@ -506,7 +508,7 @@ pub const SPECIMENS: [Entry; 15] = entries![
 ];
 
 /// Engines of other rules, for what programs may declare.
-pub const VARIANTS: [Entry; 4] = entries![
+pub const VARIANTS: [Entry; 5] = entries![
     "touched-closed", "every pixel that a triangle touches, its border too: no line separates them",
         variant: Variant::Touched(TouchedPixels { is_closed: true });
     "touched-open", "every pixel that the inside of a triangle touches",
@@ -515,6 +517,8 @@ pub const VARIANTS: [Entry; 4] = entries![
         variant: Variant::WideLines(WideLines { form: WideForm::Rectangle });
     "wide-parallelograms", "lines with a width as parallelograms, as wide along the shorter axis",
         variant: Variant::WideLines(WideLines { form: WideForm::Parallelogram });
+    "area", "the share of each pixel that a triangle covers, in 255 steps",
+        variant: Variant::Area(AreaLevels { levels: 255 });
 ];
 
 /// Everything that speaks the line protocol.

@@ -129,3 +129,58 @@ impl WideLines {
         }
     }
 }
+
+/// The shares of the pixels that a triangle covers, in steps: what the four sides of a pixel leave of the triangle is a polygon,
+/// whose area is the sum of the areas beside its edges.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLevels {
+    /// The steps of a whole pixel.
+    pub levels: u8,
+}
+
+impl AreaLevels {
+    /// The runs of pixels with the same level above 0.
+    pub fn cover(self, corners: &Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span, u8)) {
+        let corners = corners.map(|p| {
+            let (x, y) = p.to_px();
+            [x, y]
+        });
+        for y_px in bounds.y0..bounds.y1 {
+            for x_px in bounds.x0..bounds.x1 {
+                let share = share_by_clipping(&corners, [f64::from(x_px), f64::from(y_px)]);
+                // A share is at most 1.
+                let level = (share * f64::from(self.levels)).round() as u8;
+                if level > 0 {
+                    emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 }, level);
+                }
+            }
+        }
+    }
+}
+
+/// The area of a triangle within the pixel with this upper left corner.
+fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
+    let mut polygon = corners.map(|p| [p[0] - pixel[0], p[1] - pixel[1]]).to_vec();
+    for (axis, limit, sign) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
+        let inside = |p: &[f64; 2]| sign * (p[axis] - limit);
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, from) in polygon.iter().enumerate() {
+            let to = &polygon[(i + 1) % polygon.len()];
+            let [here, there] = [inside(from), inside(to)];
+            if here >= 0.0 {
+                kept.push(*from);
+            }
+            if (here < 0.0) != (there < 0.0) {
+                let part = here / (here - there);
+                kept.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * part));
+            }
+        }
+        polygon = kept;
+    }
+    let mut twice = 0.0;
+    for (i, p) in polygon.iter().enumerate() {
+        let q = polygon[(i + 1) % polygon.len()];
+        twice += p[0] * q[1] - p[1] * q[0];
+    }
+    (twice / 2.0).abs().min(1.0)
+}

@@ -137,7 +137,10 @@ pub fn write(
 }
 
 fn is_of_pixels(question: &Question) -> bool {
-    !matches!(question.of, Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Polygon(_))
+    !matches!(
+        question.of,
+        Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Area(_) | Asked::Polygon(_)
+    )
 }
 
 /// The functions to be filled in, in the order of the file.
@@ -488,6 +491,10 @@ fn arguments(language: Language, question: &Question) -> String {
                 _ => each.join(", "),
             }
         }
-        Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Polygon(_) => String::new(),
+        Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::Wide(_)
+        | Asked::Area(_)
+        | Asked::Polygon(_) => String::new(),
     }
 }

@@ -120,11 +120,12 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "N" => (declared.clip, 12),
         "A" => (declared.clip_attributes, 15),
         "W" => (declared.wide_line, 5),
+        "R" => (declared.area, 6),
         // As many triangles as there are.
         "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R",
                 printable(verb)
             )));
         }
@@ -163,6 +164,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
         ("T", _, _, Some(engine)) => cover_exact(engine, window, &numbers),
         ("W", ..) => wide(entry, window, &numbers),
+        ("R", ..) => area(entry, window, &numbers),
         ("S", Some(engine), ..) => samples(engine, window, &numbers),
         ("L", _, Some(engine), _) => line(engine, window, &numbers),
         ("D", Some(engine), ..) => depth(engine, window, &numbers),
@@ -245,6 +247,21 @@ fn by_variant(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
         Some(Variant::Touched(engine)) => cover(engine, window, numbers),
         _ => Err("unsupported".to_owned()),
     }
+}
+
+/// The levels of pixels.
+fn area(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
+    let Some(Variant::Area(engine)) = entry.variant else {
+        return Err("unsupported".to_owned());
+    };
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let (mut runs, mut n) = (Vec::new(), 0);
+    engine.cover(&corners, window, &mut |span, level| {
+        n += 1;
+        write_run(&mut runs, span);
+        write_words(&mut runs, [i32::from(level)]);
+    });
+    Ok(('K', n, runs))
 }
 
 /// The most that a line is wide, in pixels.

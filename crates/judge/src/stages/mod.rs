@@ -5,6 +5,7 @@
 //! wrong, everywhere or in some places: `search` looks for those that predict every answer. To add a mistake, add a value to a
 //! field, with its words.
 
+mod area;
 mod depth;
 mod learn;
 mod near;
@@ -23,6 +24,7 @@ use super::declared::Declared;
 use super::in_process::Inside;
 use super::run::MOST_DEATHS;
 use super::timed::Timed;
+use area::AreaDrawn;
 use depth::DepthTest;
 use glam::DVec2;
 use near::NearCut;
@@ -117,6 +119,7 @@ fn families(check: Check) -> &'static [&'static str] {
         Check::Depth => &["depth-order", "depth-near-tie"],
         Check::Near | Check::Carried => &["near-plane"],
         Check::Wide => &["wide-line"],
+        Check::Area => &["area"],
         _ => &[],
     }
 }
@@ -163,6 +166,7 @@ fn known(
         Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
         Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
         Check::Wide => of_stage::<WideDrawn>(all, &truth.declared, programs),
+        Check::Area => of_stage::<AreaDrawn>(all, &truth.declared, programs),
         _ => None,
     }
 }
@@ -186,6 +190,7 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
         Check::Depth => identified::<DepthTest>(all, &truth.declared),
         Check::Near | Check::Carried => identified::<NearCut>(all, &truth.declared),
         Check::Wide => identified::<WideDrawn>(all, &truth.declared),
+        Check::Area => identified::<AreaDrawn>(all, &truth.declared),
         _ => Vec::new(),
     }
 }

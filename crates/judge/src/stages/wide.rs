@@ -14,12 +14,12 @@ use rasterproof_verify::oracle::wide;
 composed! {
     /// How lines with a width are drawn.
     pub struct WideDrawn {
+        gate: LineGate,
         ends: EndGrid,
         thickness: Thickness,
         caps: Caps,
         corners: CornerGrid,
         border: BorderRule,
-        gate: LineGate,
     }
 }
 
@@ -188,18 +188,24 @@ pub enum LineGate {
     None,
     Never,
     Always,
+    Twice,
 }
 
 impl Field for LineGate {
     const NAME: &'static str = "pixels of wide lines";
 
     fn options() -> Vec<Self> {
-        vec![Self::Never, Self::Always]
+        vec![Self::Never, Self::Always, Self::Twice]
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let does = if *self == Self::Always { "draws every pixel" } else { "does not draw {}" };
-        Some((does.to_owned(), "draw the pixels whose samples lie in the rectangle"))
+        let does = match self {
+            Self::None => return None,
+            Self::Never => "does not draw {}",
+            Self::Always => "draws every pixel",
+            Self::Twice => "draws {} twice",
+        };
+        Some((does.to_owned(), "draw the pixels whose samples lie in the rectangle, once each"))
     }
 }
 
@@ -209,7 +215,8 @@ pub struct WidePixel<'a> {
     pub(super) line: &'a WideLine,
     convention: Convention,
     form: WideForm,
-    pub(super) drawn: bool,
+    /// How often it is drawn.
+    hits: u8,
     /// Whether it has to be drawn, and whether it may be.
     pub(super) right: [bool; 2],
 }
@@ -258,6 +265,9 @@ impl WideDrawn {
         let [a, b, _] = self.ends.0.snap(&[a, b, b]);
         let width = self.thickness.of(pixel.line.width);
         let (line, sample) = (WideLine { ends: [a, b], width }, pixel.sample());
+        if width == 0 {
+            return false;
+        }
         let of = |form| wide::covers(&line, form, sample, owns);
         if self.corners != CornerGrid::default() || matches!(self.caps, Caps::AlongX | Caps::AlongY)
         {
@@ -334,20 +344,18 @@ impl WideDrawn {
 
     /// Whether it has to be drawn, and whether it may be.
     pub(super) fn draws(&self, pixel: &WidePixel<'_>) -> [bool; 2] {
-        match self.gate {
-            LineGate::None if *self == Self::default() => pixel.right,
-            LineGate::Never => [false; 2],
-            LineGate::Always => [true; 2],
-            LineGate::None => match self.border.0 {
-                Some(rule) => {
-                    let ties: &Ties = &TIES[rule];
-                    [self.covers(pixel, &|out| ties.edges[facing(out)]); 2]
-                }
-                None => pixel
-                    .convention
-                    .of_border()
-                    .map(|rule| self.covers(pixel, &|out| rule.owns(out))),
-            },
+        match (self.gate, self.border.0) {
+            (LineGate::Never, _) => [false; 2],
+            (LineGate::Always, _) => [true; 2],
+            _ if Self { gate: LineGate::None, ..self.clone() } == Self::default() => pixel.right,
+            (_, Some(rule)) => {
+                let ties: &Ties = &TIES[rule];
+                [self.covers(pixel, &|out| ties.edges[facing(out)]); 2]
+            }
+            _ => {
+                let rules = pixel.convention.of_border();
+                rules.map(|rule| self.covers(pixel, &|out| rule.owns(out)))
+            }
         }
     }
 }
@@ -378,10 +386,17 @@ impl Stage for WideDrawn {
             for (x, &drawn) in (window.x0..).zip(row) {
                 let right = convention.expected_of_wide(line, form, [x, y]);
                 let spot = Spot { at: [x, y], is_clockwise: true, window };
-                let pixel = WidePixel { spot, line, convention, form, drawn: drawn > 0, right };
+                let pixel = WidePixel {
+                    spot,
+                    line,
+                    convention,
+                    form,
+                    hits: if declared.mask { drawn.min(1) } else { drawn },
+                    right,
+                };
                 let reach = f64::from(line.width) / 2.0 + AROUND;
                 // Nothing is drawn there by most of the mistakes.
-                if pixel.drawn || right[1] || pixel.outside().iter().all(|v| *v < reach) {
+                if pixel.hits > 0 || right[1] || pixel.outside().iter().all(|v| *v < reach) {
                     parts.push(pixel);
                 }
             }
@@ -391,7 +406,8 @@ impl Stage for WideDrawn {
 
     fn explains(&self, part: &WidePixel<'_>) -> bool {
         let [must, may] = self.draws(part);
-        if part.drawn { may } else { !must }
+        let times = if self.gate == LineGate::Twice { 2 } else { 1 };
+        if part.hits > 0 { may && part.hits == times } else { !must }
     }
 
     fn solved(&self, _: &[&WidePixel]) -> Vec<Self> {

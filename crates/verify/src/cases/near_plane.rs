@@ -29,6 +29,8 @@ pub const FAMILIES: &[Family] = &[
         wide::drawn,
     ),
     designed(facts::wide::TOPIC, "every two facts of a line with a width together"),
+    family("area", "triangles of which pixels have small, large and equal shares", shares),
+    designed(facts::area::TOPIC, "every two facts of the shares of pixels together"),
 ];
 
 /// Side of the window of a pile, in pixels.
@@ -110,6 +112,18 @@ fn near(rng: &mut Rng) -> Case {
         window: PixelRect::window(SIDE_PX, SIDE_PX),
         shape: Shape::Triangles { list, disjoint: true },
     }
+}
+
+/// Triangles of some pixels: those with corners on a coarse grid have shares that are simple fractions, others hardly touch a pixel.
+fn shares(rng: &mut Rng) -> Case {
+    let step = 1 << rng.int(0, 8);
+    let most = [2 << 8, 8 << 8, 12 << 8][rng.int(0, 2) as usize];
+    let vertices = [(); 3].map(|()| {
+        let [x, y] = [(); 2].map(|()| rng.int(-256, most) / step * step);
+        ScreenVertex { position: sub(x, y), depth: 0.0, inv_w: 1.0, varying: DVec2::ZERO }
+    });
+    let list = vec![ScreenTriangle { vertices }];
+    Case { window: PixelRect::window(12, 12), shape: Shape::Triangles { list, disjoint: true } }
 }
 
 /// A fan around a point near the border; some of them reach far beyond a guard band.

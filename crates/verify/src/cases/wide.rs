@@ -16,10 +16,12 @@ pub fn wide_line(triangle: &Triangle) -> WideLine {
     WideLine { ends: [a.position, b.position], width: width.max(1) }
 }
 
-/// Whether a case of `wide-line` has a width of whole subpixels, above 0.
+/// Whether a triangle is such a line: its third corner is the second, and its width is a whole number of subpixels above 0.
 #[must_use]
 pub fn has_width(triangle: &Triangle) -> bool {
-    triangle.vertices[0].depth * f64::from(SUBPIXELS) == f64::from(wide_line(triangle).width)
+    let [a, b, c] = triangle.vertices;
+    b.position == c.position
+        && a.depth * f64::from(SUBPIXELS) == f64::from(wide_line(triangle).width)
 }
 
 /// A line as a case.

@@ -32,6 +32,7 @@ use rasterproof_verify::learn::trial::{
     AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work, nearest,
 };
 
+use super::area::AreaDrawn;
 use super::families;
 use super::wide::WideDrawn;
 use crate::adapt_case;
@@ -109,6 +110,9 @@ pub fn learn(
         }
         Check::Wide => {
             Learner::<pixels::Pixels<WideDrawn>>::new(program, check, truth, most).learn()
+        }
+        Check::Area => {
+            Learner::<pixels::Pixels<AreaDrawn>>::new(program, check, truth, most).learn()
         }
         _ => None,
     }

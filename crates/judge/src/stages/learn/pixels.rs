@@ -4,11 +4,12 @@ use std::marker::PhantomData;
 
 use super::{Learnable, LearnedCase};
 use crate::declared::Declared;
-use crate::stages::search::{Stage, singles};
+use crate::stages::area::{AreaDrawn, AreaPixel};
+use crate::stages::search::{Spot, Stage, singles};
 use crate::stages::wide::{WideDrawn, WidePixel};
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::cases::facts::{Topic, wide};
-use rasterproof_verify::learn::rows::{Quantities, Unit};
+use rasterproof_verify::cases::facts::{Topic, area, wide};
+use rasterproof_verify::learn::rows::{Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
 /// A stage whose parts are pixels.
@@ -70,19 +71,7 @@ impl PixelStage for WideDrawn {
     const WHAT: &'static str = "lines with a width";
 
     fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
-        let [column, row] = pixel.spot.at.map(i64::from);
-        out.number(Unit::Count, column, &["the column"]);
-        out.number(Unit::Count, row, &["the row"]);
-        out.number(
-            Unit::Count,
-            i64::from(pixel.spot.window.x1) - 1 - column,
-            &["the number of columns to the right of it"],
-        );
-        out.number(
-            Unit::Count,
-            i64::from(pixel.spot.window.y1) - 1 - row,
-            &["the number of rows below it"],
-        );
+        of_spot(&pixel.spot, out);
         let [beside, beyond] = pixel.outside().map(|v| v.ceil() as i64);
         out.number(
             Unit::Subpixels,
@@ -96,4 +85,29 @@ impl PixelStage for WideDrawn {
         );
         out.flag(pixel.right[0], &["the pixel is covered"], "the pixel is not covered");
     }
+}
+
+impl PixelStage for AreaDrawn {
+    const TOPIC: Topic = area::TOPIC;
+    const WHAT: &'static str = "the share of a pixel";
+
+    fn of_pixel(pixel: &AreaPixel<'_>, out: &mut Quantities) {
+        of_spot(&pixel.spot, out);
+        out.number(Unit::Value, value(pixel.share), &["the share of the pixel"]);
+        out.flag(
+            pixel.share >= 1.0,
+            &["the pixel is covered whole"],
+            "the pixel is not covered whole",
+        );
+    }
+}
+
+/// Where a pixel lies in its window.
+fn of_spot(spot: &Spot, out: &mut Quantities) {
+    let [column, row] = spot.at.map(i64::from);
+    let [right, below] = [spot.window.x1, spot.window.y1].map(|end| i64::from(end) - 1);
+    out.number(Unit::Count, column, &["the column"]);
+    out.number(Unit::Count, row, &["the row"]);
+    out.number(Unit::Count, right - column, &["the number of columns to the right of it"]);
+    out.number(Unit::Count, below - row, &["the number of rows below it"]);
 }
