@@ -123,7 +123,11 @@ fn shares(rng: &mut Rng) -> Case {
         ScreenVertex { position: sub(x, y), depth: 0.0, inv_w: 1.0, varying: DVec2::ZERO }
     });
     let list = vec![ScreenTriangle { vertices }];
-    Case { window: PixelRect::window(12, 12), shape: Shape::Triangles { list, disjoint: true } }
+    let [width, height] = [(); 2].map(|()| rng.int(6, 12) as u32);
+    Case {
+        window: PixelRect::window(width, height),
+        shape: Shape::Triangles { list, disjoint: true },
+    }
 }
 
 /// A fan around a point near the border; some of them reach far beyond a guard band.

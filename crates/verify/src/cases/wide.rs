@@ -69,7 +69,8 @@ pub(super) fn tied(rng: &mut Rng, window: PixelRect) -> WideLine {
 
 /// Lines as they are hard to draw: ties, thin ones, and long ones across the border of the window.
 pub(super) fn drawn(rng: &mut Rng) -> Case {
-    let window = PixelRect::window(16, 16);
+    let [width, height] = [(); 2].map(|()| rng.int(5, 16) as u32);
+    let window = PixelRect::window(width, height);
     let side = 16 * i64::from(SUBPIXELS);
     if rng.chance(2) {
         return case_of(window, &tied(rng, window));
