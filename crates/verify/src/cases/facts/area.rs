@@ -26,6 +26,7 @@ const BITS: Test = Test::Steps(&[1, 2, 5]);
 const SIDES: Test = Test::Steps(&[2, 3, 9]);
 const PLACE: Test = Test::Choice(&["inside", "outside"]);
 const PIXELS: Test = Test::Steps(&[1, 2, 9]);
+const WHETHER: Test = Test::Steps(&[1]);
 const SLOPE: Test = Test::Steps(&[0, 4, 8]);
 
 /// The facts that the design covers.
@@ -45,10 +46,15 @@ const FACTS: [Read<AreaFacts>; 21] = [
     fact("the width of the window in pixels", Unit::Count, |m| m.form.window[0], Test::Divisor),
     fact("pixels that it covers whole", Unit::Count, |m| m.whole, PIXELS),
     fact("pixels that it covers in part", Unit::Count, |m| m.partly, PIXELS),
-    fact("pixels of which it covers less than 1/510", Unit::Count, |m| m.hardly, PIXELS),
-    fact("pixels of which it covers all but 1/510", Unit::Count, |m| m.almost, PIXELS),
-    fact("pixels of which it covers exactly half", Unit::Count, |m| m.half, PIXELS),
-    fact("pixels of which it covers more than half and not all", Unit::Count, |m| m.mostly, PIXELS),
+    fact("pixels of which it covers less than 1/510", Unit::Count, |m| m.hardly, WHETHER),
+    fact("pixels of which it covers all but 1/510", Unit::Count, |m| m.almost, WHETHER),
+    fact("pixels of which it covers exactly half", Unit::Count, |m| m.half, WHETHER),
+    fact(
+        "pixels of which it covers more than half and not all",
+        Unit::Count,
+        |m| m.mostly,
+        WHETHER,
+    ),
     fact("columns to a row of the most level edge", Unit::Doublings, |m| m.form.levelest, SLOPE),
     fact("rows to a column of the steepest edge", Unit::Doublings, |m| m.form.steepest, SLOPE),
 ];
@@ -102,8 +108,10 @@ fn fitted(rng: &mut Rng, mut case: Case) -> Case {
     case.window = PixelRect { x1: x1.min(MOST_PX), y1: y1.min(MOST_PX), ..case.window };
     let corner = [case.window.x1, case.window.y1]
         .map(|side| rng.coordinate(0, i64::from(side) - 1) * SUBPIXELS);
-    let way = rng.int(0, 8);
+    let way = rng.int(0, 14);
     let small = rng.coordinate(1, 16);
+    let side = 20 * SUBPIXELS;
+    let coarse = 1 << rng.int(0, 8);
     let [far, axis] = [rng.coordinate(1, 8) * SUBPIXELS, rng.coordinate(0, 1)];
     let Shape::Triangles { list, .. } = &mut case.shape else { return case };
     let points = match way {
@@ -115,8 +123,21 @@ fn fitted(rng: &mut Rng, mut case: Case) -> Case {
         2 => [[0, 0], [far, 0], [0, far]],
         // A sliver along the side of pixels.
         3 => [[0, 0], [far, 0], [far, small]],
+        // Exactly half of a pixel, by a triangle that is narrower than one.
+        4 => [[0, 0], [192, 0], [0, 384]],
+        // All of one pixel, and hardly anything of many below it.
+        5 => [[0, 256], [0, -26], [side, 257]],
+        // Exactly half of many, and hardly anything of many others.
+        6 => [[side, 0], [0, side], [side, side + 1]],
+        // Without area, along a column or a row of the lattice.
+        7 => [[small * coarse, 0], [small * coarse, far], [small * coarse, 2 * far + small]],
         _ => return case,
     };
+    let is_large = way == 5 || way == 6;
+    if is_large {
+        case.window = PixelRect::window(rng.int(20, 24) as u32, rng.int(2, 24) as u32);
+    }
+    let corner = if is_large { [0, 0] } else { corner };
     for (vertex, [x, y]) in list[0].vertices.iter_mut().zip(points) {
         let [x, y] = if axis == 0 { [x, y] } else { [y, x] };
         vertex.position = SubpixelPoint::new(corner[0] + x, corner[1] + y);

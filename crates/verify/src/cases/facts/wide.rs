@@ -204,7 +204,8 @@ fn draw(rng: &mut Rng) -> Case {
     case_of(window, &line)
 }
 
-/// Gives some lines what hardly any has by chance: a direction along an axis, a diagonal, a length of 0, a sample on the border.
+/// Gives some lines what hardly any has by chance: a direction along an axis, a diagonal, a length of 0, a sample on the border, a width
+/// that is the longer extent.
 fn adjust(rng: &mut Rng, line: &mut WideLine, window: PixelRect) {
     let [a, b] = line.ends;
     let half = line.width / 2;
@@ -233,6 +234,12 @@ fn adjust(rng: &mut Rng, line: &mut WideLine, window: PixelRect) {
         // Nearly level, or nearly upright.
         8 => line.ends[1].y = saturated(i64::from(a.y) + rng.int(-PX, PX)),
         9 => line.ends[1].x = saturated(i64::from(a.x) + rng.int(-PX, PX)),
+        10 => {
+            let most = i64::from(MOST_PX) * PX;
+            let [dx, dy] = [(); 2].map(|()| rng.coordinate(-most, most));
+            line.ends[1] = SubpixelPoint::new(a.x.saturating_add(dx), a.y.saturating_add(dy));
+            line.width = dx.abs().max(dy.abs()).max(1);
+        }
         _ => {}
     }
 }
