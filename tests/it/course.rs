@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::Command;
 
 use rasterproof_judge::in_process::Inside;
 use rasterproof_registry::engines::find_planted;

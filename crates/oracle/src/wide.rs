@@ -83,10 +83,11 @@ mod tests {
         let wide = line([[0, 0], [8, 0]], 4);
         let asked = |at| {
             let out = std::cell::RefCell::new(Vec::new());
-            covers(&wide, WideForm::Rectangle, at, &|facing| {
+            let covered = covers(&wide, WideForm::Rectangle, at, &|facing| {
                 out.borrow_mut().push(facing.map(i64::signum));
                 true
             });
+            assert!(covered);
             out.into_inner()
         };
         assert_eq!(asked([4, -2]), [[0, -1]]);
