@@ -147,6 +147,7 @@ impl Gpu {
             | Asked::Near(_)
             | Asked::Carried(_)
             | Asked::Wide(_)
+            | Asked::Area(_)
             | Asked::Polygon(_) => {
                 return None;
             }
@@ -217,6 +218,7 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
         | Asked::Near(_)
         | Asked::Carried(_)
         | Asked::Wide(_)
+        | Asked::Area(_)
         | Asked::Polygon(_) => return None,
     })
 }
