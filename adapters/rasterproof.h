@@ -60,6 +60,10 @@ typedef void (*rasterproof_add_carried)(double x, double y, double z, double w, 
 typedef void (*rasterproof_clip_attributes)(const struct rasterproof_carried_corner corners[3],
                                             rasterproof_add_carried add_corner);
 
+/* Draws every pixel of a line with a width, from one position to another, all in pixels. */
+typedef void (*rasterproof_wide_line)(double x0, double y0, double x1, double y1, double line_width,
+                                      int width, int height, rasterproof_set_pixel set_pixel);
+
 /* What the program draws; what is NULL it has not got. */
 struct rasterproof_drawers {
     rasterproof_triangle triangle;
@@ -69,6 +73,9 @@ struct rasterproof_drawers {
     rasterproof_depth depth;
     rasterproof_clip clip;
     rasterproof_clip_attributes clip_attributes;
+    rasterproof_wide_line wide_line;
+    /* The share of each pixel that is covered: the mask is a level, and 255 a pixel that is covered whole. */
+    rasterproof_samples area;
 };
 
 enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
@@ -208,7 +215,7 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
     const char verb = words[0][0];
     /* Of each corner the first two numbers are positions. */
     const int size = verb == 'I' ? 6 : verb == 'D' ? 3 : 2;
-    int i, numbers = verb == 'I' ? 18 : verb == 'L' ? 4 : 6;
+    int i, numbers = verb == 'I' ? 18 : verb == 'L' ? 4 : verb == 'W' ? 5 : 6;
     if (verb == 'D') numbers = count < 13 ? 9 : (count - 4) / 9 * 9;
     if (high && (high = strchr(high, 'x')) != NULL) most_high = strtod(high + 1, NULL);
     if (count != numbers + 4) {
@@ -226,7 +233,7 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
         return reason;
     }
     for (i = 2; i < numbers + 2; i++) {
-        if ((i - 2) % size > 1) {
+        if (verb == 'W' ? i == 6 : (i - 2) % size > 1) {
             if (!(fabs(v[i]) <= 1.7976931348623157e308)) return "a value is not a number";
             continue;
         }
@@ -239,8 +246,10 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
     rasterproof_plane.height = (int)v[1];
     if (verb == 'T')
         drawers->triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
-    else if (verb == 'S')
-        drawers->samples(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
+    else if (verb == 'W')
+        drawers->wide_line(v[2], v[3], v[4], v[5], v[6], (int)v[0], (int)v[1], rasterproof_hit_pixel);
+    else if (verb == 'S' || verb == 'R')
+        (verb == 'S' ? drawers->samples : drawers->area)(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
     else if (verb == 'D') {
         struct rasterproof_point triangles[RASTERPROOF_MOST_TRIANGLES][3];
         for (i = 0; i < numbers / 3; i++) {
@@ -293,9 +302,10 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     int is_known = !verb[1] && ((verb[0] == 'T' && drawers->triangle) || (verb[0] == 'L' && drawers->line) ||
                                 (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
                                 (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip) ||
-                                (verb[0] == 'A' && drawers->clip_attributes));
+                                (verb[0] == 'A' && drawers->clip_attributes) || (verb[0] == 'W' && drawers->wide_line) ||
+                                (verb[0] == 'R' && drawers->area));
     if (strcmp(verb, "HELLO") == 0) {
-        char known[80] = "";
+        char known[100] = "";
         if (drawers->triangle) strcat(known, " coverage");
         if (drawers->line) strcat(known, " line");
         if (drawers->values) strcat(known, " attributes");
@@ -303,6 +313,8 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         if (drawers->depth) strcat(known, " depth");
         if (drawers->clip) strcat(known, " clip");
         if (drawers->clip_attributes) strcat(known, " clip-attributes");
+        if (drawers->wide_line) strcat(known, " wide-line");
+        if (drawers->area) strcat(known, " area");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -313,10 +325,11 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     if (is_known && (verb[0] == 'N' || verb[0] == 'A')) wrong = rasterproof_cut(words, count, drawers);
     else if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
-    else if (verb[0] == 'T') rasterproof_write_runs(out, id);
+    else if (verb[0] == 'T' || verb[0] == 'W') rasterproof_write_runs(out, id);
     else if (verb[0] == 'I') rasterproof_write_values(out, id);
     else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);
     else if (verb[0] == 'D') rasterproof_write_marked(out, 'V', id);
+    else if (verb[0] == 'R') rasterproof_write_marked(out, 'K', id);
     else if (verb[0] == 'N' || verb[0] == 'A') rasterproof_write_polygon(out, id, verb[0] == 'A');
     else rasterproof_write_line(out, id);
 }
@@ -343,7 +356,7 @@ static int rasterproof_serve_all(const char *name, const char *declares, struct 
 
 /* The same for a program that draws triangles and lines alone. */
 static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
-    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL};
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
     return rasterproof_serve_all(name, declares, drawers);
 }
 

@@ -44,8 +44,10 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
         set_pixel(math.floor(x0 + dx * i / max(steps, 1) + 0.5), math.floor(y0 + dy * i / max(steps, 1) + 0.5))
 
 
-# What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them.
-values = samples = depth = clip = clip_attributes = None
+# What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them. And verb W:
+# wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel), set_pixel(x, y) for every pixel of a line with a width. And verb R:
+# area, as triangle, with set_pixel(x, y, level), where 255 is a pixel that is covered whole.
+values = samples = depth = clip = clip_attributes = wide_line = area = None
 
 
 # ---- the line protocol: nothing to change from here on ----
@@ -94,10 +96,11 @@ def number(word, is_coordinate=True):
 
 def answer(words):
     verb, id = words[0], words[1] if len(words) > 1 else "-"
+    wide, shares = (globals().get(name) for name in ("wide_line", "area"))
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
         more = {"attributes": values, "samples4": samples, "depth": depth, "clip": clip}
-        more["clip-attributes"] = clip_attributes
+        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares})
         known += "".join(f" {word}" for word, has in more.items() if has is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
@@ -106,6 +109,7 @@ def answer(words):
         }.get(tuple(words[1:]), "E - say HELLO 1 or HELLO 2")
     verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
     verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G"), "A": (clip_attributes, 15, "B")})
+    verbs.update({"W": (wide, 5, "C"), "R": (shares, 6, "K")})
     draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
@@ -119,7 +123,7 @@ def answer(words):
         # Of each corner the first two are coordinates of the window.
         size = {"I": 6, "D": 3}.get(verb, 2)
         numbers = [number(word, verb not in "NA" and i % size < 2) for i, word in enumerate(words[first:])]
-        if verb == "T":
+        if verb in "TW":
             found = runs(drawn(draw, numbers, *sides))
         elif verb == "I":
             hits = drawn(draw, [[numbers[0:6], numbers[6:12], numbers[12:18]]], *sides)
@@ -134,7 +138,7 @@ def answer(words):
             found = [tuple(map(float, corner)) for corner in draw(corners)]
             if any(len(corner) != size for corner in found):
                 raise Refused("a corner of the polygon has x, y, z, w" + ", a" * (verb == "A"))
-        elif verb == "S":
+        elif verb in "SR":
             found = [(y, x, x + 1, operator.index(mask)) for y, x, mask in drawn(draw, numbers, *sides) if mask]
         else:
             found = [(x, y) for y, x in drawn(draw, [math.floor(n) for n in numbers], *sides)]

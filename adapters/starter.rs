@@ -61,11 +61,14 @@ fn line(
 }
 
 // What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them.
+// And verb W, a line with a width, and verb R, whose masks are levels: 255 is a pixel that is covered whole.
 const VALUES: Option<Values> = None;
 const SAMPLES: Option<Samples> = None;
 const DEPTH: Option<Depth> = None;
 const CLIP: Option<Clip<4>> = None;
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
+const WIDE_LINE: Option<WideLine> = None;
+const AREA: Option<Samples> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -88,6 +91,9 @@ type Depth = fn(
 );
 /// Three corners x, y, z, w of clip space, and with `N` of 5 an attribute; the corners of what z >= -w leaves of them.
 type Clip<const N: usize> = fn(corners: [[f64; N]; 3]) -> Vec<[f64; N]>;
+/// Both ends and the width of a line in pixels; set_pixel(x, y) for every pixel drawn.
+type WideLine =
+    fn(ends: [(f64, f64); 2], line_width: f64, width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32));
 
 const MOST_BYTES: usize = 65536;
 const MOST_SIDE: i32 = 1024;
@@ -156,6 +162,7 @@ fn draw(words: &[&str]) -> Result<String, String> {
     }
     let count = match verb {
         "L" => 4,
+        "W" => 5,
         "I" => 18,
         "D" => (words.len().saturating_sub(4) / 9).max(1) * 9,
         _ => 6,
@@ -184,6 +191,12 @@ fn draw(words: &[&str]) -> Result<String, String> {
             triangle(corners, width, height, &mut |x, y| set(x, y, ()));
         })?;
         ("C", runs(hits).into_iter().map(|run| run.map(f64::from).to_vec()).collect())
+    } else if let ("W", Some(wide)) = (verb, WIDE_LINE) {
+        let ends = [point(0), point(1)];
+        let hits = drawn(width, height, |set| {
+            wide(ends, v[4], width, height, &mut |x, y| set(x, y, ()));
+        })?;
+        ("C", runs(hits).into_iter().map(|run| run.map(f64::from).to_vec()).collect())
     } else if let ("I", Some(values)) = (verb, VALUES) {
         let corner = |i: usize| std::array::from_fn(|n| v[6 * i + n]);
         let corners = [corner(0), corner(1), corner(2)];
@@ -197,11 +210,11 @@ fn draw(words: &[&str]) -> Result<String, String> {
         let group =
             |(y, x, t): (i32, i32, usize)| vec![y.into(), x.into(), (x + 1).into(), t as f64];
         ("V", hits.into_iter().map(group).collect())
-    } else if let ("S", Some(samples)) = (verb, SAMPLES) {
+    } else if let ("S", Some(samples)) | ("R", Some(samples)) = (verb, if verb == "S" { SAMPLES } else { AREA }) {
         let hits = drawn(width, height, |set| samples(corners, width, height, set))?;
         let group =
             |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
-        ("M", hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
+        (if verb == "S" { "M" } else { "K" }, hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
     } else {
         let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
         let (from, to) = (pixel(0), pixel(2));
@@ -241,7 +254,7 @@ fn reply(letter: &str, id: &str, groups: &[Vec<f64>]) -> String {
 fn answer(words: &[&str]) -> String {
     let more = [VALUES.is_some(), SAMPLES.is_some(), DEPTH.is_some(), CLIP.is_some()];
     let [values, samples, depth, clip] = more;
-    let carries = CLIP_ATTRIBUTES.is_some();
+    let (carries, wide, area) = (CLIP_ATTRIBUTES.is_some(), WIDE_LINE.is_some(), AREA.is_some());
     let has = [
         (HAS_LINES, " line"),
         (values, " attributes"),
@@ -249,6 +262,8 @@ fn answer(words: &[&str]) -> String {
         (depth, " depth"),
         (clip, " clip"),
         (carries, " clip-attributes"),
+        (wide, " wide-line"),
+        (area, " area"),
     ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
@@ -261,7 +276,7 @@ fn answer(words: &[&str]) -> String {
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         [verb, ..]
-            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries)]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area)]
                 .contains(&(*verb, true)) =>
         {
             draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))

@@ -37,4 +37,6 @@ static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corne
 
 // To be judged with attributes, too, let it be a function of rasterproof_carried_corner (step 7).
 static const rasterproof_clip_attributes clip_attributes = nullptr;
+static const rasterproof_wide_line wide_line = nullptr;
+static const rasterproof_samples area = nullptr;
 

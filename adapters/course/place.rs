@@ -7,6 +7,8 @@ const DEPTH: Option<Depth> = Some(depth);
 const CLIP: Option<Clip<4>> = Some(clip);
 /// To be judged with attributes, too, let it be a function of corners x, y, z, w, a (step 7).
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
+const WIDE_LINE: Option<WideLine> = None;
+const AREA: Option<Samples> = None;
 
 /// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a).
 fn line(

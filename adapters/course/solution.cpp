@@ -115,6 +115,9 @@ static void depth(const rasterproof_point (*triangles)[3], int count, int width,
             if (seen[size_t(y) * width + x] >= 0) set_pixel(x, y, seen[size_t(y) * width + x]);
 }
 
+static const rasterproof_wide_line wide_line = nullptr;
+static const rasterproof_samples area = nullptr;
+
 static void clip_attributes(const rasterproof_carried_corner corners[3], rasterproof_add_carried add_corner) {
     for (int i = 0; i < 3; i++) {
         const rasterproof_carried_corner a = corners[i], b = corners[(i + 1) % 3];

@@ -77,6 +77,8 @@ const SAMPLES: Option<Samples> = Some(samples);
 const DEPTH: Option<Depth> = Some(depth);
 const CLIP: Option<Clip<4>> = Some(clip);
 const CLIP_ATTRIBUTES: Option<Clip<5>> = Some(clip);
+const WIDE_LINE: Option<WideLine> = None;
+const AREA: Option<Samples> = None;
 
 fn line(
     from: (i32, i32),

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::Command;
 
 use rasterproof_judge::in_process::Inside;
 use rasterproof_registry::engines::find_planted;
@@ -13,7 +12,7 @@ use rasterproof_teaching::course::misconceptions;
 use rasterproof_teaching::course::show;
 use serde::Deserialize;
 
-use crate::program::{Folder, PROGRAM, Run, Words};
+use crate::program::{Folder, PROGRAM, Run, Words, has};
 use crate::snapshots::check_picture;
 
 /// Runs a command of the course; its lines fit a terminal.
@@ -30,10 +29,6 @@ fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
     let mut lines = shown.lines().filter(is_text);
     assert!(lines.all(|line| line.chars().count() <= 100), "{run}");
     run
-}
-
-pub fn has(program: &str) -> bool {
-    Command::new(program).arg("--version").output().is_ok()
 }
 
 /// What a student is given says HELLO, draws nothing, and is not written over.

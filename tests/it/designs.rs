@@ -203,12 +203,15 @@ fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
     let drawn = all.filter(|family| family.design().is_none());
     let chosen = drawn.filter(|family| {
         let name = family.name;
-        let is_of_stages = ["depth-order", "depth-near-tie", "near-plane"].contains(&name);
+        let is_of_stages =
+            ["depth-order", "depth-near-tie", "near-plane", "wide-line", "area"].contains(&name);
         match design {
             "line-design" => name.starts_with("line-"),
             "w-design" => name.starts_with("w-"),
             "depth-design" => name.starts_with("depth-"),
             "near-design" => name == "near-plane",
+            "wide-line-design" => name == "wide-line",
+            "area-design" => name == "area",
             "mesh-design" => ["rectangle", "fan", "strip", "mesh-border"].contains(&name),
             _ => !is_of_stages && !name.starts_with("line-") && !name.starts_with("w-"),
         }

@@ -80,6 +80,7 @@ mod tiled;
 mod tiles;
 mod tolerances;
 mod transcripts;
+mod verbs;
 mod watch;
 mod workspace;
 mod writers;

@@ -14,9 +14,8 @@ use rasterproof_core::triangle::{
 use rasterproof_verify::comparison::tolerance::{Bound, Tolerance};
 use rasterproof_verify::comparison::{Options, judge_coverage, judge_values};
 
-use crate::course::has;
 use crate::pages::{read, root};
-use crate::program::Folder;
+use crate::program::{Folder, has};
 use crate::snapshots::{check_picture, each};
 
 /// A module for each stage, of its own file and of all those before it.

@@ -143,6 +143,11 @@ pub fn table<const N: usize>(name: &str) -> Vec<[String; N]> {
     text.lines().filter(|line| !line.starts_with('#')).map(row).collect()
 }
 
+/// Whether a compiler or an interpreter is installed.
+pub fn has(tool: &str) -> bool {
+    Command::new(tool).arg("--version").output().is_ok_and(|said| said.status.success())
+}
+
 /// The step through a long list: each of its items is tried where `.ci/run --all` asks for that, which it does every night,
 /// and otherwise every `step`-th.
 pub fn every(step: usize) -> usize {

@@ -1,9 +1,9 @@
 //! The tests that `judge --write-test` writes run in four languages, fail with the program that was judged and pass with one that is
 //! mended. A language whose tool is missing is skipped.
 
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use crate::program::{Folder, PROGRAM, Run};
+use crate::program::{Folder, PROGRAM, Run, has};
 
 /// How tests of a language are written and run.
 struct Language {
@@ -64,12 +64,6 @@ fn filled(text: &str, bodies: &str, word: &str) -> String {
         text.replace(stub, body.trim_end())
     };
     bodies.replace("MENDED", word).split("=====\n").fold(text.to_owned(), fill)
-}
-
-fn has(tool: &str) -> bool {
-    let mut command = Command::new(tool);
-    let quiet = command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
-    quiet.status().is_ok_and(|status| status.success())
 }
 
 fn run(folder: &Folder, words: &[&str], file: &str) -> Run {

@@ -302,3 +302,24 @@ pub struct ScreenLine<V> {
     /// First and last pixel.
     pub ends: [LineEnd<V>; 2],
 }
+
+/// A line segment with a width, which is filled like a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WideLine {
+    /// Where it starts and ends.
+    pub ends: [SubpixelPoint; 2],
+    /// Its width in subpixels, above 0.
+    pub width: i32,
+}
+
+crate::named! {
+    /// The shape of a wide line.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum WideForm {
+        /// A rectangle about the segment, cut off at right angles at its ends: the strict lines of Vulkan.
+        #[default]
+        Rectangle = "rectangle",
+        /// As wide as that along the shorter axis, along which it is cut off, too: the lines of Vulkan that are not strict.
+        Parallelogram = "parallelogram",
+    }
+}

@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::declared::Declared;
 use super::text::{Words, printable, px};
 use rasterproof_core::grid::SubpixelPoint;
-use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
+use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span, WideLine};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::partition::{self, Polygon};
@@ -46,6 +46,10 @@ pub enum Asked {
     Near(Triangle),
     /// A: the same, with an attribute that new corners get as well.
     Carried(Triangle),
+    /// R: the shares of pixels that a triangle covers.
+    Area(Corners),
+    /// W: the pixels of a line with a width.
+    Wide(WideLine),
     /// Y: the triangles of a polygon; the window has no part in it.
     Polygon(Polygon),
 }
@@ -61,6 +65,8 @@ impl Asked {
             Self::Depth(_) => b"DV",
             Self::Near(_) => b"NG",
             Self::Carried(_) => b"AB",
+            Self::Wide(_) => b"WC",
+            Self::Area(_) => b"RK",
             Self::Polygon(_) => b"YZ",
         }
     }
@@ -78,6 +84,8 @@ pub enum Answer {
     Line(Vec<(i32, i32)>),
     /// V: runs of pixels, with the number of the triangle that is seen there.
     Seen(Vec<(Span, u8)>),
+    /// K: runs of pixels, with the level of each.
+    Area(Vec<(Span, u8)>),
     /// G: corners of a polygon, their attributes 0.
     Polygon(Vec<ClipCorner>),
     /// B: corners of a polygon with attributes.
@@ -107,7 +115,7 @@ impl Answer {
         let is_backward = |run: &Span| run.x1_px < run.x0_px;
         match self {
             Self::Coverage(runs) => runs.iter().copied().find(is_backward),
-            Self::Samples(runs) | Self::Seen(runs) => {
+            Self::Samples(runs) | Self::Seen(runs) | Self::Area(runs) => {
                 runs.iter().map(|(run, _)| *run).find(is_backward)
             }
             Self::Two(both) => both.iter().find_map(Self::backward_run),
@@ -120,7 +128,7 @@ impl Answer {
         match self {
             Self::Coverage(runs) => runs.is_empty(),
             Self::Values(fragments) => fragments.is_empty(),
-            Self::Samples(runs) | Self::Seen(runs) => runs.is_empty(),
+            Self::Samples(runs) | Self::Seen(runs) | Self::Area(runs) => runs.is_empty(),
             Self::Line(pixels) => pixels.is_empty(),
             Self::Polygon(corners) | Self::Carried(corners) => corners.is_empty(),
             Self::Triangles(triangles) => triangles.is_empty(),
@@ -280,7 +288,7 @@ impl Question {
         };
         let at = |p: SubpixelPoint| [px(p.x), px(p.y)];
         match &self.of {
-            Asked::Coverage(corners) | Asked::Samples(corners) => {
+            Asked::Coverage(corners) | Asked::Samples(corners) | Asked::Area(corners) => {
                 corners.iter().for_each(|p| add(&at(*p)));
             }
             Asked::Values(triangle) => {
@@ -292,6 +300,10 @@ impl Question {
             Asked::Line { ends, whole } => {
                 let centre = if *whole { 0.0 } else { 0.5 };
                 ends.iter().for_each(|p| add(&[p.x, p.y].map(|px| f64::from(px) + centre)));
+            }
+            Asked::Wide(line) => {
+                line.ends.iter().for_each(|p| add(&at(*p)));
+                add(&[px(line.width)]);
             }
             Asked::Depth(list) => {
                 for v in list.iter().flat_map(|triangle| &triangle.vertices) {
@@ -333,23 +345,24 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
-        let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_));
+        let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_) | Asked::Wide(_));
         if letter != self.of.letters()[1] && !has_hits {
             return Err("its letter does not belong to the request");
         }
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
         let answer = match self.of {
-            Asked::Coverage(_) if has_hits => {
+            Asked::Coverage(_) | Asked::Wide(_) if has_hits => {
                 let mut runs = Vec::new();
                 for (run, hits) in each(n, words, marked)? {
                     runs.extend(iter::repeat_n(run, usize::from(hits)));
                 }
                 Answer::Coverage(runs)
             }
-            Asked::Coverage(_) => Answer::Coverage(each(n, words, span)?),
+            Asked::Coverage(_) | Asked::Wide(_) => Answer::Coverage(each(n, words, span)?),
             Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
             Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
             Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
+            Asked::Area(_) => Answer::Area(each(n, words, marked)?),
             Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
             Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
                 Some([w.float()?, w.float()?, w.float()?, w.float()?, 0.0])
@@ -426,6 +439,9 @@ pub fn line(answer: &Answer, id: u64) -> String {
         }
         Answer::Seen(runs) => {
             list('V', runs.iter().map(|(s, of)| format!("{} {of}", run(s))).collect())
+        }
+        Answer::Area(runs) => {
+            list('K', runs.iter().map(|(s, level)| format!("{} {level}", run(s))).collect())
         }
         Answer::Polygon(corners) => {
             list('G', corners.iter().map(|[x, y, z, w, _]| format!("{x} {y} {z} {w}")).collect())

@@ -10,20 +10,22 @@ use super::ask::{Answer, Asked, Question};
 use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
-use super::judged::CaseJudgement;
-use super::pixels::{length, masks_of, mesh_of, picture_of, pixel_of};
-use super::{difference, mesh, near_plane, outline};
+use super::judged::{CaseJudgement, push};
+use super::pixels::{length, masks_of, mesh_of, painted, picture_of, pixel_of};
+use super::{adapt_case, difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::facts;
-use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
+use rasterproof_verify::cases::wide::{has_width, wide_line};
+use rasterproof_verify::cases::{Case, Family, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
 use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::area::share;
 use rasterproof_verify::oracle::values::Exact;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
@@ -43,6 +45,10 @@ pub enum Check {
     Near,
     /// The attributes of these corners, too.
     Carried,
+    /// Each line with a width against the expected picture.
+    Wide,
+    /// The share of each pixel that a triangle covers, against the exact one.
+    Area,
     /// A triangle with its vertices in another order against itself.
     Order,
     /// A mesh has no holes and no doubles.
@@ -93,6 +99,7 @@ rasterproof_core::named! {
         Changes = "pixels that differ",
         Meshes = "holes and doubles of meshes",
         Outlines = "pixels that contradict the outline",
+        Levels = "pixels of a wrong level",
     }
 }
 
@@ -101,6 +108,9 @@ impl CaseJudgement {
         let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
             parts.push(format!("a value off by {:.3e} times the tolerance", self.finding.worst()));
+        }
+        if self.steps_off > 0.0 {
+            parts.push(format!("the largest difference is {:.2} steps", self.steps_off));
         }
         if self.refused > 0 {
             parts.push(format!("{} refused ({})", self.refused, self.reason));
@@ -120,13 +130,14 @@ impl Check {
     #[must_use]
     pub fn counted(self) -> Counted {
         match self {
-            Self::Coverage | Self::Line | Self::Values => Counted::Pixels,
+            Self::Coverage | Self::Line | Self::Values | Self::Wide => Counted::Pixels,
             Self::Samples => Counted::Samples,
             Self::Depth => Counted::Seen,
             Self::Near | Self::Carried => Counted::Corners,
             Self::Order | Self::Direction => Counted::Changes,
             Self::Watertight => Counted::Meshes,
             Self::Outline => Counted::Outlines,
+            Self::Area => Counted::Levels,
         }
     }
 
@@ -149,6 +160,11 @@ impl Check {
             Self::Samples => {
                 vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
             }
+            Self::Area => vec![
+                (missing, "of a level that is too small"),
+                (extra, "of a level that is too large"),
+                (twice, "twice"),
+            ],
             Self::Near => vec![
                 (missing, "corners missing"),
                 (extra, "corners that are not there"),
@@ -165,7 +181,7 @@ impl Check {
                 (twice, "twice"),
                 (order, "show what lies behind"),
             ],
-            Self::Coverage | Self::Line | Self::Values => vec![
+            Self::Coverage | Self::Line | Self::Values | Self::Wide => vec![
                 (missing, "missing"),
                 (extra, "extra"),
                 (twice, "twice"),
@@ -196,21 +212,27 @@ impl Check {
     #[must_use]
     pub fn fits(self, case: &Case) -> bool {
         match &case.shape {
-            Shape::Triangles { disjoint, .. } => self != Self::Watertight || *disjoint,
+            Shape::Triangles { disjoint, list } => match self {
+                Self::Watertight => *disjoint,
+                Self::Wide => list.iter().all(has_width),
+                _ => true,
+            },
             _ => self != Self::Watertight,
         }
     }
 
     /// Whether each answer is compared with an expected one, not with others.
     pub(super) fn is_one_by_one(self) -> bool {
-        use Check::{Carried, Coverage, Depth, Line, Near, Values};
-        matches!(self, Coverage | Line | Values | Depth | Near | Carried)
+        use Check::{Area, Carried, Coverage, Depth, Line, Near, Values, Wide};
+        matches!(self, Coverage | Line | Values | Depth | Near | Carried | Wide | Area)
     }
 
     /// Its name as a property: of checks that a family is made for, the name of that family.
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
-            Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
+            Self::Coverage | Self::Line | Self::Depth | Self::Near | Self::Wide | Self::Area => {
+                family
+            }
             Self::Values => "values",
             Self::Carried => "clip-attributes",
             Self::Samples => "samples4",
@@ -229,37 +251,56 @@ impl Check {
         checks
     }
 
+    /// The declared ones of the checks that a family is made for; nothing of the families of triangles and lines, whose cases have
+    /// several.
+    fn made_for(family: &str, declared: &Declared) -> Option<Vec<Self>> {
+        let is_sampled = declared.shape == declared::Shape::Sample;
+        let all = match family {
+            _ if family.starts_with("depth-") => vec![(Self::Depth, declared.depth)],
+            _ if ["near-plane", facts::near::TOPIC.name].contains(&family) => {
+                vec![(Self::Near, declared.clip), (Self::Carried, declared.clip_attributes)]
+            }
+            _ if family.starts_with("area") => vec![(Self::Area, declared.area && is_sampled)],
+            _ if family.starts_with("wide-line") => {
+                vec![(Self::Wide, declared.wide_line && is_sampled)]
+            }
+            _ if family == facts::samples::TOPIC.name => {
+                vec![(Self::Samples, declared.answers_samples())]
+            }
+            _ => return None,
+        };
+        Some(
+            all.into_iter()
+                .filter(|(_, is_declared)| *is_declared)
+                .map(|(check, _)| check)
+                .collect(),
+        )
+    }
+
+    /// Whether a program that declares this is asked any case of a family. Those of a design take time to choose.
+    #[must_use]
+    pub fn asks(family: &Family, declared: &Declared) -> bool {
+        match Self::made_for(family.name, declared) {
+            Some(checks) => !checks.is_empty(),
+            None if adapt_case::is_lines(family) => declared.line,
+            None => declared.coverage || declared.attributes || declared.answers_samples(),
+        }
+    }
+
     /// The checks of a case of one program: one that every case has, and others that some have.
     #[must_use]
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
+        if let Some(checks) = Self::made_for(family, declared) {
+            // Exact depths of overlapping triangles are dear, and a design leaves no case out.
+            let every = match family {
+                "depth-order" => 4,
+                "depth-near-tie" => 2,
+                _ => 1,
+            };
+            return if index.is_multiple_of(every) { checks } else { Vec::new() };
+        }
         let mut checks = Vec::new();
         match &case.shape {
-            // Exact depths of overlapping triangles are dear, and a design leaves no case out.
-            Shape::Triangles { .. } if family.starts_with("depth-") => {
-                let every = match family {
-                    "depth-order" => 4,
-                    "depth-near-tie" => 2,
-                    _ => 1,
-                };
-                if declared.depth && index.is_multiple_of(every) {
-                    checks.push(Self::Depth);
-                }
-            }
-            Shape::Triangles { .. }
-                if ["near-plane", facts::near::TOPIC.name].contains(&family) =>
-            {
-                if declared.clip {
-                    checks.push(Self::Near);
-                }
-                if declared.clip_attributes {
-                    checks.push(Self::Carried);
-                }
-            }
-            Shape::Triangles { .. } if family == facts::samples::TOPIC.name => {
-                if declared.answers_samples() {
-                    checks.push(Self::Samples);
-                }
-            }
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
             Shape::Lines(_) | Shape::Unsnapped { .. } => {}
             Shape::Triangles { list, disjoint } => {
@@ -330,6 +371,8 @@ impl Check {
                     Self::Samples => Asked::Samples(t.corners()),
                     Self::Near => Asked::Near(*t),
                     Self::Carried => Asked::Carried(*t),
+                    Self::Wide => Asked::Wide(wide_line(t)),
+                    Self::Area => Asked::Area(t.corners()),
                     // A mesh is wound as the program draws.
                     Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
                     _ => Asked::Coverage(t.corners()),
@@ -402,6 +445,19 @@ impl Check {
                     }
                 }
             }
+            (Shape::Triangles { list, .. }, Self::Wide) => {
+                for (triangle, answer) in list.iter().zip(answers) {
+                    let picture = truth.expect.wide(&wide_line(triangle), case.window);
+                    let (Some(picture), Answer::Coverage(runs)) = (picture, answer) else {
+                        continue;
+                    };
+                    judged.shapes += 1;
+                    judged.pixels += length(&picture.must);
+                    let tally = &mut judged.finding.tally;
+                    compare(tally, &mut judged.mark, runs, &picture, case.window);
+                }
+                judged.unscored += u64::from(truth.recognised.is_some());
+            }
             (Shape::Triangles { list, .. }, _) => {
                 for (triangle, answer) in list.iter().zip(answers) {
                     one_triangle(&mut judged, triangle, answer, case.window, truth);
@@ -471,7 +527,7 @@ fn one_triangle(
     let corners = triangle.corners();
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     judged.shapes += 1;
-    if !matches!(answer, Answer::Samples(_)) {
+    if !matches!(answer, Answer::Samples(_) | Answer::Area(_)) {
         judged.pixels += length(&picture.must);
     }
     let compare_both = |runs: &[Span], judged: &mut CaseJudgement| {
@@ -496,6 +552,7 @@ fn one_triangle(
             values(judged, triangle, fragments, &expected, truth);
         }
         Answer::Samples(runs) => samples(judged, &corners, runs, window, truth),
+        Answer::Area(runs) => levels(judged, &corners, runs, window, truth),
         _ => {}
     }
 }
@@ -578,6 +635,38 @@ fn samples(
     }
 }
 
+/// Compares the levels of pixels with their exact shares. How far the worst is off is counted in tolerances.
+fn levels(
+    judged: &mut CaseJudgement,
+    corners: &Corners,
+    runs: &[(Span, u8)],
+    window: PixelRect,
+    truth: &Truth,
+) {
+    let declared = &truth.declared;
+    let is_drawn = declared.convention.draws(twice_area(corners));
+    let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+    let (hit, outside) = hits(&all, window);
+    judged.finding.tally.extra += outside;
+    let actual = painted(runs, window, 0, |here, level| *here = level);
+    for (y, row) in actual.rows() {
+        for ((x, &level), &hits) in (window.x0..).zip(row).zip(hit.row(y)) {
+            let share = if is_drawn { share(corners, x, y) } else { 0.0 };
+            let off = f64::from(level) - share * f64::from(declared.levels);
+            let is_wrong = off.abs() > declared.steps_off();
+            judged.pixels += u64::from(share > 0.0);
+            judged.finding.tally.missing += u64::from(is_wrong && off < 0.0);
+            judged.finding.tally.extra += u64::from(is_wrong && off > 0.0);
+            judged.finding.tally.twice += u64::from(hits.saturating_sub(1));
+            if is_wrong && off.abs() > judged.steps_off {
+                judged.steps_off = off.abs();
+                judged.worst_at = Some((x, y));
+            }
+            mix(&mut judged.mark, u64::from(is_wrong));
+        }
+    }
+}
+
 fn one_line(
     judged: &mut CaseJudgement,
     line: &Line,
@@ -620,6 +709,9 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             truth.expect.picture(corners, window).map(|picture| Answer::Coverage(picture.must))
         }
         Asked::Line { ends, .. } => truth.expect.line(ends, window).map(Answer::Line),
+        Asked::Wide(line) => {
+            truth.expect.wide(line, window).map(|picture| Answer::Coverage(picture.must))
+        }
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
             let exact = exact_values(triangle, &truth.declared);
@@ -642,6 +734,19 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
                 corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64)).collect();
             let carries = matches!(question.of, Asked::Carried(_));
             Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
+        }
+        Asked::Area(corners) => {
+            let is_drawn = truth.declared.convention.draws(twice_area(corners));
+            let mut runs = Vec::new();
+            for y in (window.y0..window.y1).filter(|_| is_drawn) {
+                for x in window.x0..window.x1 {
+                    let level = share(corners, x, y) * f64::from(truth.declared.levels);
+                    if level.round() > 0.0 {
+                        push(&mut runs, x, y, level.round() as u8);
+                    }
+                }
+            }
+            Some(Answer::Area(runs))
         }
         Asked::Samples(_) | Asked::Polygon(_) => None,
     }

@@ -46,6 +46,11 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             out.expected = plain(&picture.must);
             out.either = may_be(&picture.must, picture.may.as_deref(), window);
         }
+        Asked::Wide(line) => {
+            let picture = truth.expect.wide(line, window)?;
+            out.expected = plain(&picture.must);
+            out.either = may_be(&picture.must, picture.may.as_deref(), window);
+        }
         Asked::Line { ends, .. } => {
             let line = truth.expect.line(ends, window)?;
             out.expected = line.into_iter().map(|(x, y)| pixel(x, y, Vec::new())).collect();
@@ -84,7 +89,7 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             let of = |([x, y], triangle): ([i32; 2], usize)| pixel(x, y, vec![triangle as f64]);
             out.expected = seen.into_iter().map(of).collect();
         }
-        Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+        Asked::Area(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
     }
     Some(out)
 }
@@ -156,7 +161,7 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
             let covered = runs.iter().filter(|(_, mask)| *mask != 0);
             covered.for_each(|(run, mask)| add_run(run, &[f64::from(*mask)]));
         }
-        Answer::Seen(runs) => {
+        Answer::Seen(runs) | Answer::Area(runs) => {
             runs.iter().for_each(|(run, number)| add_run(run, &[f64::from(*number)]));
         }
         Answer::Line(pixels) => out.extend(pixels.iter().map(|&(x, y)| pixel(x, y, Vec::new()))),

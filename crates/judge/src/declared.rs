@@ -8,6 +8,7 @@ use std::fmt;
 
 use super::text::{number, printable, px};
 use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
+use rasterproof_core::triangle::WideForm;
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rasterproof_verify::partition::{self, Tessellation};
 
@@ -32,6 +33,16 @@ pub struct Declared {
     pub clip: bool,
     /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
+    /// Answers W.
+    pub wide_line: bool,
+    /// The shape of its lines with a width.
+    pub wide: WideForm,
+    /// Answers R.
+    pub area: bool,
+    /// The steps of a share of a pixel.
+    pub levels: u8,
+    /// How many steps a share may be off.
+    pub area_tolerance: f64,
     /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
     pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
@@ -96,7 +107,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 13] = [
+const FLAGS: [&str; 15] = [
     "coverage",
     "line",
     "attributes",
@@ -104,6 +115,8 @@ const FLAGS: [&str; 13] = [
     "depth",
     "clip",
     "clip-attributes",
+    "wide-line",
+    "area",
     "partition",
     "t-junctions",
     "degenerate",
@@ -113,13 +126,14 @@ const FLAGS: [&str; 13] = [
 ];
 
 /// The values of words that have one of a few.
-fn listed() -> [(&'static str, Vec<&'static str>); 8] {
+fn listed() -> [(&'static str, Vec<&'static str>); 9] {
     [
         ("rule", Rule::ALL.iter().map(|(word, _)| *word).collect()),
         ("winding", vec!["cw", "ccw", "both"]),
         ("grid", vec!["1", "16", "64", "256"]),
         ("shape", Shape::ALL.iter().map(|shape| shape.name()).collect()),
         ("near", vec!["zero", "minus-w"]),
+        ("wide", WideForm::ALL.iter().map(|form| form.name()).collect()),
         ("fill-rule", FILL_RULES.iter().map(|(word, _)| *word).collect()),
         ("triangles", WINDINGS.iter().map(|(word, _)| *word).collect()),
         ("coordinates", COORDINATES.iter().map(|(word, _)| *word).collect()),
@@ -127,13 +141,15 @@ fn listed() -> [(&'static str, Vec<&'static str>); 8] {
 }
 
 /// The form of words whose values are numbers.
-fn numbered() -> [(&'static str, String); 5] {
+fn numbered() -> [(&'static str, String); 7] {
     [
         ("origin", "origin=X,Y, each a multiple of 1/256 from -2 to 2".to_owned()),
         ("range", format!("range=N, a whole number from 1 to {}", DOMAIN_PX - 1)),
         ("window", format!("window=WxH, each from 1 to {MAX_SIDE_PX}")),
         ("batch", "batch=N, a whole number above 0".to_owned()),
         ("tolerance", "tolerance=T, a number from 0 to 1".to_owned()),
+        ("levels", "levels=N, a whole number from 1 to 255".to_owned()),
+        ("area-tolerance", "area-tolerance=T, a number of steps from 0 to 255".to_owned()),
     ]
 }
 
@@ -184,6 +200,12 @@ fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str 
 
 /// A tolerance for programs that compute in f32 and declare none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-4;
+/// Rounding a share to the nearest step is off by half a step at most.
+const HALF_A_STEP: f64 = 0.5;
+/// Beside the tolerance, in steps: what lies just beside the middle of two steps may be rounded to either by a program that computes in
+/// `f64`. There a cut of an edge that reaches to the end of the domain, 2^23 px, is rounded by 2^-30 px. Four cuts, one for each side of
+/// a pixel, move a border by 2^-28 px at most, and 255 x 2^-28 is less than this.
+const ROUNDING_OF_STEPS: f64 = 1e-6;
 /// The most requests that are ever in flight.
 pub const MOST_IN_FLIGHT: usize = 4096;
 /// Words of an unknown meaning that are kept.
@@ -201,6 +223,11 @@ impl Default for Declared {
             depth: false,
             clip: false,
             clip_attributes: false,
+            wide_line: false,
+            wide: WideForm::default(),
+            area: false,
+            levels: u8::MAX,
+            area_tolerance: HALF_A_STEP,
             convention: Convention::default(),
             shape: Shape::Sample,
             range: None,
@@ -270,6 +297,15 @@ impl Declared {
             ("depth", None) => self.depth = true,
             ("clip", None) => self.clip = true,
             ("clip-attributes", None) => self.clip_attributes = true,
+            ("wide-line", None) => self.wide_line = true,
+            ("area", None) => self.area = true,
+            ("levels", Some(v)) => self.levels = whole(v, 255)? as u8,
+            ("area-tolerance", Some(v)) => {
+                self.area_tolerance = number(v).filter(|t| (0.0..=255.0).contains(t))?;
+            }
+            ("wide", Some(v)) => {
+                self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
+            }
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
@@ -332,6 +368,9 @@ impl Declared {
             depth: self.depth && other.depth,
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
+            wide_line: self.wide_line && other.wide_line,
+            area: self.area && other.area && self.levels == other.levels,
+            area_tolerance: self.area_tolerance.max(other.area_tolerance),
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -359,6 +398,12 @@ impl Declared {
         self.samples4 && self.shape == Shape::Sample && self.convention.is_standard()
     }
 
+    /// How many steps a share may be off, with what roundings of floats add.
+    #[must_use]
+    pub fn steps_off(&self) -> f64 {
+        self.area_tolerance + ROUNDING_OF_STEPS
+    }
+
     pub fn capabilities(&self) -> Vec<&'static str> {
         let all = [
             ("coverage", self.coverage),
@@ -368,6 +413,8 @@ impl Declared {
             ("depth", self.depth),
             ("clip", self.clip),
             ("clip-attributes", self.clip_attributes),
+            ("wide-line", self.wide_line),
+            ("area", self.area),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
@@ -403,6 +450,12 @@ impl fmt::Display for Declared {
         }
         if self.shape != Shape::Sample {
             write!(f, " shape={}", self.shape.name())?;
+        }
+        if self.wide != WideForm::default() {
+            write!(f, " wide={}", self.wide.name())?;
+        }
+        if self.area {
+            write!(f, " levels={} area-tolerance={}", self.levels, self.area_tolerance)?;
         }
         if self.near_is_zero {
             f.write_str(" near=zero")?;

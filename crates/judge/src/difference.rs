@@ -62,7 +62,8 @@ pub(super) fn difference(
     pixels(judged, &first_hits, &second_hits, declared.mask);
     match (first, second) {
         (Answer::Samples(first), Answer::Samples(second))
-        | (Answer::Seen(first), Answer::Seen(second)) => {
+        | (Answer::Seen(first), Answer::Seen(second))
+        | (Answer::Area(first), Answer::Area(second)) => {
             let [first, second] = [first, second]
                 .map(|runs| painted(runs, window, None, |here, mark| *here = Some(mark)));
             for ((y, a), (_, b)) in first.rows().zip(second.rows()) {

@@ -5,7 +5,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
-use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_core::triangle::{Corners, PixelPoint, Span, WideLine};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::comparison::{Convention, Expectation, Rule};
@@ -19,6 +19,11 @@ pub trait Expect: Send + Sync {
 
     /// The pixels of a line in drawing order; nothing where nothing is promised.
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>>;
+
+    /// The picture of a line with a width; nothing where nothing is promised.
+    fn wide(&self, _line: &WideLine, _window: PixelRect) -> Option<Expectation> {
+        None
+    }
 
     /// How far depth and both attributes may be off at a pixel; nothing where the declared tolerance
     /// is meant.
@@ -79,6 +84,20 @@ impl Expect for Declared {
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
         self.convention.line(ends, window)
+    }
+
+    fn wide(&self, line: &WideLine, window: PixelRect) -> Option<Expectation> {
+        let mut all = Expectation { must: Vec::new(), may: Some(Vec::new()) };
+        for y_px in window.y0..window.y1 {
+            for x_px in window.x0..window.x1 {
+                let [must, may] = self.convention.expected_of_wide(line, self.wide, [x_px, y_px]);
+                let pixel = Span { y_px, x0_px: x_px, x1_px: x_px + 1 };
+                all.must.extend(must.then_some(pixel));
+                all.may.iter_mut().for_each(|runs| runs.extend(may.then_some(pixel)));
+            }
+        }
+        all.may = all.may.filter(|may| *may != all.must);
+        Some(all)
     }
 }
 

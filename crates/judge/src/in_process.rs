@@ -4,7 +4,7 @@ use super::ask::{Answer, Breach, Question, Subject};
 use super::declared::{Declared, MOST_IN_FLIGHT, Shape};
 use super::server;
 use super::text::Words;
-use rasterproof_registry::engines::{Entry, Specimen, TouchedPixels, Variant};
+use rasterproof_registry::engines::{Entry, Specimen, TouchedPixels, Variant, WideLines};
 use rasterproof_verify::comparison::{Watch, caught};
 
 /// The values of both engines lie within u (15 D + 2 M) of the exact ones (`verify::tolerance`),
@@ -22,7 +22,11 @@ impl From<&Entry> for Declared {
         let shape = match entry.variant {
             Some(Variant::Touched(TouchedPixels { is_closed: true })) => Shape::TouchedClosed,
             Some(Variant::Touched(_)) => Shape::TouchedOpen,
-            None => Shape::Sample,
+            _ => Shape::Sample,
+        };
+        let wide = match entry.variant {
+            Some(Variant::WideLines(WideLines { form })) => Some(form),
+            _ => None,
         };
         Self {
             name: entry.name.to_owned(),
@@ -30,11 +34,14 @@ impl From<&Entry> for Declared {
             coverage: is_engine
                 || entry.exact_engine.is_some()
                 || triangle.is_some()
-                || entry.variant.is_some(),
+                || matches!(entry.variant, Some(Variant::Touched(_))),
             shape,
             line: entry.line_engine.is_some() || matches!(entry.specimen, Some(Specimen::Line(_))),
             attributes: is_engine || triangle.is_some_and(|specimen| specimen.has_values()),
             samples4: is_engine,
+            wide_line: wide.is_some(),
+            wide: wide.unwrap_or_default(),
+            area: matches!(entry.variant, Some(Variant::Area(_))),
             depth: is_engine,
             clip: is_engine,
             clip_attributes: is_engine,

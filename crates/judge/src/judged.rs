@@ -31,6 +31,8 @@ pub struct CaseJudgement {
     pub reason: String,
     /// The first run of the answers that ends before it begins; its pixels count as pixels outside the window.
     pub backward: Option<Span>,
+    /// The largest difference of a wrong level from the exact share, in steps.
+    pub steps_off: f64,
     /// Where the value is whose error is the largest.
     pub worst_at: Option<(i32, i32)>,
     pub answered: u64,

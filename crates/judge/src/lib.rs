@@ -43,6 +43,8 @@ pub mod shrink;
 pub mod stages;
 pub mod text;
 pub mod timed;
+#[cfg(test)]
+mod verbs;
 pub mod verdict;
 pub mod windings;
 

@@ -25,7 +25,9 @@ pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
 pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
     let runs: Vec<Span> = match answer {
         Answer::Coverage(runs) => return Some(hits(runs, window)),
-        Answer::Samples(runs) | Answer::Seen(runs) => runs.iter().map(|(run, _)| *run).collect(),
+        Answer::Samples(runs) | Answer::Seen(runs) | Answer::Area(runs) => {
+            runs.iter().map(|(run, _)| *run).collect()
+        }
         Answer::Values(fragments) => fragments.iter().map(pixel_of).collect(),
         Answer::Line(pixels) => as_runs(pixels),
         Answer::Polygon(_)

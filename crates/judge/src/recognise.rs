@@ -276,6 +276,8 @@ pub fn mistakes(
                     Check::Values => "values",
                     Check::Samples => "samples",
                     Check::Depth => "depths",
+                    Check::Wide => "lines with a width",
+                    Check::Area => "shares of pixels",
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };

@@ -458,8 +458,15 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
         let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
         whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
     };
-    let families = adapt_case::families(&options.families);
+    let families = asked_families(options, declared);
     families.iter().map(of_family).fold(0, u64::saturating_add)
+}
+
+/// The families of which a program is asked anything.
+fn asked_families(options: &Options, declared: &Declared) -> Vec<&'static Family> {
+    let mut families = adapt_case::families(&options.families);
+    families.retain(|family| Check::asks(family, declared));
+    families
 }
 
 /// Judges a program with all of its copies; each asks whatever is next.
@@ -470,7 +477,7 @@ pub fn run<'a>(
     progress: &(dyn Fn(u64) + Sync),
 ) -> RunFindings {
     let start = Instant::now();
-    let families = adapt_case::families(&options.families);
+    let families = asked_families(options, &truth.declared);
     let end = |share: f64| options.time_limit.map(|limit| limit.mul_f64(share));
     let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
     let families = judged.families.len();

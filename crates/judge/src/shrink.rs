@@ -56,7 +56,7 @@ pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case 
 }
 
 fn has_depth(check: Check) -> bool {
-    matches!(check, Check::Depth | Check::Near | Check::Carried)
+    matches!(check, Check::Depth | Check::Near | Check::Carried | Check::Wide)
 }
 
 fn flat(case: &Case) -> usize {
@@ -137,7 +137,7 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
             }
         }
         for (j, v) in triangle.vertices.iter().enumerate() {
-            if check == Check::Depth || is_clipped {
+            if has_depth(check) {
                 let to = |z| {
                     numbers(&|t, c, depth, _| *depth = if (t, c) == (i, j) { z } else { *depth })
                 };

@@ -6,11 +6,15 @@
 //! - [`pixels`] asks for each pixel of the window alone whether it is nearest to the line.
 //! - [`values`] puts planes through the vertices by Cramer's rule, in big integers.
 //! - [`clipped`] says which pixels the near and the far plane leave, by signs of integers.
+//! - [`area`] is the share of a pixel that a triangle covers.
+//! - [`wide`] says of a sample whether a line with a width covers it, by squares of integers.
 //! - [`segments`] is what interfaces promise of lines, by integers too.
 //! - [`double_double`] says without big integers what a difference from such a value does not exceed.
 //!
 //! It is slow on purpose where that keeps it obvious, and imports nothing from the engines.
 
+#[doc(hidden)]
+pub mod area;
 #[doc(hidden)]
 pub mod clipped;
 pub mod coverage;
@@ -23,6 +27,8 @@ pub mod segments;
 #[doc(hidden)]
 pub mod source_text;
 pub mod values;
+#[doc(hidden)]
+pub mod wide;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};

@@ -1,7 +1,7 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
-pub use crate::variants::TouchedPixels;
+pub use crate::variants::{AreaLevels, TouchedPixels, WideLines};
 use rasterproof_core::contract::{
     Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact, Run,
 };
@@ -15,7 +15,7 @@ use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::{
-    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying,
+    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying, WideForm,
 };
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
@@ -428,6 +428,10 @@ pub struct Entry {
 pub enum Variant {
     /// Every pixel that a triangle touches.
     Touched(TouchedPixels),
+    /// Lines with a width.
+    WideLines(WideLines),
+    /// The shares of pixels.
+    Area(AreaLevels),
 }
 
 const NOBODY: Entry = Entry {
@@ -504,11 +508,17 @@ pub const SPECIMENS: [Entry; 15] = entries![
 ];
 
 /// Engines of other rules, for what programs may declare.
-pub const VARIANTS: [Entry; 2] = entries![
+pub const VARIANTS: [Entry; 5] = entries![
     "touched-closed", "every pixel that a triangle touches, its border too: no line separates them",
         variant: Variant::Touched(TouchedPixels { is_closed: true });
     "touched-open", "every pixel that the inside of a triangle touches",
         variant: Variant::Touched(TouchedPixels { is_closed: false });
+    "wide-rectangles", "lines with a width as rectangles, cut off at right angles",
+        variant: Variant::WideLines(WideLines { form: WideForm::Rectangle });
+    "wide-parallelograms", "lines with a width as parallelograms, as wide along the shorter axis",
+        variant: Variant::WideLines(WideLines { form: WideForm::Parallelogram });
+    "area", "the share of each pixel that a triangle covers, in 255 steps",
+        variant: Variant::Area(AreaLevels { levels: 255 });
 ];
 
 /// Everything that speaks the line protocol.

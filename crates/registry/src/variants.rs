@@ -2,8 +2,8 @@
 
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::geometry::{edges, twice_area};
-use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, Span, WideForm, WideLine};
 
 /// Draws every pixel that a triangle touches.
 #[derive(Clone, Copy, Debug)]
@@ -55,4 +55,132 @@ impl Rasterize for TouchedPixels {
             emit(Span { y_px, x0_px, x1_px: after.unwrap_or(bounds.x1) });
         }
     }
+}
+
+/// Draws lines with a width by the top-left rule, a row at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct WideLines {
+    /// The shape of a line.
+    pub form: WideForm,
+}
+
+/// That a x + c is at most 0, of x in subpixels.
+struct HalfPlane {
+    a: i128,
+    c: i128,
+}
+
+impl HalfPlane {
+    /// The first and the last column whose centres lie in it, of those between two.
+    fn columns(&self, [first, last]: [i128; 2]) -> [i128; 2] {
+        let px = i128::from(SUBPIXELS);
+        let [step, start] = [self.a * px, self.a * px / 2 + self.c];
+        match step.signum() {
+            0 if start > 0 => [0, -1],
+            0 => [first, last],
+            1 => [first, last.min((-start).div_euclid(step))],
+            // Rounded up.
+            _ => [first.max(-(-start).div_euclid(-step)), last],
+        }
+    }
+}
+
+impl WideLines {
+    /// The runs of a line in a window.
+    pub fn cover(self, line: &WideLine, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        let [start, end] = line.ends.map(|p| [i128::from(p.x), i128::from(p.y)]);
+        let [dx, dy] = [end[0] - start[0], end[1] - start[1]];
+        if [dx, dy] == [0, 0] {
+            return;
+        }
+        // The segment or its longer axis, at the ends of which the shape is cut off.
+        let cut = match self.form {
+            WideForm::Rectangle => [dx, dy],
+            WideForm::Parallelogram if dy.abs() > dx.abs() => [0, dy],
+            WideForm::Parallelogram => [dx, 0],
+        };
+        let squared = (cut[0] * cut[0] + cut[1] * cut[1]).unsigned_abs();
+        let area = squared * u128::from(line.width.unsigned_abs()).pow(2);
+        // Whole numbers are at most a root where they are at most the whole number below it.
+        let root = area.isqrt();
+        let is_exact = root * root == area;
+        for y_px in bounds.y0..bounds.y1 {
+            let y = i128::from(y_px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL) - start[1];
+            // Each half plane with the direction that leads out of it, and whether samples lie on its border at all.
+            let beside = 2 * (dx * y + dy * start[0]);
+            let along = cut[1] * y - cut[0] * start[0];
+            let planes = [
+                (HalfPlane { a: -2 * dy, c: beside - root as i128 }, [-dy, dx], is_exact),
+                (HalfPlane { a: 2 * dy, c: -beside - root as i128 }, [dy, -dx], is_exact),
+                (HalfPlane { a: -cut[0], c: -along }, [-cut[0], -cut[1]], true),
+                (HalfPlane { a: cut[0], c: along - squared as i128 }, cut, true),
+            ];
+            let mut columns = [i128::from(bounds.x0), i128::from(bounds.x1) - 1];
+            for (mut plane, [right, down], has_border) in planes {
+                let is_owned = right < 0 || (right == 0 && down < 0);
+                plane.c += i128::from(has_border && !is_owned);
+                columns = plane.columns(columns);
+            }
+            let [first, last] = columns;
+            if first <= last {
+                // Both lie in the window.
+                emit(Span { y_px, x0_px: first as i32, x1_px: last as i32 + 1 });
+            }
+        }
+    }
+}
+
+/// The shares of the pixels that a triangle covers, in steps: what the four sides of a pixel leave of the triangle is a polygon,
+/// whose area is the sum of the areas beside its edges.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLevels {
+    /// The steps of a whole pixel.
+    pub levels: u8,
+}
+
+impl AreaLevels {
+    /// The runs of pixels with the same level above 0.
+    pub fn cover(self, corners: &Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span, u8)) {
+        let corners = corners.map(|p| {
+            let (x, y) = p.to_px();
+            [x, y]
+        });
+        for y_px in bounds.y0..bounds.y1 {
+            for x_px in bounds.x0..bounds.x1 {
+                let share = share_by_clipping(&corners, [f64::from(x_px), f64::from(y_px)]);
+                // A share is at most 1.
+                let level = (share * f64::from(self.levels)).round() as u8;
+                if level > 0 {
+                    emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 }, level);
+                }
+            }
+        }
+    }
+}
+
+/// The area of a triangle within the pixel with this upper left corner.
+fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
+    let mut polygon = corners.map(|p| [p[0] - pixel[0], p[1] - pixel[1]]).to_vec();
+    for (axis, limit, sign) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
+        let inside = |p: &[f64; 2]| sign * (p[axis] - limit);
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, from) in polygon.iter().enumerate() {
+            let to = &polygon[(i + 1) % polygon.len()];
+            let [here, there] = [inside(from), inside(to)];
+            if here >= 0.0 {
+                kept.push(*from);
+            }
+            if (here < 0.0) != (there < 0.0) {
+                let part = here / (here - there);
+                kept.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * part));
+            }
+        }
+        polygon = kept;
+    }
+    let mut twice = 0.0;
+    for (i, p) in polygon.iter().enumerate() {
+        let q = polygon[(i + 1) % polygon.len()];
+        twice += p[0] * q[1] - p[1] * q[0];
+    }
+    (twice / 2.0).abs().min(1.0)
 }

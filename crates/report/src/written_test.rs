@@ -104,6 +104,9 @@ pub fn write(
             let plain = match checkable(question, &truth) {
                 None if is_of_pixels(question) => Err("nothing is promised of this triangle"),
                 None => Err("the corners that clipping leaves are no pixels"),
+                Some(_) if matches!(question.of, Asked::Wide(_)) => {
+                    Err("no language has a function for lines with a width yet")
+                }
                 Some(plain) if plain.expected.len() > MOST_PIXELS => Err("it has too many pixels"),
                 Some(plain) if plain.refutes(question, &exchange.heard) => Ok(plain),
                 Some(_) => Err(
@@ -134,7 +137,10 @@ pub fn write(
 }
 
 fn is_of_pixels(question: &Question) -> bool {
-    !matches!(question.of, Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_))
+    !matches!(
+        question.of,
+        Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Area(_) | Asked::Polygon(_)
+    )
 }
 
 /// The functions to be filled in, in the order of the file.
@@ -485,6 +491,10 @@ fn arguments(language: Language, question: &Question) -> String {
                 _ => each.join(", "),
             }
         }
-        Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => String::new(),
+        Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::Wide(_)
+        | Asked::Area(_)
+        | Asked::Polygon(_) => String::new(),
     }
 }

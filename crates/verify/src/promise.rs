@@ -10,11 +10,11 @@
 use std::fmt;
 
 use crate::cases::{Case, Family, Limits, Shape};
-use crate::oracle::Oracle;
+use crate::oracle::{Oracle, wide};
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::geometry::{centre_of, pixel_box, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_core::triangle::{Corners, Span, WideForm, WideLine};
 
 /// Which samples exactly on an edge belong to a triangle, seen with the rasterizer's own y axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,21 @@ impl Rule {
     #[must_use]
     pub fn word(self) -> &'static str {
         Self::ALL.iter().find(|(_, rule)| *rule == self).map_or("", |(word, _)| word)
+    }
+
+    /// Whether a sample on an edge belongs to a shape that ends there in this direction, in a picture whose rows count from the
+    /// top. Where nothing is promised, it may.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn owns(self, [x, y]: [i64; 2]) -> bool {
+        match self {
+            Self::TopLeft => x < 0 || (x == 0 && y < 0),
+            Self::TopRight => x > 0 || (x == 0 && y < 0),
+            Self::BottomLeft => x < 0 || (x == 0 && y > 0),
+            Self::BottomRight => x > 0 || (x == 0 && y > 0),
+            Self::Inclusive | Self::Unspecified => true,
+            Self::Strict => false,
+        }
     }
 }
 
@@ -230,6 +245,23 @@ impl Convention {
                 Expectation { must: by_edges(&corners, window, false), may: Some(may) }
             }
         }
+    }
+
+    /// The rule of samples that have to be drawn, and that of those that may be.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of_border(&self) -> [Rule; 2] {
+        let rule = self.seen_rule();
+        [if rule == Rule::Unspecified { Rule::Strict } else { rule }, rule]
+    }
+
+    /// Whether a pixel has to be drawn of a line with a width, and whether it may be.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn expected_of_wide(&self, line: &WideLine, form: WideForm, at: [i32; 2]) -> [bool; 2] {
+        let sample = [0, 1]
+            .map(|k: usize| i64::from(at[k]) * i64::from(SUBPIXELS) + i64::from(self.sample[k]));
+        self.of_border().map(|rule| wide::covers(line, form, sample, &|out| rule.owns(out)))
     }
 
     /// What such a rasterizer can be asked whose coordinates lie in [-range, range] px, or in the domain: with room at its ends

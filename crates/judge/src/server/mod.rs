@@ -22,7 +22,7 @@ use crate::text::number;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{
-    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
+    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span, WideLine,
     check_position, check_value,
 };
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Variant};
@@ -119,11 +119,13 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "I" => (declared.attributes, 18),
         "N" => (declared.clip, 12),
         "A" => (declared.clip_attributes, 15),
+        "W" => (declared.wide_line, 5),
+        "R" => (declared.area, 6),
         // As many triangles as there are.
         "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R",
                 printable(verb)
             )));
         }
@@ -161,6 +163,8 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("T", Some(engine), ..) => cover(engine, window, &numbers),
         ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
         ("T", _, _, Some(engine)) => cover_exact(engine, window, &numbers),
+        ("W", ..) => wide(entry, window, &numbers),
+        ("R", ..) => area(entry, window, &numbers),
         ("S", Some(engine), ..) => samples(engine, window, &numbers),
         ("L", _, Some(engine), _) => line(engine, window, &numbers),
         ("D", Some(engine), ..) => depth(engine, window, &numbers),
@@ -241,8 +245,44 @@ fn cover(engine: impl Rasterize, window: PixelRect, numbers: &[f64]) -> Reply {
 fn by_variant(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     match entry.variant {
         Some(Variant::Touched(engine)) => cover(engine, window, numbers),
-        None => Err("unsupported".to_owned()),
+        _ => Err("unsupported".to_owned()),
     }
+}
+
+/// The levels of pixels.
+fn area(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
+    let Some(Variant::Area(engine)) = entry.variant else {
+        return Err("unsupported".to_owned());
+    };
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let (mut runs, mut n) = (Vec::new(), 0);
+    engine.cover(&corners, window, &mut |span, level| {
+        n += 1;
+        write_run(&mut runs, span);
+        write_words(&mut runs, [i32::from(level)]);
+    });
+    Ok(('K', n, runs))
+}
+
+/// The most that a line is wide, in pixels.
+const WIDEST_PX: i32 = 1 << 12;
+
+/// The pixels of a line with a width, which is rounded as positions are.
+fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
+    let Some(Variant::WideLines(engine)) = entry.variant else {
+        return Err("unsupported".to_owned());
+    };
+    let ends = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?];
+    let width = rasterproof_core::grid::snap(numbers[4]).map_err(named("the width"))?;
+    if !(1..=WIDEST_PX * SUBPIXELS).contains(&width) {
+        return Err(format!("the width {:e} is not from 1/256 to {WIDEST_PX} px", numbers[4]));
+    }
+    let (mut runs, mut n) = (Vec::new(), 0);
+    engine.cover(&WideLine { ends, width }, window, &mut |span| {
+        n += 1;
+        write_run(&mut runs, span);
+    });
+    Ok(('C', n, runs))
 }
 
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {

@@ -5,6 +5,7 @@
 //! wrong, everywhere or in some places: `search` looks for those that predict every answer. To add a mistake, add a value to a
 //! field, with its words.
 
+mod area;
 mod depth;
 mod learn;
 mod near;
@@ -12,6 +13,7 @@ mod samples;
 mod search;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 use std::cell::RefCell;
 
@@ -22,6 +24,7 @@ use super::declared::Declared;
 use super::in_process::Inside;
 use super::run::MOST_DEATHS;
 use super::timed::Timed;
+use area::AreaDrawn;
 use depth::DepthTest;
 use glam::DVec2;
 use near::NearCut;
@@ -38,6 +41,7 @@ use rasterproof_verify::mistakes::{
 };
 use samples::SampleMask;
 use search::{Mistake, Quantity, Says, Spot, Stage, common, of_pixels};
+use wide::WideDrawn;
 
 /// A case with its answers, and whether they are wrong.
 pub struct Answered {
@@ -114,6 +118,8 @@ fn families(check: Check) -> &'static [&'static str] {
         Check::Samples => &["uniform", "half-integer"],
         Check::Depth => &["depth-order", "depth-near-tie"],
         Check::Near | Check::Carried => &["near-plane"],
+        Check::Wide => &["wide-line"],
+        Check::Area => &["area"],
         _ => &[],
     }
 }
@@ -159,6 +165,8 @@ fn known(
         Check::Samples => of_stage::<SampleMask>(all, &truth.declared, programs),
         Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
         Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
+        Check::Wide => of_stage::<WideDrawn>(all, &truth.declared, programs),
+        Check::Area => of_stage::<AreaDrawn>(all, &truth.declared, programs),
         _ => None,
     }
 }
@@ -181,6 +189,8 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
         Check::Samples => identified::<SampleMask>(all, &truth.declared),
         Check::Depth => identified::<DepthTest>(all, &truth.declared),
         Check::Near | Check::Carried => identified::<NearCut>(all, &truth.declared),
+        Check::Wide => identified::<WideDrawn>(all, &truth.declared),
+        Check::Area => identified::<AreaDrawn>(all, &truth.declared),
         _ => Vec::new(),
     }
 }

@@ -134,7 +134,7 @@ impl Field for Grid {
 pub struct Rule([usize; 2]);
 
 /// The rules of the protocol, of which the first one is right.
-static TIES: LazyLock<Vec<Ties>> =
+pub(super) static TIES: LazyLock<Vec<Ties>> =
     LazyLock::new(|| RULES.iter().filter_map(|name| Ties::named(name)).collect());
 
 impl Field for Rule {
@@ -371,6 +371,20 @@ impl AsRef<Spot> for Masked<'_> {
     }
 }
 
+/// A direction as one of eight, from north on, clockwise.
+pub(super) fn facing(direction: [i64; 2]) -> usize {
+    match direction.map(i64::signum) {
+        [0, -1] => 0,
+        [1, -1] => 1,
+        [1, 0] => 2,
+        [1, 1] => 3,
+        [0, 1] => 4,
+        [-1, 1] => 5,
+        [-1, 0] => 6,
+        _ => 7,
+    }
+}
+
 /// Whether a triangle covers a place of a pixel, in 1/16 px.
 fn covers(corners: &Corners, pixel: [i32; 2], (x, y): (i32, i32), ties: &Ties) -> bool {
     let at = [(pixel[0], x), (pixel[1], y)]
@@ -381,18 +395,8 @@ fn covers(corners: &Corners, pixel: [i32; 2], (x, y): (i32, i32), ties: &Ties) -
         let step = [0, 1].map(|k| (b[k] - a[k]) * turn);
         let product = |k: usize| i128::from(step[k]) * i128::from(at[1 - k] - a[1 - k]);
         let side = product(0) - product(1);
-        // The outward normal of a clockwise edge, as one of eight directions from north on, clockwise.
-        let facing = match [step[1], -step[0]].map(i64::signum) {
-            [0, -1] => 0,
-            [1, -1] => 1,
-            [1, 0] => 2,
-            [1, 1] => 3,
-            [0, 1] => 4,
-            [-1, 1] => 5,
-            [-1, 0] => 6,
-            _ => 7,
-        };
-        if side < 0 || (side == 0 && !ties.edges[facing]) {
+        // The outward normal of a clockwise edge.
+        if side < 0 || (side == 0 && !ties.edges[facing([step[1], -step[0]])]) {
             return false;
         }
     }

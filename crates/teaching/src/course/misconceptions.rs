@@ -290,7 +290,11 @@ fn nothing(question: &Question) -> Option<Answer> {
         Asked::Samples(_) => Answer::Samples(Vec::new()),
         Asked::Line { .. } => Answer::Line(Vec::new()),
         Asked::Depth(_) => Answer::Seen(Vec::new()),
-        Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+        Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::Wide(_)
+        | Asked::Area(_)
+        | Asked::Polygon(_) => return None,
     })
 }
 

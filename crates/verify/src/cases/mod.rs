@@ -16,6 +16,8 @@ pub mod near_plane;
 pub mod shrink;
 pub mod triangles;
 pub mod unsnapped;
+#[doc(hidden)]
+pub mod wide;
 
 use std::error::Error;
 use std::fmt;

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 pub use super::clip::{ClipCorner, clip_corners};
 use super::facts;
-use super::{Case, Family, Shape, Triangle, designed, family, sub};
+use super::{Case, Family, Shape, Triangle, designed, family, sub, wide};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -23,6 +23,14 @@ pub const FAMILIES: &[Family] = &[
     designed(facts::meshes::TOPIC, "every two facts of a mesh together"),
     designed(facts::depth::TOPIC, "every two facts of some triangles together"),
     designed(facts::near::TOPIC, "every two facts of a triangle of clip space together"),
+    family(
+        "wide-line",
+        "lines with a width, with samples on their border, thin ones, and long ones",
+        wide::drawn,
+    ),
+    designed(facts::wide::TOPIC, "every two facts of a line with a width together"),
+    family("area", "triangles of which pixels have small, large and equal shares", shares),
+    designed(facts::area::TOPIC, "every two facts of the shares of pixels together"),
 ];
 
 /// Side of the window of a pile, in pixels.
@@ -102,6 +110,22 @@ fn near(rng: &mut Rng) -> Case {
     let list = vec![ScreenTriangle { vertices }];
     Case {
         window: PixelRect::window(SIDE_PX, SIDE_PX),
+        shape: Shape::Triangles { list, disjoint: true },
+    }
+}
+
+/// Triangles of some pixels: those with corners on a coarse grid have shares that are simple fractions, others hardly touch a pixel.
+fn shares(rng: &mut Rng) -> Case {
+    let step = 1 << rng.int(0, 8);
+    let most = [2 << 8, 8 << 8, 12 << 8][rng.int(0, 2) as usize];
+    let vertices = [(); 3].map(|()| {
+        let [x, y] = [(); 2].map(|()| rng.int(-256, most) / step * step);
+        ScreenVertex { position: sub(x, y), depth: 0.0, inv_w: 1.0, varying: DVec2::ZERO }
+    });
+    let list = vec![ScreenTriangle { vertices }];
+    let [width, height] = [(); 2].map(|()| rng.int(6, 12) as u32);
+    Case {
+        window: PixelRect::window(width, height),
         shape: Shape::Triangles { list, disjoint: true },
     }
 }

@@ -143,7 +143,12 @@ impl Gpu {
             Asked::Values(_) if self.plant == Some(Plant::NoPerspective) => Kind::Linear,
             Asked::Values(_) => Kind::Values,
             Asked::Line { .. } => Kind::Lines,
-            Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => {
+            Asked::Depth(_)
+            | Asked::Near(_)
+            | Asked::Carried(_)
+            | Asked::Wide(_)
+            | Asked::Area(_)
+            | Asked::Polygon(_) => {
                 return None;
             }
         })
@@ -209,7 +214,12 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
             let [a, b] = [a, b].map(|p| centre_of(p.x, p.y));
             plain(&[a, b, b], half_px)
         }
-        Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+        Asked::Depth(_)
+        | Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::Wide(_)
+        | Asked::Area(_)
+        | Asked::Polygon(_) => return None,
     })
 }
 

@@ -7,6 +7,7 @@
 
 mod depth;
 mod near;
+mod pixels;
 #[cfg(test)]
 mod programs;
 mod samples;
@@ -31,7 +32,9 @@ use rasterproof_verify::learn::trial::{
     AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work, nearest,
 };
 
+use super::area::AreaDrawn;
 use super::families;
+use super::wide::WideDrawn;
 use crate::adapt_case;
 use crate::ask::{Answer, Question, Subject};
 use crate::check::{Check, Truth};
@@ -76,9 +79,9 @@ pub trait Learnable {
     fn of_part(part: &Self::Part<'_>, change: Option<&Self::Change>, out: &mut Quantities);
 
     /// The changes that may explain wrong parts, the simplest first; what is read off is read off these, and off right ones.
-    fn changes(
-        wrong: &[&Self::Part<'_>],
-        right: &[&Self::Part<'_>],
+    fn changes<'a>(
+        wrong: &[&Self::Part<'a>],
+        right: &[&Self::Part<'a>],
         work: &Work,
     ) -> Vec<Self::Change>;
 
@@ -104,6 +107,12 @@ pub fn learn(
         Check::Depth => Learner::<depth::Depths>::new(program, check, truth, most).learn(),
         Check::Near | Check::Carried => {
             Learner::<near::Polygons>::new(program, check, truth, most).learn()
+        }
+        Check::Wide => {
+            Learner::<pixels::Pixels<WideDrawn>>::new(program, check, truth, most).learn()
+        }
+        Check::Area => {
+            Learner::<pixels::Pixels<AreaDrawn>>::new(program, check, truth, most).learn()
         }
         _ => None,
     }

@@ -8,6 +8,7 @@
 //! that can occur ([`design`]). This is combinatorial testing, as with the covering arrays of the greedy generators AETG and IPOG;
 //! here a question is drawn and measured, since its facts depend on each other and cannot be chosen freely.
 
+pub mod area;
 pub mod asked;
 pub mod depth;
 pub mod design;
@@ -18,6 +19,7 @@ pub mod samples;
 mod table;
 pub mod triangles;
 pub mod values;
+pub mod wide;
 
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
@@ -275,7 +277,7 @@ impl<Q, L> Topic<Q, L> {
 }
 
 /// Every kind of question about triangles and lines. Polygons have [`crate::partition::design::TOPIC`].
-pub const TOPICS: [Topic; 7] = [
+pub const TOPICS: [Topic; 9] = [
     triangles::TOPIC,
     values::TOPIC,
     lines::TOPIC,
@@ -283,6 +285,8 @@ pub const TOPICS: [Topic; 7] = [
     meshes::TOPIC,
     depth::TOPIC,
     near::TOPIC,
+    wide::TOPIC,
+    area::TOPIC,
 ];
 
 /// A side of a window in pixels: mostly small, since every pixel of it is compared; each class of size and divisor occurs.

@@ -1,0 +1,344 @@
+//! The level of a pixel by the share of it that a triangle covers, computed by somebody who may be mistaken.
+
+use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use crate::ask::{Answer, Asked, Question};
+use crate::declared::Declared;
+use crate::pixels::painted;
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::Corners;
+use rasterproof_verify::convention::{Quantum, Rounding};
+use rasterproof_verify::oracle::area::share;
+
+composed! {
+    /// How the level of a pixel is computed.
+    pub struct AreaDrawn {
+        gate: AreaGate,
+        corners: CornerGrid,
+        sampling: Sampling,
+        tone: Tone,
+        rounding: LevelRounding,
+        steps: Steps,
+    }
+}
+
+/// The grid of corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CornerGrid(Quantum);
+
+impl Default for CornerGrid {
+    fn default() -> Self {
+        Self(Quantum::NONE)
+    }
+}
+
+impl Field for CornerGrid {
+    const NAME: &'static str = "corners of shares";
+
+    fn options() -> Vec<Self> {
+        let of = |step| {
+            [Rounding::Down, Rounding::Near, Rounding::HalfEven]
+                .map(|rounding| Self(Quantum { step, rounding }))
+        };
+        (1..=8).flat_map(|bits| of(1 << bits)).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let how = if self.0.rounding == Rounding::Down { "cut" } else { "rounded" };
+        let parts = SUBPIXELS / self.0.step;
+        Some((
+            format!("computes {{}} of corners that are {how} to 1/{parts} px"),
+            "take the corners as they are asked",
+        ))
+    }
+}
+
+/// What a share is taken of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Sampling {
+    #[default]
+    Exact,
+    /// So many samples in so many rows, at the middles of equal cells.
+    Samples(i32, i32),
+    /// So many rows, each with the exact length that is covered.
+    Rows(i32),
+}
+
+/// How many samples along both sides of a pixel, and how many rows, are tried.
+const SAMPLES: [i32; 7] = [1, 2, 3, 4, 5, 8, 16];
+
+impl Sampling {
+    /// The share that is seen.
+    fn share(self, corners: &Corners, [x_px, y_px]: [i32; 2]) -> f64 {
+        match self {
+            Self::Exact => share(corners, x_px, y_px),
+            Self::Samples(columns, rows) => {
+                let mut covered = 0;
+                for row in 0..rows {
+                    let Some([left, right]) = across(corners, y_px, row, rows) else { continue };
+                    for column in 0..columns {
+                        let x = f64::from(x_px) + (f64::from(column) + 0.5) / f64::from(columns);
+                        covered += i32::from(left <= x && x < right);
+                    }
+                }
+                f64::from(covered) / f64::from(columns * rows)
+            }
+            Self::Rows(rows) => {
+                let x = f64::from(x_px);
+                let of = |row| {
+                    across(corners, y_px, row, rows)
+                        .map_or(0.0, |[left, right]| (right.min(x + 1.0) - left.max(x)).max(0.0))
+                };
+                (0..rows).map(of).sum::<f64>() / f64::from(rows)
+            }
+        }
+    }
+}
+
+/// Where the middle of one of the rows of a pixel enters a triangle and leaves it, in pixels.
+fn across(corners: &Corners, y_px: i32, row: i32, rows: i32) -> Option<[f64; 2]> {
+    let y = f64::from(y_px) + (f64::from(row) + 0.5) / f64::from(rows);
+    let mut found: Option<[f64; 2]> = None;
+    for i in 0..3 {
+        let (ax, ay) = corners[i].to_px();
+        let (bx, by) = corners[(i + 1) % 3].to_px();
+        if (ay <= y) == (by <= y) {
+            continue;
+        }
+        let x = ax + (y - ay) * (bx - ax) / (by - ay);
+        let [left, right] = found.unwrap_or([x, x]);
+        found = Some([left.min(x), right.max(x)]);
+    }
+    found
+}
+
+impl Field for Sampling {
+    const NAME: &'static str = "samples of shares";
+
+    fn options() -> Vec<Self> {
+        let squares = SAMPLES.map(|n| Self::Samples(n, n));
+        let rows = SAMPLES.into_iter().chain([15, 17, 64]).map(Self::Rows);
+        squares.into_iter().chain(rows).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self {
+            Self::Exact => return None,
+            Self::Samples(1, 1) => "computes {} by the sample at the centre alone".to_owned(),
+            Self::Samples(n, m) => format!("computes {{}} by {n} x {m} samples"),
+            Self::Rows(1) => {
+                "computes {} by the length that is covered in the middle row of a pixel".to_owned()
+            }
+            Self::Rows(n) => {
+                format!("computes {{}} by the lengths that are covered in {n} rows of a pixel")
+            }
+        };
+        Some((does, "compute the area that is covered"))
+    }
+}
+
+rasterproof_core::named! {
+    /// What becomes of a share before it is a level.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Tone {
+        #[default]
+        Linear = "",
+        Encoded = "encodes {} as sRGB",
+        Root = "takes the square root of {}",
+        Square = "squares {}",
+        Rest = "draws the share that is not covered, in place of {}",
+        Half = "draws half of {}",
+        Double = "draws twice {}, at most all",
+    }
+}
+
+impl Tone {
+    fn of(self, share: f64) -> f64 {
+        match self {
+            Self::Linear => share,
+            Self::Encoded if share <= 0.003_130_8 => 12.92 * share,
+            Self::Encoded => 1.055 * libm::pow(share, 1.0 / 2.4) - 0.055,
+            Self::Root => share.sqrt(),
+            Self::Square => share * share,
+            Self::Rest if share == 0.0 => 0.0,
+            Self::Rest => 1.0 - share,
+            Self::Half => share / 2.0,
+            Self::Double => (2.0 * share).min(1.0),
+        }
+    }
+}
+
+impl Field for Tone {
+    const NAME: &'static str = "tone of shares";
+
+    fn options() -> Vec<Self> {
+        Self::ALL[1..].to_vec()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        Some((
+            self.name().to_owned(),
+            "answer with the share itself; what a screen needs comes later",
+        ))
+    }
+}
+
+rasterproof_core::named! {
+    /// How a share becomes a whole number of steps.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum LevelRounding {
+        /// To any number within the tolerance.
+        #[default]
+        Near = "",
+        Down = "down",
+        Up = "up",
+        Any = "to all steps where more than half a pixel is covered, and to none elsewhere",
+    }
+}
+
+impl Field for LevelRounding {
+    const NAME: &'static str = "rounding of shares";
+
+    fn options() -> Vec<Self> {
+        Self::ALL[1..].to_vec()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        Some((format!("rounds {{}} {}", self.name()), "round the share to the nearest step"))
+    }
+}
+
+/// How many steps a whole pixel has, where that is another number than declared: the levels are cut to the declared ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Steps(Option<i32>);
+
+impl Field for Steps {
+    const NAME: &'static str = "steps of shares";
+
+    fn options() -> Vec<Self> {
+        [256, 254, 128, 127, 100, 64, 63, 16, 15].map(|steps| Self(Some(steps))).to_vec()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        Some((format!("counts {{}} in steps of 1/{}", self.0?), "count the declared steps"))
+    }
+}
+
+/// Pixels that are drawn without regard to their share.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum AreaGate {
+    #[default]
+    None,
+    Never,
+    Whole,
+}
+
+impl Field for AreaGate {
+    const NAME: &'static str = "pixels of shares";
+
+    fn options() -> Vec<Self> {
+        vec![Self::Never, Self::Whole]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = if *self == Self::Whole {
+            "draws touched pixels whole, and not {}"
+        } else {
+            "does not draw {}"
+        };
+        Some((does.to_owned(), "draw each pixel by the share that is covered"))
+    }
+}
+
+/// A pixel with its level.
+pub struct AreaPixel<'a> {
+    pub(super) spot: Spot,
+    corners: &'a Corners,
+    pub(super) drawn: u8,
+    /// The exact share.
+    pub(super) share: f64,
+    levels: f64,
+    /// In steps.
+    tolerance: f64,
+}
+
+impl AsRef<Spot> for AreaPixel<'_> {
+    fn as_ref(&self) -> &Spot {
+        &self.spot
+    }
+}
+
+impl AreaDrawn {
+    /// The level that is drawn, not rounded, and how far it may be off.
+    fn level(&self, pixel: &AreaPixel<'_>) -> [f64; 2] {
+        let share = match (self.corners == CornerGrid::default(), self.sampling) {
+            (true, Sampling::Exact) => pixel.share,
+            _ => self.sampling.share(&self.corners.0.snap(pixel.corners), pixel.spot.at),
+        };
+        let share = match self.gate {
+            AreaGate::None => self.tone.of(share),
+            AreaGate::Never => 0.0,
+            AreaGate::Whole => f64::from(u8::from(share > 0.0)),
+        };
+        let steps = self.steps.0.map_or(pixel.levels, f64::from) * share;
+        // A hair on either side, for roundings of floats.
+        let level = match self.rounding {
+            LevelRounding::Near => return [steps.min(pixel.levels), pixel.tolerance],
+            LevelRounding::Down => (steps + 1e-7).floor(),
+            LevelRounding::Up => (steps - 1e-7).ceil(),
+            LevelRounding::Any => f64::from(u8::from(share >= 0.5)) * pixel.levels,
+        };
+        [level.min(pixel.levels), 1e-6]
+    }
+}
+
+impl Stage for AreaDrawn {
+    type Part<'a> = AreaPixel<'a>;
+    const PAGE: &'static str = "judge";
+    const REFUTED: &'static str = "a pixel of another level";
+    const NOISE: &'static [f64] = &[0.0];
+    const WHOM: &'static str = "pixels";
+
+    fn parts<'a>(
+        question: &'a Question,
+        answer: &'a Answer,
+        declared: &Declared,
+        _: f64,
+    ) -> Vec<AreaPixel<'a>> {
+        let (Asked::Area(corners), Answer::Area(runs)) = (&question.of, answer) else {
+            return Vec::new();
+        };
+        let window = PixelRect::window(question.width, question.height);
+        let is_drawn = declared.convention.draws(twice_area(corners));
+        let mut parts = Vec::new();
+        for (y, row) in painted(runs, window, 0, |here, level| *here = level).rows() {
+            for (x, &drawn) in (window.x0..).zip(row) {
+                let share = if is_drawn { share(corners, x, y) } else { 0.0 };
+                let spot = Spot { at: [x, y], is_clockwise: twice_area(corners) > 0, window };
+                let (levels, tolerance) = (declared.levels.into(), declared.steps_off());
+                parts.push(AreaPixel { spot, corners, drawn, share, levels, tolerance });
+            }
+        }
+        parts
+    }
+
+    fn explains(&self, part: &AreaPixel<'_>) -> bool {
+        let [level, tolerance] = self.level(part);
+        (f64::from(part.drawn) - level).abs() <= tolerance
+    }
+
+    fn solved(&self, _: &[&AreaPixel<'_>]) -> Vec<Self> {
+        Vec::new()
+    }
+
+    fn quantities<'a>() -> Vec<Quantity<AreaPixel<'a>>> {
+        let mut all = of_pixels();
+        let of: fn(&AreaPixel<'a>) -> f64 = |pixel| pixel.share;
+        all.push(Quantity { of, says: Says::Number("the share of the pixel that is covered") });
+        all
+    }
+
+    fn filled(&self, does: &str) -> String {
+        does.replace("{}", "the share of a pixel")
+    }
+}

@@ -1,0 +1,113 @@
+//! Pixels of shapes, each on its own: what a stage of such pixels states is enough to learn of it.
+
+use std::marker::PhantomData;
+
+use super::{Learnable, LearnedCase};
+use crate::declared::Declared;
+use crate::stages::area::{AreaDrawn, AreaPixel};
+use crate::stages::search::{Spot, Stage, singles};
+use crate::stages::wide::{WideDrawn, WidePixel};
+use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::facts::{Topic, area, wide};
+use rasterproof_verify::learn::rows::{Quantities, Unit, value};
+use rasterproof_verify::learn::trial::Work;
+
+/// A stage whose parts are pixels.
+pub trait PixelStage: Stage {
+    /// The kind of question, with its facts.
+    const TOPIC: Topic;
+    /// What is drawn, in the plural.
+    const WHAT: &'static str;
+
+    /// The quantities of a pixel.
+    fn of_pixel(pixel: &Self::Part<'_>, out: &mut Quantities);
+}
+
+/// The pixels of a stage.
+pub struct Pixels<S>(PhantomData<S>);
+
+impl<S: PixelStage> Learnable for Pixels<S> {
+    type Part<'a> = S::Part<'a>;
+    type Change = S;
+    const TOPIC: Topic = S::TOPIC;
+    const PART: &'static str = "pixel";
+
+    fn of_question(_: &Case, _: &mut Quantities) {}
+
+    fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<S::Part<'a>> {
+        S::parts(&asked.question, &asked.answer, declared, S::NOISE[0])
+    }
+
+    fn is_right(part: &S::Part<'_>) -> bool {
+        S::default().explains(part)
+    }
+
+    fn explains(change: &S, part: &S::Part<'_>) -> bool {
+        change.explains(part)
+    }
+
+    fn of_part(part: &S::Part<'_>, _: Option<&S>, out: &mut Quantities) {
+        S::of_pixel(part, out);
+    }
+
+    fn changes<'a>(wrong: &[&S::Part<'a>], right: &[&S::Part<'a>], _: &Work) -> Vec<S> {
+        let pixels: Vec<_> = wrong.iter().chain(right).copied().collect();
+        singles(&pixels)
+    }
+
+    fn both(a: &S, b: &S) -> Option<S> {
+        let both = a.with(b);
+        (both != *b).then_some(both)
+    }
+
+    fn says(change: &S) -> String {
+        let said = change.said().into_iter().map(|said| said.does.replace("{}", S::WHAT));
+        said.collect::<Vec<_>>().join(", and ")
+    }
+}
+
+impl PixelStage for WideDrawn {
+    const TOPIC: Topic = wide::TOPIC;
+    const WHAT: &'static str = "lines with a width";
+
+    fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
+        of_spot(&pixel.spot, out);
+        let [beside, beyond] = pixel.outside().map(|v| v.ceil() as i64);
+        out.number(
+            Unit::Subpixels,
+            beside,
+            &["the distance of the sample from the long sides (below 0 between them)"],
+        );
+        out.number(
+            Unit::Subpixels,
+            beyond,
+            &["the distance of the sample from the ends (below 0 between them)"],
+        );
+        out.flag(pixel.right[0], &["the pixel is covered"], "the pixel is not covered");
+    }
+}
+
+impl PixelStage for AreaDrawn {
+    const TOPIC: Topic = area::TOPIC;
+    const WHAT: &'static str = "the share of a pixel";
+
+    fn of_pixel(pixel: &AreaPixel<'_>, out: &mut Quantities) {
+        of_spot(&pixel.spot, out);
+        out.number(Unit::Value, value(pixel.share), &["the share of the pixel"]);
+        out.flag(
+            pixel.share >= 1.0,
+            &["the pixel is covered whole"],
+            "the pixel is not covered whole",
+        );
+    }
+}
+
+/// Where a pixel lies in its window.
+fn of_spot(spot: &Spot, out: &mut Quantities) {
+    let [column, row] = spot.at.map(i64::from);
+    let [right, below] = [spot.window.x1, spot.window.y1].map(|end| i64::from(end) - 1);
+    out.number(Unit::Count, column, &["the column"]);
+    out.number(Unit::Count, row, &["the row"]);
+    out.number(Unit::Count, right - column, &["the number of columns to the right of it"]);
+    out.number(Unit::Count, below - row, &["the number of rows below it"]);
+}

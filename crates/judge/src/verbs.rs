@@ -1,0 +1,331 @@
+//! Verbs beside triangles and thin lines: right engines, what is declared, and faults that are found and explained.
+
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::{Span, WideForm, WideLine};
+use rasterproof_registry::engines::{self, WideLines};
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::area::share;
+
+use super::ask::{Answer, Asked, Question, Subject};
+use super::declared::Declared;
+use super::expected::Expect as _;
+use super::in_process::Inside;
+use super::verdict::{Scores as _, Verdict};
+use super::{Asking, Options, judge};
+use std::time::Duration;
+
+/// A program that answers questions so.
+struct Answering<F>(Declared, F);
+
+impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Subject for Answering<F> {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        (self.1)(questions, most_deaths)
+    }
+}
+
+/// With time to look for a cause.
+fn patient(cases: u64, families: &[&str]) -> Options {
+    families
+        .iter()
+        .map(|name| (*name).to_owned())
+        .fold(Options::default().cases(cases), Options::family)
+}
+
+/// Without.
+fn options(cases: u64, families: &[&str]) -> Options {
+    patient(cases, families).terms(Asking { patience: Duration::ZERO, ..Asking::default() })
+}
+
+fn judged(asker: Box<dyn Subject>, options: &Options) -> Verdict {
+    judge(&mut [asker], options, &|_| None, &|_| ())
+}
+
+fn inside(name: &str) -> Box<dyn Subject> {
+    Box::new(Inside::new(engines::find(name).unwrap()))
+}
+
+/// The families of a verb.
+const WIDE: [&str; 2] = ["wide-line", "wide-line-design"];
+
+/// What a program is judged that answers each question so.
+fn judged_answers(
+    words: &str,
+    answer: impl Fn(&Question) -> Answer + Send + 'static,
+    options: &Options,
+) -> Verdict {
+    let declared = Declared::parse(&format!("HELLO 2 x {words}")).unwrap();
+    let answers = move |questions: &[Question], _: u64| questions.iter().map(&answer).collect();
+    judged(Box::new(Answering(declared, answers)), options)
+}
+
+/// What is said of why a program is wrong.
+fn causes(verdict: &Verdict) -> String {
+    let said =
+        verdict.cause.iter().map(|why| format!("{}: {}", why.of, why.why.sentences().join(" ")));
+    said.collect::<Vec<_>>().join("\n")
+}
+
+/// Runs of a line with a width, of a question about one.
+fn wide(
+    question: &Question,
+    change: impl Fn(WideLine, WideForm) -> (WideLine, WideForm),
+) -> Answer {
+    let Asked::Wide(line) = &question.of else { return Answer::Refused(String::new()) };
+    let (line, form) = change(*line, WideForm::Rectangle);
+    let window = PixelRect::window(question.width, question.height);
+    let mut runs = Vec::new();
+    if line.width > 0 {
+        WideLines { form }.cover(&line, window, &mut |run| runs.push(run));
+    }
+    Answer::Coverage(runs)
+}
+
+/// Each engine is right by its own form and wrong by the other.
+#[test]
+fn wide_lines_are_drawn_in_both_forms() {
+    for (name, form) in [("wide-rectangles", "rectangle"), ("wide-parallelograms", "parallelogram")]
+    {
+        let verdict = judged(inside(name), &options(1000, &WIDE));
+        assert!(verdict.agrees() && verdict.more.found.cases == 2000, "{:?}", verdict.failures);
+        let as_other = |declared: &str| {
+            let mut engine = inside(name);
+            let declared =
+                Declared::parse(&format!("HELLO 2 x wide-line wide={declared}")).unwrap();
+            let answer = move |questions: &[Question], most| engine.ask(questions, most);
+            judged(Box::new(Answering(declared, answer)), &patient(100, &WIDE))
+        };
+        assert!(as_other(form).agrees());
+        let other = if form == "rectangle" { "parallelogram" } else { "rectangle" };
+        let verdict = as_other(other);
+        assert!(!verdict.agrees());
+        let said = causes(&verdict);
+        assert!(said.contains(&format!("draws lines with a width as {form}s")), "{said}");
+    }
+}
+
+/// A fault of a program that draws wide lines, and what is said of it.
+type WideFault = (fn(&Question) -> Answer, &'static str);
+
+const WIDE_FAULTS: [WideFault; 8] = [
+    (|q| wide(q, |line, form| (WideLine { width: 2 * line.width, ..line }, form)), "twice as wide"),
+    (
+        |q| {
+            wide(q, |line, form| (WideLine { width: (line.width + 128) / 256 * 256, ..line }, form))
+        },
+        "rounded to whole pixels",
+    ),
+    (
+        |q| wide(q, |line, form| (WideLine { width: line.width.max(256), ..line }, form)),
+        "at least 1 px wide",
+    ),
+    (
+        |q| {
+            wide(q, |mut line, form| {
+                for end in &mut line.ends {
+                    (end.x, end.y) = (end.x & !15, end.y & !15);
+                }
+                (line, form)
+            })
+        },
+        "from ends that are cut to 1/16 px",
+    ),
+    // Rectangles where the width is 2 px or more alone.
+    (
+        |q| {
+            wide(q, |line, form| {
+                (line, if line.width < 512 { WideForm::Parallelogram } else { form })
+            })
+        },
+        "as parallelograms",
+    ),
+    // The last column of the window.
+    (
+        |q| {
+            let mut answer = wide(q, |line, form| (line, form));
+            if let Answer::Coverage(runs) = &mut answer {
+                runs.iter_mut()
+                    .for_each(|run| run.x1_px = run.x1_px.min(q.width as i32 - 1).max(run.x0_px));
+            }
+            answer
+        },
+        "does not draw",
+    ),
+    // Nothing of lines that go up.
+    (
+        |q| match (&q.of, wide(q, |line, form| (line, form))) {
+            (Asked::Wide(line), _) if line.ends[1].y < line.ends[0].y => {
+                Answer::Coverage(Vec::new())
+            }
+            (_, answer) => answer,
+        },
+        "does not draw",
+    ),
+    // A row is drawn twice.
+    (
+        |q| {
+            let mut answer = wide(q, |line, form| (line, form));
+            if let Answer::Coverage(runs) = &mut answer {
+                runs.extend(runs.clone().into_iter().filter(|run| run.y_px == 3));
+            }
+            answer
+        },
+        "twice where the row is 3",
+    ),
+];
+
+#[test]
+fn faults_of_wide_lines_are_found_and_explained() {
+    let right =
+        judged_answers("wide-line", |q| wide(q, |line, form| (line, form)), &options(50, &WIDE));
+    assert!(right.agrees(), "{:?}", right.failures);
+    for (fault, wanted) in WIDE_FAULTS {
+        let verdict = judged_answers("wide-line", fault, &patient(200, &WIDE));
+        assert!(!verdict.agrees(), "{wanted}");
+        let case = &verdict.failures[0].case;
+        assert!(case.window.width() <= 8 && case.window.height() <= 8, "{wanted}: {case:?}");
+        let said = causes(&verdict);
+        println!("{wanted}\n  {said}");
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+}
+
+/// Every rule of samples on the border is declared, and judged.
+#[test]
+fn the_border_of_wide_lines_is_that_of_the_declared_rule() {
+    for rule in ["top-right", "bottom-left", "bottom-right", "inclusive", "strict", "none"] {
+        let declared = Declared::parse(&format!("HELLO 2 x wide-line rule={rule}")).unwrap();
+        let verdict = judged_answers(
+            &format!("wide-line rule={rule}"),
+            move |q| {
+                let Asked::Wide(line) = &q.of else { return Answer::Refused(String::new()) };
+                let window = PixelRect::window(q.width, q.height);
+                Answer::Coverage(declared.wide(line, window).unwrap().must)
+            },
+            &options(200, &WIDE),
+        );
+        assert!(verdict.agrees(), "{rule}: {:?}", verdict.failures);
+        let top_left = judged_answers(
+            &format!("wide-line rule={rule}"),
+            |q| wide(q, |line, form| (line, form)),
+            &options(200, &WIDE),
+        );
+        assert_eq!(top_left.agrees(), rule == "none", "{rule}");
+    }
+}
+
+/// The families of shares.
+const AREA: [&str; 2] = ["area", "area-design"];
+
+/// Levels of a question about shares: what becomes of each share, in 255 steps.
+fn levels(question: &Question, level: impl Fn(f64, [i32; 2]) -> f64) -> Answer {
+    let Asked::Area(corners) = &question.of else { return Answer::Refused(String::new()) };
+    let mut runs = Vec::new();
+    for y_px in 0..question.height as i32 {
+        for x_px in 0..question.width as i32 {
+            let level = level(share(corners, x_px, y_px), [x_px, y_px]) as u8;
+            if level > 0 {
+                runs.push((Span { y_px, x0_px: x_px, x1_px: x_px + 1 }, level));
+            }
+        }
+    }
+    Answer::Area(runs)
+}
+
+/// The share of the samples of a pixel that are covered, in `n` rows of `n`.
+fn sampled(question: &Question, n: i32) -> Answer {
+    let Asked::Area(corners) = &question.of else { return Answer::Refused(String::new()) };
+    levels(question, |_, [x_px, y_px]| {
+        // Samples of a pixel are centres of pixels of a window that is finer.
+        let finer =
+            corners.map(|p| SubpixelPoint::new(p.x.saturating_mul(n), p.y.saturating_mul(n)));
+        let window =
+            PixelRect { x0: x_px * n, y0: y_px * n, x1: (x_px + 1) * n, y1: (y_px + 1) * n };
+        let mut covered = 0;
+        Oracle.cover(finer, window, |run| covered += run.x1_px - run.x0_px);
+        (f64::from(covered) * 255.0 / f64::from(n * n)).round()
+    })
+}
+
+#[test]
+fn shares_are_judged_with_a_stated_tolerance() {
+    let verdict = judged(inside("area"), &options(1000, &AREA));
+    assert!(verdict.agrees() && verdict.more.found.cases == 2000, "{:?}", verdict.failures);
+    let nearest = |share: f64, _: [i32; 2]| (share * 255.0).round();
+    assert!(judged_answers("area", move |q| levels(q, nearest), &options(100, &AREA)).agrees());
+    // Cut down, a level is off by less than a step: right where that is declared, and else wrong.
+    let cut = |share: f64, _: [i32; 2]| (share * 255.0).floor();
+    assert!(
+        judged_answers("area area-tolerance=1", move |q| levels(q, cut), &options(100, &AREA))
+            .agrees()
+    );
+    let verdict = judged_answers("area", move |q| levels(q, cut), &options(100, &AREA));
+    let what = &verdict.failures[0].what;
+    assert!(
+        what.contains("of a level that is too small")
+            && what.contains("the largest difference is "),
+        "{what}"
+    );
+    // Fewer steps, and one winding.
+    let coarse = |share: f64, _: [i32; 2]| (share * 4.0).round();
+    assert!(
+        judged_answers("area levels=4", move |q| levels(q, coarse), &options(100, &AREA)).agrees()
+    );
+    assert!(
+        !judged_answers("area levels=5", move |q| levels(q, coarse), &options(100, &AREA)).agrees()
+    );
+    assert!(
+        !judged_answers("area winding=cw", move |q| levels(q, nearest), &options(100, &AREA))
+            .agrees()
+    );
+}
+
+/// A fault of a program that computes shares, and what is said of it.
+type AreaFault = (fn(&Question) -> Answer, &'static str);
+
+const AREA_FAULTS: [AreaFault; 8] = [
+    (|q| sampled(q, 4), "by 4 x 4 samples"),
+    (|q| sampled(q, 1), "by the sample at the centre alone"),
+    (|q| levels(q, |share, _| (share * 255.0).floor()), "rounds the share of a pixel down"),
+    (
+        |q| levels(q, |share, _| (share.sqrt() * 255.0).round()),
+        "takes the square root of the share",
+    ),
+    (
+        |q| levels(q, |share, _| if share > 0.0 { ((1.0 - share) * 255.0).round() } else { 0.0 }),
+        "that is not covered",
+    ),
+    (|q| levels(q, |share, _| (share * 16.0).round()), "in steps of 1/16"),
+    // What is hardly touched is lost.
+    (
+        |q| levels(q, |share, _| if share < 0.125 { 0.0 } else { (share * 255.0).round() }),
+        "does not draw the share of a pixel",
+    ),
+    (
+        |q| {
+            let width = q.width as i32;
+            levels(
+                q,
+                move |share, [x, _]| if x == width - 1 { 0.0 } else { (share * 255.0).round() },
+            )
+        },
+        "does not draw the share of a pixel",
+    ),
+];
+
+#[test]
+fn faults_of_shares_are_found_and_explained() {
+    for (fault, wanted) in AREA_FAULTS {
+        let verdict = judged_answers("area", fault, &patient(200, &AREA));
+        assert!(!verdict.agrees(), "{wanted}");
+        let case = &verdict.failures[0].case;
+        assert!(case.window.width() <= 8 && case.window.height() <= 8, "{wanted}: {case:?}");
+        let said = causes(&verdict);
+        println!("{wanted}\n  {said}");
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+}
