@@ -821,7 +821,7 @@ impl Scene<'_> {
         out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
             (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
         });
-        out.named(Unit::Subpixels, of(&Crossings::length), || {
+        out.named(Unit::Length, of(&Crossings::length), || {
             (format!("the length of its {line} from edge to edge"), String::new())
         });
         let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));

@@ -307,6 +307,8 @@ pub enum Unit {
     Pixels,
     /// 1/256 px.
     Subpixels,
+    /// The same of what lies on no grid.
+    Length,
     /// 1/65,536 of a square pixel.
     Area,
     /// 1/256.

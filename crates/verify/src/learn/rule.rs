@@ -109,7 +109,7 @@ impl Fact {
             Of::One(i) => match names[i].unit {
                 Unit::Flag => 1.0,
                 Unit::Count | Unit::Paired | Unit::Pixels => 1.03,
-                Unit::Subpixels | Unit::Area | Unit::Ratio | Unit::Value => 1.06,
+                Unit::Subpixels | Unit::Length | Unit::Area | Unit::Ratio | Unit::Value => 1.06,
                 Unit::Involved => 1.2,
             },
             Of::Difference(..) => 1.15,

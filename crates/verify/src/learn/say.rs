@@ -11,7 +11,7 @@ use super::rule::{Conjunction, Fact, Of, Test};
 /// A number of a quantity, in px or px² where it is one.
 pub(super) fn number(unit: Unit, v: i64) -> String {
     let (per, word) = match unit {
-        Unit::Subpixels => (256.0, " px"),
+        Unit::Subpixels | Unit::Length => (256.0, " px"),
         Unit::Area => (131_072.0, " square pixels"),
         Unit::Ratio => (RATIO as f64, ""),
         Unit::Value => return format!("{}", (v as f64 / VALUE * 1e6).round() / 1e6),
