@@ -343,6 +343,30 @@ fn site_text_is_near() {
     assert_eq!(browser.eval("decodeURI(location.hash)"), format!("#{}", other.as_str().unwrap()));
 }
 
+/// The code of each stage in Python and C++, which the page in the repository has as links, stands in tabs beside that in Rust.
+#[test]
+#[ignore = "needs docs/build"]
+fn site_shows_code_in_tabs() {
+    let Some(mut browser) = Browser::start("site-tabs") else { return };
+    let stages = read("docs/own.md").matches("\nPython: [").count();
+    // The tab of Rust is open first.
+    let tabs =
+        [(1, "Python", "def stage1("), (2, "C++", "void stage1("), (0, "Rust", "fn stage1(")];
+    for (book, width) in [("en", 360), ("zh", 1280)] {
+        browser.resize(width, 800);
+        go(&mut browser, &site(), &format!("{book}/own.html"));
+        assert_eq!(browser.eval("document.querySelectorAll('main .tabs').length"), stages);
+        for (at, language, code) in tabs {
+            let tab = format!("document.querySelector('main .tabs').children[{at}]");
+            browser.eval(&format!("{tab}.firstElementChild.click()"));
+            browser.wait_for(&format!("document.querySelector('main .tabs > [open]') === {tab}"));
+            let text = browser.eval(&format!("{tab}.innerText"));
+            let text = text.as_str().unwrap();
+            assert!(text.starts_with(language) && text.contains(code), "{book}: {text}");
+        }
+    }
+}
+
 /// Figures stand there before the engines are loaded, and nothing moves when these have come.
 #[test]
 #[ignore = "needs docs/build"]
