@@ -191,17 +191,30 @@ function reachable(head) {
   return once(named.replace(/<body[^>]*>/, '$&\n<a class="to-the-text" href="#text">Skip to the text</a>'), '<main>', '<main id="text" tabindex="-1">');
 }
 
+/** The code that links of a page lead to, `own/a.py#L3-L9`, as one block with an empty line between two pieces. */
+function linked(page, links) {
+  const pieces = [];
+  let language = '';
+  for (const [, name, first, last] of links.matchAll(/href="([^"#]+)#L(\d+)-L(\d+)"/g)) {
+    const file = path.posix.join(path.posix.dirname(page), decodeURI(name));
+    language = HIGHLIGHTED[path.extname(file).slice(1)];
+    pieces.push(read(file).split('\n').slice(first - 1, last).join('\n'));
+  }
+  return `<pre><code class="language-${language}">${escaped(pieces.join('\n\n'))}\n</code></pre>`;
+}
+
 /**
- * Code that a page has in several languages, as a block and folded ones behind it, becomes tabs: a browser opens one of the
- * folded blocks that share a name.
+ * Code that a page prints in Rust, with links to the same code in other languages behind it, becomes tabs: a browser opens one
+ * of the folded blocks that share a name.
  */
-function inTabs(main) {
+function inTabs(page, main) {
   let count = 0;
-  const printed = /(<pre><code class="language-rust(?:(?!<\/pre>)[^])*<\/pre>)\s*<!--\/code-->\s*((?:<details><summary>(?:Python|C\+\+)<\/summary>[^]*?<\/details>\s*)+)/g;
+  const printed = /(<pre><code class="language-rust(?:(?!<\/pre>)[^])*<\/pre>)\s*<!--\/code-->\s*((?:<!-- code (?:(?!-->)[^])*-->\s*<p>(?:Python|C\+\+): (?:(?!<\/p>)[^])*<\/p>\s*<!--\/code-->\s*)+)/g;
   return main.replace(printed, (_, rust, others) => {
     count += 1;
-    const named = others.replaceAll('<details>', `<details name="code-${count}">`);
-    return `<div class="tabs">\n<details name="code-${count}" open><summary>Rust</summary>\n${rust}\n</details>\n${named}</div>\n`;
+    const tabs = [...others.matchAll(/<p>(Python|C\+\+): ([^]*?)<\/p>/g)].map(([, language, links]) =>
+      `<details name="code-${count}"><summary>${language}</summary>\n${linked(page, links)}\n</details>\n`);
+    return `<div class="tabs">\n<details name="code-${count}" open><summary>Rust</summary>\n${rust}\n</details>\n${tabs.join('')}</div>\n`;
   });
 }
 
@@ -210,7 +223,7 @@ function finished(book, page, place, main, others) {
   const away = (where) => path.posix.relative(path.posix.dirname(place), where);
   let pictures = 0;
   // A break between two lines would be seen as a space, which Chinese does not have.
-  const joined = inTabs(main).split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
+  const joined = inTabs(page, main).split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
     at % 2 ? part : part.replace(/(?<=[\u3000-\u9fff\uff00-\uffef])\n(?=[\u3000-\u9fff\uff00-\uffef])/g, '')).join('');
   const own = headings(main);
   const hasCounterparts = own.length === others.length;

@@ -138,7 +138,7 @@ pub fn lessons() -> Vec<f64> {
         pages.iter().filter(|page| page.contains("<rp-figure")).count(),
         words.iter().copied().min().unwrap(),
         words.iter().copied().max().unwrap(),
-        page("docs", "own").matches("<summary>Python").count(),
+        page("docs", "own").matches("\nPython: [").count(),
         STEPS.len(),
         quizzes.count(),
     ];

@@ -375,7 +375,16 @@ fn is_state(file: &str, anchor: &str) -> bool {
     ["playground.md", "report.md"].iter().any(|name| file.ends_with(name)) && anchor.contains('=')
 }
 
-/// Links that lead nowhere: to a missing file, one that is not kept, or a missing heading of a page.
+/// Whether an anchor names lines that a file of code has, as a forge shows them: `L3-L9`.
+fn are_lines(file: &Path, anchor: &str) -> bool {
+    let number = |text: &str| text.strip_prefix('L')?.parse::<usize>().ok();
+    let lines = anchor.split_once('-').and_then(|(a, b)| Some(number(a)?..=number(b)?));
+    lines.is_some_and(|lines| {
+        !lines.is_empty() && *lines.start() > 0 && *lines.end() <= read(file).lines().count()
+    })
+}
+
+/// Links that lead nowhere: to a missing file, one that is not kept, a missing heading of a page, or missing lines of code.
 fn broken_links(page: &Path, text: &str) -> Vec<String> {
     let mut broken = Vec::new();
     // What stands between fences is code.
@@ -389,7 +398,11 @@ fn broken_links(page: &Path, text: &str) -> Vec<String> {
         let target =
             if file.is_empty() { page.to_owned() } else { page.parent().unwrap().join(file) };
         let exists = target.exists() && is_kept(&target);
-        let found = || anchors(&read(&target)).iter().any(|a| a == anchor);
+        let is_page = target.extension().is_some_and(|ending| ending == "md");
+        let found = || match is_page {
+            true => anchors(&read(&target)).iter().any(|a| a == anchor),
+            false => are_lines(&target, anchor),
+        };
         if !exists || !anchor.is_empty() && !is_state(file, anchor) && !found() {
             broken.push(format!("{}: {link}", page.display()));
         }
@@ -405,6 +418,8 @@ fn links_lead_somewhere() {
     let text =
         "[a](ch01.md#the-formula) [b](ch99.md) [c](ch01.md#no=where) [d](playground.md#scene=line)";
     assert_eq!(broken_links(&page, text).len(), 2);
+    let lines = "[a](../src/lib.rs#L1-L2) [b](../src/lib.rs#L2-L1) [c](../src/lib.rs#L1-L99999)";
+    assert_eq!(broken_links(&page, lines).len(), 2);
     // It is there, as this test runs from it, but a fresh checkout does not have it.
     let made = "[a](../target) [b](../src/lib.rs) [c](../src)";
     assert_eq!(broken_links(&page, made).len(), 1);
