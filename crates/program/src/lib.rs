@@ -455,9 +455,9 @@ impl Live {
             }))
         };
         let letter = match words.word() {
-            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'B' | b'Z' | b'E')]) => {
-                *letter
-            }
+            Some(
+                [letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'K' | b'G' | b'B' | b'Z' | b'E')],
+            ) => *letter,
             _ => return Err(nonsense("no answer begins like this")),
         };
         let named = words.word().unwrap_or(b"");
