@@ -240,10 +240,10 @@ fn judge_waits_for_few_hangs() {
     assert!(others.len() < 16, "{others:?}");
 }
 
-/// What is no fault: version 1, a banner before HELLO, a loud standard error.
+/// What is no fault: version 1, a banner before HELLO, a loud standard error, runs with their numbers of hits.
 #[test]
 fn judge_bears_with_old_and_loud_programs() {
-    for plant in ["old", "chatty", "noisy"] {
+    for plant in ["old", "chatty", "noisy", "counts"] {
         let program = misbehaving(plant, limits(20_000)).unwrap();
         assert_eq!(program.declared().version, if plant == "old" { 1 } else { 2 });
         let verdict = judged(Box::new(program), &options(64, &["half-integer"]));

@@ -38,7 +38,7 @@ fn misbehaves() {
 fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()> {
     let entry = engines::find(engine).unwrap();
     match fault {
-        // No fault, as `old`, `noisy` and `slow` are none.
+        // No fault, as `old`, `noisy`, `slow` and `counts` are none.
         "chatty" => writeln!(out, "INFO: a banner\n> HELLO? 2 lines\n")?,
         // With control characters.
         "noisy" => {
@@ -76,6 +76,17 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
                 writeln!(out, "{} rule=topleft", answer.trim_ascii_end().escape_ascii())?;
             }
             (_, ["HELLO", ..]) => out.write_all(&answer)?,
+            // The hits of each run are counted.
+            ("counts", ["T", ..]) => {
+                let answer = String::from_utf8_lossy(&answer).replacen('C', "H", 1);
+                let words: Vec<&str> = answer.split_whitespace().collect();
+                let (head, runs) = words.split_at(3);
+                write!(out, "{}", head.join(" "))?;
+                for run in runs.chunks(3) {
+                    write!(out, " {} 1", run.join(" "))?;
+                }
+                writeln!(out)?;
+            }
             // As many runs as fit on a line.
             ("bloats", [_, id, ..]) => {
                 let runs = 170_000;

@@ -72,6 +72,9 @@ impl Asked {
     }
 }
 
+/// The letters that answers begin with, of every verb.
+pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKGBZE";
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// C: runs of covered pixels as they came.

@@ -7,12 +7,13 @@ use rasterproof_registry::engines::{self, WideLines};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::area::share;
 
-use super::ask::{Answer, Asked, Question, Subject};
+use super::ask::{ANSWER_LETTERS, Answer, Asked, Question, Subject, line};
 use super::declared::Declared;
 use super::expected::Expect as _;
 use super::in_process::Inside;
 use super::verdict::{Scores as _, Verdict};
 use super::{Asking, Options, judge};
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// A program that answers questions so.
@@ -61,6 +62,28 @@ fn judged_answers(
     let declared = Declared::parse(&format!("HELLO 2 x {words}")).unwrap();
     let answers = move |questions: &[Question], _: u64| questions.iter().map(&answer).collect();
     judged(Box::new(Answering(declared, answers)), options)
+}
+
+/// Whoever reads programs knows the letter of every answer.
+#[test]
+fn answers_begin_with_known_letters() {
+    let run = Span { y_px: 0, x0_px: 0, x1_px: 1 };
+    let answers = [
+        Answer::Coverage(vec![run]),
+        // Hits that are many are counted.
+        Answer::Coverage(vec![run; 3]),
+        Answer::Values(Vec::new()),
+        Answer::Samples(Vec::new()),
+        Answer::Line(Vec::new()),
+        Answer::Seen(Vec::new()),
+        Answer::Area(Vec::new()),
+        Answer::Polygon(Vec::new()),
+        Answer::Carried(Vec::new()),
+        Answer::Triangles(Vec::new()),
+        Answer::Refused("no".to_owned()),
+    ];
+    let begun: BTreeSet<u8> = answers.iter().map(|answer| line(answer, 1).as_bytes()[0]).collect();
+    assert_eq!(begun, ANSWER_LETTERS.iter().copied().collect());
 }
 
 /// What is said of why a program is wrong.

@@ -21,7 +21,9 @@ use std::time::{Duration, Instant};
 use complaints::StandardError;
 use group::Group;
 use rasterproof_host::limits;
-use rasterproof_judge::ask::{Answer, Breach, Complaints, Misbehaviour, Question, Subject};
+use rasterproof_judge::ask::{
+    ANSWER_LETTERS, Answer, Breach, Complaints, Misbehaviour, Question, Subject,
+};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::text::{Words, printable};
 
@@ -455,9 +457,7 @@ impl Live {
             }))
         };
         let letter = match words.word() {
-            Some(
-                [letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'K' | b'G' | b'B' | b'Z' | b'E')],
-            ) => *letter,
+            Some([letter]) if ANSWER_LETTERS.contains(letter) => *letter,
             _ => return Err(nonsense("no answer begins like this")),
         };
         let named = words.word().unwrap_or(b"");
