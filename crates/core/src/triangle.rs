@@ -306,14 +306,14 @@ pub struct ScreenLine<V> {
 /// A line segment with a width, which is filled like a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WideLine {
-    /// Where it starts and ends.
+    /// The middles of both its short sides, the first end first.
     pub ends: [SubpixelPoint; 2],
-    /// Its width in subpixels, above 0.
+    /// From one long side to the other, in subpixels and above 0: at right angles or along an axis, as the form says.
     pub width: i32,
 }
 
 crate::named! {
-    /// The shape of a wide line.
+    /// How a segment with a width becomes a polygon, by the clause of Vulkan on line segments.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub enum WideForm {
         /// A rectangle about the segment, cut off at right angles at its ends: the strict lines of Vulkan.

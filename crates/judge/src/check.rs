@@ -25,7 +25,6 @@ use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
 use rasterproof_verify::oracle::Oracle;
-use rasterproof_verify::oracle::area::share;
 use rasterproof_verify::oracle::values::Exact;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
@@ -251,8 +250,8 @@ impl Check {
         checks
     }
 
-    /// The declared ones of the checks that a family is made for; nothing of the families of triangles and lines, whose cases have
-    /// several.
+    /// The declared ones of the checks that a family is made for; nothing of the families of triangles and lines, where each case
+    /// is there for several checks.
     fn made_for(family: &str, declared: &Declared) -> Option<Vec<Self>> {
         let is_sampled = declared.shape == declared::Shape::Sample;
         let all = match family {
@@ -277,7 +276,7 @@ impl Check {
         )
     }
 
-    /// Whether a program that declares this is asked any case of a family. Those of a design take time to choose.
+    /// Whether a family has a request for a program that declares this: cases of a design take time to choose.
     #[must_use]
     pub fn asks(family: &Family, declared: &Declared) -> bool {
         match Self::made_for(family.name, declared) {
@@ -644,14 +643,13 @@ fn levels(
     truth: &Truth,
 ) {
     let declared = &truth.declared;
-    let is_drawn = declared.convention.draws(twice_area(corners));
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
     let (hit, outside) = hits(&all, window);
     judged.finding.tally.extra += outside;
     let actual = painted(runs, window, 0, |here, level| *here = level);
     for (y, row) in actual.rows() {
         for ((x, &level), &hits) in (window.x0..).zip(row).zip(hit.row(y)) {
-            let share = if is_drawn { share(corners, x, y) } else { 0.0 };
+            let share = declared.share(corners, [x, y]);
             let off = f64::from(level) - share * f64::from(declared.levels);
             let is_wrong = off.abs() > declared.steps_off();
             judged.pixels += u64::from(share > 0.0);
@@ -736,11 +734,11 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
         }
         Asked::Area(corners) => {
-            let is_drawn = truth.declared.convention.draws(twice_area(corners));
             let mut runs = Vec::new();
-            for y in (window.y0..window.y1).filter(|_| is_drawn) {
+            for y in window.y0..window.y1 {
                 for x in window.x0..window.x1 {
-                    let level = share(corners, x, y) * f64::from(truth.declared.levels);
+                    let share = truth.declared.share(corners, [x, y]);
+                    let level = share * f64::from(truth.declared.levels);
                     if level.round() > 0.0 {
                         push(&mut runs, x, y, level.round() as u8);
                     }

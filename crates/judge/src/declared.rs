@@ -7,9 +7,11 @@
 use std::fmt;
 
 use super::text::{number, printable, px};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
-use rasterproof_core::triangle::WideForm;
+use rasterproof_core::triangle::{Corners, WideForm};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
+use rasterproof_verify::oracle::area::share;
 use rasterproof_verify::partition::{self, Tessellation};
 
 /// What a program declares; the default is what version 1 promises.
@@ -33,13 +35,13 @@ pub struct Declared {
     pub clip: bool,
     /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
-    /// Answers W.
+    /// Answers W: fills lines with a width.
     pub wide_line: bool,
     /// The shape of its lines with a width.
     pub wide: WideForm,
-    /// Answers R.
+    /// Answers R: says how much of each pixel a triangle covers.
     pub area: bool,
-    /// The steps of a share of a pixel.
+    /// How many steps a pixel that is covered whole has.
     pub levels: u8,
     /// How many steps a share may be off.
     pub area_tolerance: f64,
@@ -402,6 +404,15 @@ impl Declared {
     #[must_use]
     pub fn steps_off(&self) -> f64 {
         self.area_tolerance + ROUNDING_OF_STEPS
+    }
+
+    /// How much of a pixel a triangle covers, exactly, in [0, 1]: nothing where its winding is not drawn.
+    #[must_use]
+    pub fn share(&self, corners: &Corners, [x_px, y_px]: [i32; 2]) -> f64 {
+        match self.convention.draws(twice_area(corners)) {
+            true => share(corners, x_px, y_px),
+            false => 0.0,
+        }
     }
 
     pub fn capabilities(&self) -> Vec<&'static str> {

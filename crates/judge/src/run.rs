@@ -462,7 +462,7 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
     families.iter().map(of_family).fold(0, u64::saturating_add)
 }
 
-/// The families of which a program is asked anything.
+/// The families that have a request for a program that declares this.
 fn asked_families(options: &Options, declared: &Declared) -> Vec<&'static Family> {
     let mut families = adapt_case::families(&options.families);
     families.retain(|family| Check::asks(family, declared));

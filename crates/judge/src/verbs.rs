@@ -131,10 +131,22 @@ fn wide_lines_are_drawn_in_both_forms() {
     }
 }
 
-/// A fault of a program that draws wide lines, and what is said of it.
-type WideFault = (fn(&Question) -> Answer, &'static str);
+/// A program with a fault, and what is said of it.
+type Fault = (fn(&Question) -> Answer, &'static str);
 
-const WIDE_FAULTS: [WideFault; 8] = [
+/// Each fault is found, on a small case, and said.
+fn are_found_and_explained(words: &str, families: &[&str], faults: &[Fault]) {
+    for &(fault, wanted) in faults {
+        let verdict = judged_answers(words, fault, &patient(200, families));
+        assert!(!verdict.agrees(), "{wanted}");
+        let case = &verdict.failures[0].case;
+        assert!(case.window.width() <= 8 && case.window.height() <= 8, "{wanted}: {case:?}");
+        let said = causes(&verdict);
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+}
+
+const WIDE_FAULTS: [Fault; 8] = [
     (|q| wide(q, |line, form| (WideLine { width: 2 * line.width, ..line }, form)), "twice as wide"),
     (
         |q| {
@@ -206,15 +218,7 @@ fn faults_of_wide_lines_are_found_and_explained() {
     let right =
         judged_answers("wide-line", |q| wide(q, |line, form| (line, form)), &options(50, &WIDE));
     assert!(right.agrees(), "{:?}", right.failures);
-    for (fault, wanted) in WIDE_FAULTS {
-        let verdict = judged_answers("wide-line", fault, &patient(200, &WIDE));
-        assert!(!verdict.agrees(), "{wanted}");
-        let case = &verdict.failures[0].case;
-        assert!(case.window.width() <= 8 && case.window.height() <= 8, "{wanted}: {case:?}");
-        let said = causes(&verdict);
-        println!("{wanted}\n  {said}");
-        assert!(said.contains(wanted), "{wanted}: {said}");
-    }
+    are_found_and_explained("wide-line", &WIDE, &WIDE_FAULTS);
 }
 
 /// Every rule of samples on the border is declared, and judged.
@@ -307,10 +311,7 @@ fn shares_are_judged_with_a_stated_tolerance() {
     );
 }
 
-/// A fault of a program that computes shares, and what is said of it.
-type AreaFault = (fn(&Question) -> Answer, &'static str);
-
-const AREA_FAULTS: [AreaFault; 8] = [
+const AREA_FAULTS: [Fault; 8] = [
     (|q| sampled(q, 4), "by 4 x 4 samples"),
     (|q| sampled(q, 1), "by the sample at the centre alone"),
     (|q| levels(q, |share, _| (share * 255.0).floor()), "rounds the share of a pixel down"),
@@ -342,13 +343,5 @@ const AREA_FAULTS: [AreaFault; 8] = [
 
 #[test]
 fn faults_of_shares_are_found_and_explained() {
-    for (fault, wanted) in AREA_FAULTS {
-        let verdict = judged_answers("area", fault, &patient(200, &AREA));
-        assert!(!verdict.agrees(), "{wanted}");
-        let case = &verdict.failures[0].case;
-        assert!(case.window.width() <= 8 && case.window.height() <= 8, "{wanted}: {case:?}");
-        let said = causes(&verdict);
-        println!("{wanted}\n  {said}");
-        assert!(said.contains(wanted), "{wanted}: {said}");
-    }
+    are_found_and_explained("area", &AREA, &AREA_FAULTS);
 }

@@ -139,7 +139,7 @@ pub struct AreaLevels {
 }
 
 impl AreaLevels {
-    /// The runs of pixels with the same level above 0.
+    /// A run for each pixel whose level is above 0.
     pub fn cover(self, corners: &Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span, u8)) {
         let corners = corners.map(|p| {
             let (x, y) = p.to_px();

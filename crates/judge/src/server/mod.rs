@@ -249,7 +249,7 @@ fn by_variant(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     }
 }
 
-/// The levels of pixels.
+/// The level of each pixel that a triangle covers in part or whole.
 fn area(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     let Some(Variant::Area(engine)) = entry.variant else {
         return Err("unsupported".to_owned());

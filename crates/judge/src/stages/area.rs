@@ -1,11 +1,12 @@
 //! The level of a pixel by the share of it that a triangle covers, computed by somebody who may be mistaken.
 
+use super::grids::{grids, rounded};
 use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::pixels::painted;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::convention::{Quantum, Rounding};
 use rasterproof_verify::oracle::area::share;
@@ -22,38 +23,27 @@ composed! {
     }
 }
 
-/// The grid of corners.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The grid that corners are put on before anything is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CornerGrid(Quantum);
-
-impl Default for CornerGrid {
-    fn default() -> Self {
-        Self(Quantum::NONE)
-    }
-}
 
 impl Field for CornerGrid {
     const NAME: &'static str = "corners of shares";
 
     fn options() -> Vec<Self> {
-        let of = |step| {
-            [Rounding::Down, Rounding::Near, Rounding::HalfEven]
-                .map(|rounding| Self(Quantum { step, rounding }))
-        };
-        (1..=8).flat_map(|bits| of(1 << bits)).collect()
+        let all = grids(&[Rounding::Down, Rounding::Near, Rounding::HalfEven]);
+        all.into_iter().map(Self).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let how = if self.0.rounding == Rounding::Down { "cut" } else { "rounded" };
-        let parts = SUBPIXELS / self.0.step;
         Some((
-            format!("computes {{}} of corners that are {how} to 1/{parts} px"),
+            format!("computes {{}} of corners that are {}", rounded(self.0)),
             "take the corners as they are asked",
         ))
     }
 }
 
-/// What a share is taken of.
+/// By which part of a pixel its share is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Sampling {
     #[default]
@@ -68,7 +58,7 @@ pub enum Sampling {
 const SAMPLES: [i32; 7] = [1, 2, 3, 4, 5, 8, 16];
 
 impl Sampling {
-    /// The share that is seen.
+    /// The share of a pixel, as far as these samples or rows show it.
     fn share(self, corners: &Corners, [x_px, y_px]: [i32; 2]) -> f64 {
         match self {
             Self::Exact => share(corners, x_px, y_px),
@@ -250,15 +240,15 @@ impl Field for AreaGate {
     }
 }
 
-/// A pixel with its level.
+/// A pixel of the window with the level that was answered for it, 0 where there was none.
 pub struct AreaPixel<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
     pub(super) drawn: u8,
-    /// The exact share.
+    /// How much of it the triangle covers, exactly: 0 where the winding is not drawn.
     pub(super) share: f64,
     levels: f64,
-    /// In steps.
+    /// How many steps the level may be off.
     tolerance: f64,
 }
 
@@ -309,13 +299,13 @@ impl Stage for AreaDrawn {
             return Vec::new();
         };
         let window = PixelRect::window(question.width, question.height);
-        let is_drawn = declared.convention.draws(twice_area(corners));
+        let is_clockwise = twice_area(corners) > 0;
+        let (levels, tolerance) = (declared.levels.into(), declared.steps_off());
         let mut parts = Vec::new();
         for (y, row) in painted(runs, window, 0, |here, level| *here = level).rows() {
             for (x, &drawn) in (window.x0..).zip(row) {
-                let share = if is_drawn { share(corners, x, y) } else { 0.0 };
-                let spot = Spot { at: [x, y], is_clockwise: twice_area(corners) > 0, window };
-                let (levels, tolerance) = (declared.levels.into(), declared.steps_off());
+                let share = declared.share(corners, [x, y]);
+                let spot = Spot { at: [x, y], is_clockwise, window };
                 parts.push(AreaPixel { spot, corners, drawn, share, levels, tolerance });
             }
         }
@@ -325,10 +315,6 @@ impl Stage for AreaDrawn {
     fn explains(&self, part: &AreaPixel<'_>) -> bool {
         let [level, tolerance] = self.level(part);
         (f64::from(part.drawn) - level).abs() <= tolerance
-    }
-
-    fn solved(&self, _: &[&AreaPixel<'_>]) -> Vec<Self> {
-        Vec::new()
     }
 
     fn quantities<'a>() -> Vec<Quantity<AreaPixel<'a>>> {

@@ -7,6 +7,7 @@
 
 mod area;
 mod depth;
+mod grids;
 mod learn;
 mod near;
 mod samples;

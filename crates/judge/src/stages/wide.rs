@@ -1,5 +1,6 @@
 //! The pixels of a line with a width, drawn by somebody who may be mistaken.
 
+use super::grids::{grids, rounded, unit};
 use super::samples::{TIES, facing};
 use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
@@ -23,38 +24,20 @@ composed! {
     }
 }
 
-/// The grid of ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The grid that both ends are put on before anything is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndGrid(Quantum);
-
-impl Default for EndGrid {
-    fn default() -> Self {
-        Self(Quantum::NONE)
-    }
-}
-
-/// What a grid is called.
-fn unit(step: i32) -> String {
-    match SUBPIXELS / step {
-        1 => "whole pixels".to_owned(),
-        parts => format!("1/{parts} px"),
-    }
-}
 
 impl Field for EndGrid {
     const NAME: &'static str = "ends of wide lines";
 
     fn options() -> Vec<Self> {
-        let of = |step| {
-            [Rounding::Down, Rounding::Near].map(|rounding| Self(Quantum { step, rounding }))
-        };
-        (1..=8).flat_map(|bits| of(1 << bits)).collect()
+        grids(&[Rounding::Down, Rounding::Near]).into_iter().map(Self).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let how = if self.0.rounding == Rounding::Down { "cut" } else { "rounded" };
         Some((
-            format!("draws {{}} from ends that are {how} to {}", unit(self.0.step)),
+            format!("draws {{}} from ends that are {}", rounded(self.0)),
             "take the ends as they are asked",
         ))
     }
@@ -122,7 +105,7 @@ rasterproof_core::named! {
         Parallelogram = "as parallelograms, as wide along the shorter axis",
         Square = "longer at both ends by half their width",
         Round = "with half a disc at both ends",
-AlongX = "as wide along x, whatever their direction",
+        AlongX = "as wide along x, whatever their direction",
         AlongY = "as wide along y, whatever their direction",
     }
 }
@@ -408,10 +391,6 @@ impl Stage for WideDrawn {
         let [must, may] = self.draws(part);
         let times = if self.gate == LineGate::Twice { 2 } else { 1 };
         if part.hits > 0 { may && part.hits == times } else { !must }
-    }
-
-    fn solved(&self, _: &[&WidePixel]) -> Vec<Self> {
-        Vec::new()
     }
 
     fn quantities<'a>() -> Vec<Quantity<WidePixel<'a>>> {

@@ -29,6 +29,12 @@ pub struct Quantum {
     pub rounding: Rounding,
 }
 
+impl Default for Quantum {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Quantum {
     /// Corners as they are given, or on a grid too fine to be seen.
     pub const NONE: Self = Self { step: 1, rounding: Rounding::Near };

@@ -6,7 +6,7 @@
 
 use super::picture::{MARGIN, Picture};
 use super::quantity::{AXES, EDGES, Quantities};
-use super::question::{AnyQuestion, Unit};
+use super::question::{AnyQuestion, Unit, first_sample};
 
 /// Where a number is rounded to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -577,12 +577,7 @@ fn span(picture: &Picture, axis: usize, place: i32) -> Option<[i32; 2]> {
 
 /// All borders of a question in its window and its margin, where the heights of the corners are rounded to whole pixels or not.
 pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2], heights: Option<Toward>) -> Vec<Site> {
-    let mut q = q.clone();
-    if let Some(toward) = heights {
-        for point in &mut q.points {
-            point[1] = round(point[1].into(), 256, toward) as i64 * 256;
-        }
-    }
+    let q = with_heights(q, heights);
     let mut all = Vec::new();
     if q.is_line() {
         let [dx, dy] = q.side_of(0, 1).map(i64::abs);
@@ -597,6 +592,17 @@ pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2], heights: Option<Toward>) 
     let places = i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN);
     all.extend(places.filter_map(|place| row_sites(&q, sample, place)).flatten());
     all
+}
+
+/// With the heights of its points rounded to whole pixels, or not.
+fn with_heights(q: &AnyQuestion, heights: Option<Toward>) -> AnyQuestion {
+    let mut q = q.clone();
+    if let Some(toward) = heights {
+        for point in &mut q.points {
+            point[1] = round(point[1].into(), 256, toward) as i64 * 256;
+        }
+    }
+    q
 }
 
 /// The two borders of a row of a triangle, in the window or not; nothing where it has no samples between them.
@@ -646,7 +652,7 @@ pub(super) struct RowRule {
 /// Rows of the two halves that the middle corner makes, each between the long edge and a short one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Halves {
-    /// How many rows later than they should the upper half begins and ends, and the lower one.
+    /// Whether the upper half begins and ends one row later than it should (1), one earlier (-1) or neither, and the lower one.
     pub(super) later: [[i64; 2]; 2],
     /// Whether a pixel of both halves is drawn twice.
     pub(super) counts: bool,
@@ -686,20 +692,19 @@ impl RowRule {
             let corners = format!("their corners, rounded {} to whole px", way.words());
             said.push(format!("Edges have the rows from one to the other of {corners}."));
         }
-        let rows = |rows: i64| if rows.abs() == 1 { "one row" } else { "some rows" };
-        for (later, half) in self.halves.later.iter().zip(["upper", "lower"]) {
-            let ends = later.iter().zip(["begins", "ends"]).filter(|(by, _)| **by != 0);
-            let ends: Vec<String> = ends
-                .map(|(by, verb)| {
-                    let way = if *by > 0 { "later" } else { "earlier" };
-                    format!("{verb} {} {way}", rows(*by))
-                })
-                .collect();
+        for (later, part) in self.halves.later.iter().zip(["above", "below"]) {
+            let mut ends = Vec::new();
+            for (rows, verb) in later.iter().zip(["begins", "ends"]) {
+                match rows {
+                    1 => ends.push(format!("{verb} one row later")),
+                    -1 => ends.push(format!("{verb} one row earlier")),
+                    _ => {}
+                }
+            }
             if !ends.is_empty() {
-                let ends = ends.join(" and ");
                 said.push(format!(
-                    "It draws the part {} the middle corner so that it {ends}, between its edges prolonged.",
-                    if half == "upper" { "above" } else { "below" }
+                    "It draws the part {part} the middle corner so that it {}, between its edges prolonged.",
+                    ends.join(" and ")
                 ));
             }
         }
@@ -769,20 +774,13 @@ pub(super) fn redrawn(
 
 /// The borders of both halves, in the rows that a rule gives them: a row may come twice.
 fn sites_of_halves(q: &AnyQuestion, sample: [i64; 2], rows: RowRule) -> Vec<Site> {
-    let height = |i: usize| match rows.heights {
-        Some(toward) => round(q.points[i][1].into(), 256, toward) as i64 * 256,
-        None => q.points[i][1],
-    };
-    let mut order = [0, 1, 2];
-    order.sort_by_key(|i| height(*i));
-    let [top, middle, bottom] = order;
-    let [to_middle, to_bottom] = [q.side_of(top, middle), q.side_of(top, bottom)];
-    let is_left = to_bottom[0] * to_middle[1] - to_bottom[1] * to_middle[0] > 0;
+    let rounded = with_heights(q, rows.heights);
+    let [top, middle, bottom] = rounded.by_height();
+    let is_left = q.middle_is_left([top, middle, bottom]);
     let edge = |a: usize, b: usize| {
         EDGES.into_iter().find(|edge| edge.contains(&a) && edge.contains(&b)).unwrap_or(EDGES[0])
     };
-    // The first row whose sample is not above a corner.
-    let first = |i: usize| -(sample[1] - height(i)).div_euclid(256);
+    let first = |i: usize| first_sample(rounded.points[i][1], sample[1]);
     let mut all = Vec::new();
     for (half, (from, to)) in [(top, middle), (middle, bottom)].into_iter().enumerate() {
         let [begin, end] = rows.halves.later[half];

@@ -587,7 +587,7 @@ pub(super) struct Nearness {
 }
 
 /// Pixels of an answer beyond which no more are counted.
-const MOST_PIXELS: usize = 24;
+pub(super) const MOST_PIXELS: usize = 24;
 /// Answers after which a base is left that predicted none, and comes no nearer than the right picture does.
 const FIRST: usize = 12;
 
@@ -598,7 +598,7 @@ pub(super) fn nearness(base: &Base, answers: &[&LearnedAnswer], drawer: &dyn Dra
         let missed = base.draw(a, drawer).map_or(MOST_PIXELS, |p| p.differs(&a.drawn));
         near.exact += usize::from(missed == 0);
         near.pixels -= missed.min(MOST_PIXELS) as i64;
-        of_right -= a.right.differs(&a.drawn).min(MOST_PIXELS) as i64;
+        of_right -= a.wrong_pixels.min(MOST_PIXELS) as i64;
         if number == FIRST && near.exact == 0 && near.pixels <= of_right {
             near.pixels -= (MOST_PIXELS * (answers.len() - number)) as i64;
             break;

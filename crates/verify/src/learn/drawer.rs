@@ -1,6 +1,7 @@
 //! Who answers and who knows the right answer: triangles and lines behind one trait.
 
 use super::picture::{MARGIN, Picture};
+use super::quantity::facts_of;
 use super::question::{AnyQuestion, LONGEST_LINE_PX, Room};
 use super::trial::Work;
 use crate::convention::{
@@ -18,11 +19,19 @@ pub(super) struct LearnedAnswer {
     pub(super) facts: Vec<i64>,
     pub(super) drawn: Picture,
     pub(super) right: Picture,
+    /// Pixels that are drawn otherwise than they should be.
+    pub(super) wrong_pixels: usize,
 }
 
 impl LearnedAnswer {
+    pub(super) fn new(question: AnyQuestion, drawn: Picture, right: Picture) -> Self {
+        let facts = facts_of(&question);
+        let wrong_pixels = right.differs(&drawn);
+        Self { question, facts, drawn, right, wrong_pixels }
+    }
+
     pub(super) fn is_wrong(&self) -> bool {
-        !self.drawn.is_as(&self.right)
+        self.wrong_pixels > 0
     }
 }
 

@@ -39,7 +39,8 @@ use change::{Base, Rule};
 pub use drawer::KnownWay;
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
-use model::{Model, Vocabulary, facts_of};
+use model::{Model, Vocabulary};
+use quantity::facts_of;
 use question::AnyQuestion;
 use search::Search;
 use trial::{
@@ -334,8 +335,7 @@ impl<'a> Learner<'a> {
             let answers = self.drawer.ask(questions);
             for (question, drawn) in questions.iter().zip(answers) {
                 let Some(right) = self.drawer.right(question, 0) else { continue };
-                let (question, facts) = (question.clone(), facts_of(question));
-                self.answered.push(LearnedAnswer { question, facts, drawn, right });
+                self.answered.push(LearnedAnswer::new(question.clone(), drawn, right));
             }
         }
         (!self.drawer.is_abandoned()).then_some(())

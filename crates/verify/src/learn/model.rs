@@ -8,13 +8,6 @@ use super::quantity::{self, Name, Quantities, Scene};
 use super::question::{AnyQuestion, Unit};
 use super::rule::{Conjunction, Fact, Of, all_hold};
 
-/// The quantities of a question.
-pub(super) fn facts_of(question: &AnyQuestion) -> Vec<i64> {
-    let mut out = Quantities::default();
-    quantity::of_question(question, &mut out);
-    out.values
-}
-
 /// The names of all quantities: those of the question first.
 pub(super) struct Vocabulary {
     pub(super) names: Vec<Name>,

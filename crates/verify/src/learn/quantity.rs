@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::picture::{MARGIN, Picture, Runs};
-use super::question::{AnyQuestion, Unit};
+use super::question::{AnyQuestion, Unit, first_sample};
 use rasterproof_core::geometry::greatest_divisor;
 
 /// The words of a quantity.
@@ -81,6 +81,13 @@ pub(super) const SIDES: [&str; 2] = ["width", "height"];
 
 /// Ratios are whole numbers of this part: fine enough to tell 4 from a little more.
 pub(super) const RATIO: i64 = 1 << 16;
+
+/// The values of the quantities of a question.
+pub(super) fn facts_of(question: &AnyQuestion) -> Vec<i64> {
+    let mut out = Quantities::default();
+    of_question(question, &mut out);
+    out.values
+}
 
 /// The quantities of a question.
 pub(super) fn of_question(q: &AnyQuestion, out: &mut Quantities) {
@@ -239,10 +246,8 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     let height = |a: usize, b: usize| q.points[b][1] - q.points[a][1];
     out.number(Unit::Subpixels, height(top, middle), &["the height of its upper half"]);
     out.number(Unit::Subpixels, height(middle, bottom), &["the height of its lower half"]);
-    let [to_middle, to_bottom] = [q.side_of(top, middle), q.side_of(top, bottom)];
-    let side = to_bottom[0] * to_middle[1] - to_bottom[1] * to_middle[0];
     out.flag(
-        side > 0,
+        q.middle_is_left([top, middle, bottom]),
         &["its middle corner is on the left"],
         "its middle corner is not on the left",
     );
@@ -663,7 +668,7 @@ impl<'a> Scene<'a> {
         }
         // A loop by groups of pixels over the box of the corners may end with the last whole one.
         let [least, most] = q.range(0);
-        let after = |v: i64| -(self.sample[0] - v).div_euclid(256);
+        let after = |v: i64| first_sample(v, self.sample[0]);
         let boxes = [
             ([least.div_euclid(256), most.div_euclid(256) + 1], "its box"),
             ([after(least), after(most)], "the samples in its box"),
@@ -681,8 +686,7 @@ impl<'a> Scene<'a> {
                 out.number(Unit::Involved, x - first - columns.div_euclid(of) * of, &noun);
             }
         }
-        let middle = q.points[order[1]][1] - self.sample[1];
-        let start = -(-middle).div_euclid(256);
+        let start = first_sample(q.points[order[1]][1], self.sample[1]);
         out.put(
             Unit::Count,
             y - start,
@@ -824,7 +828,7 @@ impl Scene<'_> {
         out.named(Unit::Length, of(&Crossings::length), || {
             (format!("the length of its {line} from edge to edge"), String::new())
         });
-        let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
+        let [first, after] = q.range(axis).map(|v| first_sample(v, self.sample[axis]));
         for (value, way, nth) in
             [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
         {

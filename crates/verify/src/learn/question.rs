@@ -52,8 +52,18 @@ impl AnyQuestion {
 
     /// Positive where the corners of a triangle run clockwise with y down.
     pub(super) fn twice_area(&self) -> i64 {
-        let ([ax, ay], [bx, by]) = (self.side_of(0, 1), self.side_of(0, 2));
-        ax * by - ay * bx
+        self.twice_area_in_order([0, 1, 2])
+    }
+
+    /// The same of the corners in another order.
+    fn twice_area_in_order(&self, [a, b, c]: [usize; 3]) -> i64 {
+        let ([to_b, down_b], [to_c, down_c]) = (self.side_of(a, b), self.side_of(a, c));
+        to_b * down_c - down_b * to_c
+    }
+
+    /// Whether the middle corner lies left of the long edge, of corners from the top down.
+    pub(super) fn middle_is_left(&self, [top, middle, bottom]: [usize; 3]) -> bool {
+        self.twice_area_in_order([top, bottom, middle]) > 0
     }
 
     /// The numbers of the corners from the top down, of one height in the order given, as most programs sort them.
@@ -290,6 +300,11 @@ impl Room {
             }
         }
     }
+}
+
+/// The first pixel whose sample does not lie before a place, both in subpixels.
+pub(super) fn first_sample(place: i64, sample: i64) -> i64 {
+    -(sample - place).div_euclid(256)
 }
 
 /// How a quantity is tested and printed.

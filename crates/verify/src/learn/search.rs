@@ -1,7 +1,7 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
 use super::border::{self, Crossing, Halves, RowRule, Site, Tie, Toward};
-use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, Nearness, Rule};
+use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, MOST_PIXELS, Nearness, Rule};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
 use super::edges::EdgeTest;
@@ -437,6 +437,19 @@ impl Search<'_> {
         }
     }
 
+    /// How many of some answers a model predicts, less a little for each pixel that it misses.
+    fn worth_of_model(&self, model: &Model, answers: &[&LearnedAnswer]) -> f64 {
+        let mut worth = 0.0;
+        for a in answers {
+            let picture = model.predict(a, self.drawer, self.vocabulary);
+            match picture.map_or(MOST_PIXELS, |p| p.differs(&a.drawn).min(MOST_PIXELS)) {
+                0 => worth += 1.0,
+                missed => worth -= 0.02 * missed as f64,
+            }
+        }
+        worth
+    }
+
     /// Other rows of the two halves of a triangle: the rule that predicts most.
     fn with_rows(&self) -> Option<Model> {
         let (wrong, right) = (self.some(true, RANKED_BY), self.some(false, RANKED_BY / 2));
@@ -445,16 +458,7 @@ impl Search<'_> {
         }
         let of = |rows: &RowRule| Model { rows: *rows, ..Model::default() };
         let worth = |rows: &RowRule| {
-            let missed = |a: &&LearnedAnswer| {
-                let picture = of(rows).predict(a, self.drawer, self.vocabulary);
-                picture.map_or(MOST_MISSED, |p| p.differs(&a.drawn).min(MOST_MISSED))
-            };
-            let [wrong, right] = [&wrong, &right].map(|some| {
-                let all = some.iter().map(missed);
-                all.fold(0.0, |sum, missed| {
-                    sum + f64::from(u8::from(missed == 0)) - 0.02 * missed as f64
-                })
-            });
+            let [wrong, right] = [&wrong, &right].map(|some| self.worth_of_model(&of(rows), some));
             wrong + 0.5 * right - 0.3 * rows.changes() as f64
         };
         let best = climbed(RowRule::default(), &RowRule::variants, &worth);
@@ -862,9 +866,6 @@ struct PixelSeen<'a> {
     answer: &'a LearnedAnswer,
     at: [i32; 2],
 }
-
-/// Pixels of an answer beyond which no more are counted as missed.
-const MOST_MISSED: usize = 24;
 
 /// Lines by which walks are compared are shorter than this.
 const SHORT_LINE: i64 = 512;

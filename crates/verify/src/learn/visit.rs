@@ -2,7 +2,7 @@
 
 use super::edges::EdgeTest;
 use super::picture::Picture;
-use super::question::AnyQuestion;
+use super::question::{AnyQuestion, first_sample};
 
 /// How a program goes over the box of the corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub(super) enum Probes {
 pub(super) enum Decides {
     /// A square of which no point is inside is left out.
     Skips,
-    /// The same, and a square that is not left out is cut into four, down to single pixels.
+    /// The same, and a square that is not left out is cut into four, down to squares of 2 x 2 pixels.
     SkipsQuarters,
     /// A square of which all points are inside is drawn whole.
     Fills,
@@ -124,8 +124,7 @@ impl VisitedTriangle<'_> {
     fn bounds(&self, of: BoxOf) -> [[i32; 2]; 2] {
         let of = |axis: usize| {
             let range = self.question.range(axis);
-            // The first sample that is not before a place.
-            let samples = range.map(|v| -(self.sample[axis] - v).div_euclid(256));
+            let samples = range.map(|v| first_sample(v, self.sample[axis]));
             let [first, end] = match of {
                 BoxOf::Corners => [range[0].div_euclid(256), range[1].div_euclid(256) + 1],
                 BoxOf::Samples => samples,
@@ -324,16 +323,11 @@ impl Tiles {
         after: &mut Picture,
         looked: &VisitedTriangle<'_>,
     ) {
-        let mut pixels = (y..y + size).flat_map(|y| (x..x + size).map(move |x| [x, y]));
-        let mut set = |hits: u8| {
-            let shown = pixels.by_ref().filter(|at| after.shows(*at)).collect::<Vec<_>>();
-            shown.into_iter().for_each(|at| after.set(at, hits));
-        };
         let (any, all) = self.probed([x, y], size, looked);
         match self.decides {
-            Decides::Fills if all => set(1),
+            Decides::Fills if all => set_square(after, [x, y], size, 1),
             Decides::Fills => {}
-            Decides::Skips | Decides::SkipsQuarters if !any => set(0),
+            Decides::Skips | Decides::SkipsQuarters if !any => set_square(after, [x, y], size, 0),
             Decides::SkipsQuarters if size > 2 => {
                 let half = size / 2;
                 for [right, down] in [[0, 0], [half, 0], [0, half], [half, half]] {
@@ -410,6 +404,17 @@ impl Tiles {
         match self.decides {
             Decides::SkipsQuarters => " and their quarters, down to 2 x 2 px,",
             _ => "",
+        }
+    }
+}
+
+/// Draws the pixels of a square in the window so often.
+fn set_square(picture: &mut Picture, [x, y]: [i32; 2], size: i32, hits: u8) {
+    for row in y..y + size {
+        for column in x..x + size {
+            if picture.shows([column, row]) {
+                picture.set([column, row], hits);
+            }
         }
     }
 }

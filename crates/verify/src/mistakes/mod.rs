@@ -633,14 +633,14 @@ fn explain(
     // A part of what a program does is looked for under its own convention alone.
     let is_plain = |base: &Base| base.said.is_none() || base.is_found();
     let plain: Vec<bool> = bases.iter().map(is_plain).collect();
-    let nearest = weigh::nearest(&hypotheses, &telling_of(answered), &|i| {
+    let nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(answered), &|i| {
         variants.get(i).is_some_and(|variant| plain[variant.base])
     });
     (why, nearest.into_iter().map(|i| variants[i]).collect())
 }
 
 /// Which answers are wrong and have a pixel: of others, whatever draws nothing is a part.
-fn telling_of<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
+fn wrong_with_pixels<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
     answered.iter().map(|a| a.is_wrong() && !a.is_blank()).collect()
 }
 
@@ -753,7 +753,7 @@ pub fn of_lines(
     let is_plain = |base: &LineConvention| base == expected || Some(base) == found;
     let nearest = match why.as_ref().is_some_and(Mistakes::is_known) {
         true => Vec::new(),
-        false => weigh::nearest(&hypotheses, &telling_of(&answered), &|i| {
+        false => weigh::nearest(&hypotheses, &wrong_with_pixels(&answered), &|i| {
             variants.get(i).is_some_and(|variant: &Variant<_, _>| is_plain(&variant.base))
         }),
     };

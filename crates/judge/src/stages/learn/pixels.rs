@@ -12,18 +12,16 @@ use rasterproof_verify::cases::facts::{Topic, area, wide};
 use rasterproof_verify::learn::rows::{Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
-/// A stage whose parts are pixels.
+/// A stage whose parts are pixels of a window, each answered on its own.
 pub trait PixelStage: Stage {
     /// The kind of question, with its facts.
     const TOPIC: Topic;
-    /// What is drawn, in the plural.
-    const WHAT: &'static str;
 
-    /// The quantities of a pixel.
+    /// What rules may be about, beside the facts of the question.
     fn of_pixel(pixel: &Self::Part<'_>, out: &mut Quantities);
 }
 
-/// The pixels of a stage.
+/// Makes a stage of pixels learnable.
 pub struct Pixels<S>(PhantomData<S>);
 
 impl<S: PixelStage> Learnable for Pixels<S> {
@@ -61,14 +59,13 @@ impl<S: PixelStage> Learnable for Pixels<S> {
     }
 
     fn says(change: &S) -> String {
-        let said = change.said().into_iter().map(|said| said.does.replace("{}", S::WHAT));
+        let said = change.said().into_iter().map(|said| change.filled(&said.does));
         said.collect::<Vec<_>>().join(", and ")
     }
 }
 
 impl PixelStage for WideDrawn {
     const TOPIC: Topic = wide::TOPIC;
-    const WHAT: &'static str = "lines with a width";
 
     fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);
@@ -89,7 +86,6 @@ impl PixelStage for WideDrawn {
 
 impl PixelStage for AreaDrawn {
     const TOPIC: Topic = area::TOPIC;
-    const WHAT: &'static str = "the share of a pixel";
 
     fn of_pixel(pixel: &AreaPixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);
