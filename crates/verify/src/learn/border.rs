@@ -6,7 +6,7 @@
 
 use super::picture::{MARGIN, Picture};
 use super::quantity::{AXES, EDGES, Quantities};
-use super::question::{AnyQuestion, Unit, first_sample};
+use super::question::{AnyQuestion, Unit};
 
 /// Where a number is rounded to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -347,6 +347,7 @@ pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
 }
 
 /// A number as a float of 24 or 53 bits.
+#[inline]
 pub(super) fn float(v: f64, bits: u32) -> f64 {
     if bits == 24 { f64::from(v as f32) } else { v }
 }
@@ -375,7 +376,7 @@ pub(super) struct Site {
     /// Which end of the row it is; of a line, its pixel.
     pub(super) end: usize,
     /// The points of the edge.
-    points: [usize; 2],
+    pub(super) points: [usize; 2],
 }
 
 impl Site {
@@ -595,7 +596,7 @@ pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2], heights: Option<Toward>) 
 }
 
 /// With the heights of its points rounded to whole pixels, or not.
-fn with_heights(q: &AnyQuestion, heights: Option<Toward>) -> AnyQuestion {
+pub(super) fn with_heights(q: &AnyQuestion, heights: Option<Toward>) -> AnyQuestion {
     let mut q = q.clone();
     if let Some(toward) = heights {
         for point in &mut q.points {
@@ -637,159 +638,4 @@ fn left_of(a: &Site, b: &Site, q: &AnyQuestion, at: i64) -> bool {
     };
     let ((x, by), (other, other_by)) = (crossing(a), crossing(b));
     x * other_by < other * by
-}
-
-/// How rows are drawn between two borders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct RowRule {
-    /// Whether a row whose ends come in the wrong order is drawn between them; otherwise it is empty.
-    pub(super) exchanges_ends: bool,
-    /// Whether edges have their rows by heights that are rounded to whole pixels; all other rows are empty.
-    pub(super) heights: Option<Toward>,
-    pub(super) halves: Halves,
-}
-
-/// Rows of the two halves that the middle corner makes, each between the long edge and a short one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Halves {
-    /// Whether the upper half begins and ends one row later than it should (1), one earlier (-1) or neither, and the lower one.
-    pub(super) later: [[i64; 2]; 2],
-    /// Whether a pixel of both halves is drawn twice.
-    pub(super) counts: bool,
-}
-
-impl RowRule {
-    /// How much it says.
-    pub(super) fn changes(&self) -> usize {
-        let Halves { later, counts } = self.halves;
-        let moved = later.as_flattened().iter().filter(|rows| **rows != 0).count();
-        moved + usize::from(counts)
-    }
-
-    /// With one other field.
-    pub(super) fn variants(&self) -> Vec<Self> {
-        let mut all = Vec::new();
-        let mut with = |change: &dyn Fn(&mut Self)| add_changed(&mut all, self, change);
-        for half in [0, 1] {
-            for end in [0, 1] {
-                for rows in [0, -1, 1] {
-                    with(&|r| r.halves.later[half][end] = rows);
-                }
-            }
-        }
-        with(&|r| r.halves.counts = !r.halves.counts);
-        with(&|r| r.exchanges_ends = !r.exchanges_ends);
-        for heights in Toward::ALL.map(Some).into_iter().chain([None]) {
-            with(&|r| r.heights = heights);
-        }
-        all
-    }
-
-    /// Which rows are drawn, and how.
-    pub(super) fn words(&self) -> Vec<String> {
-        let mut said = Vec::new();
-        if let Some(way) = self.heights {
-            let corners = format!("their corners, rounded {} to whole px", way.words());
-            said.push(format!("Edges have the rows from one to the other of {corners}."));
-        }
-        for (later, part) in self.halves.later.iter().zip(["above", "below"]) {
-            let mut ends = Vec::new();
-            for (rows, verb) in later.iter().zip(["begins", "ends"]) {
-                match rows {
-                    1 => ends.push(format!("{verb} one row later")),
-                    -1 => ends.push(format!("{verb} one row earlier")),
-                    _ => {}
-                }
-            }
-            if !ends.is_empty() {
-                said.push(format!(
-                    "It draws the part {part} the middle corner so that it {}, between its edges prolonged.",
-                    ends.join(" and ")
-                ));
-            }
-        }
-        if self.halves.counts {
-            said.push("It draws twice what both parts draw.".to_owned());
-        }
-        if self.exchanges_ends {
-            let order = "A row whose ends then come in the wrong order is drawn between them.";
-            said.push(order.to_owned());
-        }
-        said
-    }
-}
-
-/// A picture whose borders are moved: `moved` gives the new place of a border, if it has one.
-pub(super) fn redrawn(
-    q: &AnyQuestion,
-    before: &Picture,
-    sample: [i64; 2],
-    rows: RowRule,
-    moved: &dyn Fn(&Site, i64) -> Option<i64>,
-) -> Picture {
-    let is_line = q.is_line();
-    let has_halves = rows.halves != Halves::default() && !is_line;
-    let all = match has_halves {
-        true => sites_of_halves(q, sample, rows),
-        false => sites(q, sample, rows.heights),
-    };
-    let is_anew = rows.heights.is_some() || has_halves;
-    let mut after = if is_anew { Picture::new(q.side) } else { before.clone() };
-    let right = |site: &Site| site.evaluate(&Crossing::RIGHT, q, sample);
-    for row in all.chunks(if is_line { 1 } else { 2 }) {
-        let mut borders = Vec::new();
-        for site in row {
-            // Of a line, the picture says which of two pixels as near is the right one.
-            let seen = if is_line { site.seen(before, true) } else { None };
-            borders.extend(seen.or_else(|| right(site)));
-        }
-        if borders.len() < row.len() {
-            continue;
-        }
-        let new: Vec<Option<i64>> = row.iter().zip(&borders).map(|(s, b)| moved(s, *b)).collect();
-        if new.iter().all(Option::is_none) && !is_anew {
-            continue;
-        }
-        let ends: Vec<i64> =
-            new.iter().zip(&borders).map(|(new, old)| new.unwrap_or(*old)).collect();
-        let (first, end) = match ends[..] {
-            [first, end] if end < first && rows.exchanges_ends => (end, first),
-            [first, end] => (first, end),
-            _ => (ends[0], ends[0] + 1),
-        };
-        let (axis, place) = (row[0].axis, row[0].place as i32);
-        for v in -MARGIN..q.side[1 - axis] + MARGIN {
-            let at = if axis == 1 { [v, place] } else { [place, v] };
-            let is_in = (first..end).contains(&i64::from(v));
-            if !has_halves {
-                after.set(at, u8::from(is_in));
-            } else if is_in {
-                let most = if rows.halves.counts { 2 } else { 1 };
-                after.set(at, (after.hits(at) + 1).min(most));
-            }
-        }
-    }
-    after
-}
-
-/// The borders of both halves, in the rows that a rule gives them: a row may come twice.
-fn sites_of_halves(q: &AnyQuestion, sample: [i64; 2], rows: RowRule) -> Vec<Site> {
-    let rounded = with_heights(q, rows.heights);
-    let [top, middle, bottom] = rounded.by_height();
-    let is_left = q.middle_is_left([top, middle, bottom]);
-    let edge = |a: usize, b: usize| {
-        EDGES.into_iter().find(|edge| edge.contains(&a) && edge.contains(&b)).unwrap_or(EDGES[0])
-    };
-    let first = |i: usize| first_sample(rounded.points[i][1], sample[1]);
-    let mut all = Vec::new();
-    for (half, (from, to)) in [(top, middle), (middle, bottom)].into_iter().enumerate() {
-        let [begin, end] = rows.halves.later[half];
-        let known = i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN);
-        for place in (first(from) + begin).max(known.start)..(first(to) + end).min(known.end) {
-            let (long, short) = (edge(top, bottom), edge(from, to));
-            let points = if is_left { [short, long] } else { [long, short] };
-            all.extend([0, 1].map(|end| Site { axis: 1, place, end, points: points[end] }));
-        }
-    }
-    all
 }

@@ -88,6 +88,8 @@ pub(super) enum Change {
     Visit(Visit),
     /// Rows beyond the window, or columns, are put into its first or its last one.
     Gather(Gather),
+    /// Pixels are kept in one memory, row by row, by another length of rows or without a look at the column.
+    Memory(Memory),
     /// All points become one, so that nothing is drawn.
     Nothing,
     /// The points come in the other order.
@@ -102,6 +104,15 @@ pub(super) struct Gather {
     /// Whether those before the window are, and those after it.
     pub(super) ends: [bool; 2],
     pub(super) how: GatherHow,
+}
+
+/// Where pixels are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Memory {
+    /// Places of a row: the width of the window, rounded to a multiple of the first number, and so many more.
+    pub(super) length: (i32, Toward, i32),
+    /// Whether pixels beside the window are left out.
+    pub(super) checks: bool,
 }
 
 /// What becomes of pixels that come together.
@@ -196,7 +207,11 @@ impl Change {
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
             // It is the picture that changes.
-            Self::Write { .. } | Self::Read { .. } | Self::Visit(_) | Self::Gather(_) => {}
+            Self::Write { .. }
+            | Self::Read { .. }
+            | Self::Visit(_)
+            | Self::Gather(_)
+            | Self::Memory(_) => {}
             Self::Cut { points, toward, all_sides } => cut(q, points, toward, all_sides),
             Self::Clip(clip) => clip.apply(q),
             Self::Move { points, axes, how } => {
@@ -410,6 +425,92 @@ impl Gather {
     }
 }
 
+/// Pixels beyond the window, on each side, that are looked at of a triangle.
+const MOST_BESIDE: i64 = 96;
+
+/// All pixels of a shape, in the window or not; nothing where it goes too far beyond it.
+fn whole(q: &AnyQuestion, rule: Rule, drawer: &dyn Drawer) -> Option<Vec<[i32; 2]>> {
+    let Rule::Convention(rule) = rule else { return None };
+    if q.is_line() {
+        return drawer.whole_line(q, rule);
+    }
+    let mut beyond = 0;
+    for axis in [0, 1] {
+        let [least, most] = q.range(axis).map(|v| v.div_euclid(q.one()));
+        beyond = beyond.max(-least).max(most + 1 - i64::from(q.side[axis]));
+    }
+    if beyond > MOST_BESIDE {
+        return None;
+    }
+    let mut wide = q.clone();
+    wide.points.iter_mut().for_each(|point| *point = point.map(|v| v + beyond * q.one()));
+    let beyond = beyond as i32;
+    wide.side = q.side.map(|side| side + 2 * beyond);
+    let drawn = drawer.right(&wide, rule)?;
+    let is_drawn = drawn.pixels().filter(|at| drawn.has(*at));
+    Some(is_drawn.map(|at| at.map(|v| v - beyond)).collect())
+}
+
+impl Memory {
+    fn row_length(self, side: [i32; 2]) -> i32 {
+        let (of, toward, more) = self.length;
+        border::round(side[0].into(), of.into(), toward) as i32 * of + more
+    }
+
+    /// What the places of the window's pixels hold; nothing where the shape goes too far beyond it.
+    fn apply(
+        self,
+        picture: Picture,
+        q: &AnyQuestion,
+        rule: Rule,
+        drawer: &dyn Drawer,
+    ) -> Option<Picture> {
+        let length = self.row_length(q.side);
+        let [width, height] = q.side;
+        let mut kept = vec![0; (length.max(0) * height + width).max(0) as usize];
+        let mut keep = |[x, y]: [i32; 2], hits: u8| {
+            let place = usize::try_from(y * length + x).ok();
+            if let Some(kept) = place.and_then(|place| kept.get_mut(place)) {
+                *kept = hits.max(*kept);
+            }
+        };
+        if self.checks {
+            for at in picture.pixels().filter(|at| picture.has(*at)) {
+                keep(at, picture.hits(at));
+            }
+        } else {
+            for at in whole(q, rule, drawer)? {
+                keep(at, 1);
+            }
+        }
+        let mut after = Picture::new(q.side);
+        for [x, y] in picture.pixels() {
+            let place = usize::try_from(y * length + x).ok();
+            after.set([x, y], place.and_then(|place| kept.get(place)).copied().unwrap_or(0));
+        }
+        Some(after)
+    }
+
+    /// How pixels are kept, after 'as if'.
+    pub(super) fn words(self) -> String {
+        let (of, toward, more) = self.length;
+        let mut said = String::from("pixels were kept in one memory, row by row");
+        if of > 1 {
+            said += &format!(
+                ", whose rows have the width of the window, rounded {} to a multiple of {of}",
+                toward.words()
+            );
+        }
+        if more != 0 {
+            said += &format!(", whose rows have {more:+} places than the window has columns");
+        }
+        if !self.checks {
+            said += ", and a column beyond the window were not left out";
+        }
+        said
+    }
+}
+
 /// Steps of [`super::trial::Work`] for a pixel that is held against three edges.
 pub(super) const EDGES_OF_A_PIXEL: usize = 4;
 
@@ -443,10 +544,11 @@ impl Base {
                     picture = visit.apply(&picture, &looked);
                 }
                 Change::Gather(gather) => picture = gather.apply(picture, &q, self.rule, drawer)?,
+                Change::Memory(memory) => picture = memory.apply(picture, &q, self.rule, drawer)?,
                 _ => {}
             }
         }
-        Some(picture)
+        Some(if drawer.counts() { picture } else { picture.once() })
     }
 
     /// Whether it says that nothing is drawn.
@@ -544,6 +646,16 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
                 let change = Change::Gather(Gather { axis, ends, how });
                 bases.push(Base { changes: vec![change], rule: Rule::RIGHT });
             }
+        }
+    }
+    let down_to = [2, 4, 8, 16].map(|of| (of, Toward::Down, 0));
+    let lengths = [(1, Toward::Down, 0), (1, Toward::Down, -1), (1, Toward::Down, 1)];
+    for length in lengths.into_iter().chain(down_to) {
+        // Rows as wide as the window, and a look at the column, are right.
+        let is_right = length == lengths[0];
+        for checks in [true, false].into_iter().filter(|checks| !(is_right && *checks)) {
+            let change = Change::Memory(Memory { length, checks });
+            bases.push(Base { changes: vec![change], rule: Rule::RIGHT });
         }
     }
     let visits = if is_line { Vec::new() } else { Visit::all() };

@@ -14,6 +14,7 @@ use rasterproof_core::random::Rng;
 use std::borrow::Cow;
 
 /// A question with its answer and the right one.
+#[derive(Clone)]
 pub(super) struct LearnedAnswer {
     pub(super) question: AnyQuestion,
     pub(super) facts: Vec<i64>,
@@ -39,6 +40,10 @@ impl LearnedAnswer {
 pub(super) trait Drawer {
     /// What a rule draws: the right one is number 0. Nothing where it says nothing.
     fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture>;
+    /// All pixels of a line by a rule, in the window or not: nothing where these are too many, and of triangles.
+    fn whole_line(&self, _: &AnyQuestion, _: usize) -> Option<Vec<[i32; 2]>> {
+        None
+    }
     /// The answers; what is not answered is an empty picture.
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture>;
     /// Questions whose answers are known to be wrong.
@@ -60,6 +65,8 @@ pub(super) trait Drawer {
     fn ties(&self, rule: usize) -> [bool; 8];
     /// Where samples lie in their pixel, in subpixels.
     fn sample(&self) -> [i64; 2];
+    /// Whether a pixel that is drawn twice is told from others.
+    fn counts(&self) -> bool;
     fn room(&mut self) -> &mut Room;
     /// What may still be done with the answers: each picture that is drawn is counted.
     fn work(&self) -> &Work;
@@ -250,7 +257,7 @@ impl Drawer for Triangles<'_> {
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
         let asked: Vec<TriangleQuestion> = questions.iter().map(triangle).collect();
         let answers = self.ask.ask(&asked);
-        let most = if self.is_mask { 1 } else { 2 };
+        let most = if self.counts() { 2 } else { 1 };
         let picture = |(q, answer): (&AnyQuestion, Option<Coverage>)| {
             let mut picture = Picture::new(q.side);
             if let Some(answer) = answer.filter(|answer| answer.bounds() == window_of(q)) {
@@ -299,6 +306,10 @@ impl Drawer for Triangles<'_> {
         self.sample
     }
 
+    fn counts(&self) -> bool {
+        !self.is_mask
+    }
+
     fn room(&mut self) -> &mut Room {
         &mut self.room
     }
@@ -307,6 +318,9 @@ impl Drawer for Triangles<'_> {
         self.work
     }
 }
+
+/// The longest line of which all pixels are looked at.
+const LONGEST_WHOLE_PX: i64 = 1 << 14;
 
 /// A line drawer. Pixels that come twice are not told from others.
 pub(super) struct Lines<'a> {
@@ -378,6 +392,24 @@ impl Drawer for Lines<'_> {
         })
     }
 
+    fn whole_line(&self, question: &AnyQuestion, rule: usize) -> Option<Vec<[i32; 2]>> {
+        let [[left, right], [top, bottom]] = [0, 1].map(|axis| question.range(axis));
+        let [width, height] = [right - left + 1, bottom - top + 1];
+        if width.max(height) > LONGEST_WHOLE_PX || rule >= self.conventions.len() {
+            return None;
+        }
+        self.work.spend((width + height) as usize);
+        let window = PixelRect::window(width as u32, height as u32);
+        let ends = [0, 1].map(|i| {
+            let [x, y] = question.points[i];
+            [(x - left) as i32, (y - top) as i32]
+        });
+        let mut pixels = self.conventions[rule].pixels(&LineQuestion { ends, window })?;
+        let moved = |[x, y]: [i32; 2]| [x + left as i32, y + top as i32];
+        pixels.iter_mut().for_each(|at| *at = moved(*at));
+        Some(pixels)
+    }
+
     fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
         let asked: Vec<LineQuestion> = questions.iter().map(line).collect();
         let answers = self.ask.ask_lines(&asked);
@@ -425,6 +457,10 @@ impl Drawer for Lines<'_> {
 
     fn sample(&self) -> [i64; 2] {
         [0; 2]
+    }
+
+    fn counts(&self) -> bool {
+        false
     }
 
     fn room(&mut self) -> &mut Room {

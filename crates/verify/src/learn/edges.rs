@@ -310,7 +310,12 @@ impl<'a> Numbers<'a> {
         if test.turns_by_area {
             numbers.turn = match test.float {
                 Some(bits) => {
-                    let area = numbers.in_floats(corners[2], bits)[0];
+                    // Weights need the area before they are weights, and nobody adds up an area pixel by pixel.
+                    let form = match test.form {
+                        Form::Stepped | Form::Weights(_) | Form::Dots => Form::FromEnd(0),
+                        other => other,
+                    };
+                    let area = numbers.in_floats(form, corners[2], bits)[0];
                     i64::from(area > 0.0) - i64::from(area < 0.0)
                 }
                 None => numbers.in_words(0, corners[2]).signum(),
@@ -409,9 +414,9 @@ impl<'a> Numbers<'a> {
 
     fn is_inside_in_floats(&self, point: [i64; 2], bits: u32, owned: [bool; 8]) -> bool {
         let slack = self.test.slack;
-        let all = self.in_floats(point, bits);
+        let all = self.in_floats(self.test.form, point, bits);
         if self.test.form == Form::Areas {
-            let whole = self.in_floats(self.corners[2], bits)[0].abs();
+            let whole = self.in_floats(Form::Areas, self.corners[2], bits)[0].abs();
             let of = |v: f64| float(v, bits);
             let sum = of(of(all[0].abs() + all[1].abs()) + all[2].abs());
             return of(whole - sum) >= -slack;
@@ -432,7 +437,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// What is computed of each edge in floats, in px² or as a weight.
-    fn in_floats(&self, point: [i64; 2], bits: u32) -> [f64; 3] {
+    fn in_floats(&self, form: Form, point: [i64; 2], bits: u32) -> [f64; 3] {
         let floats = Floats(bits);
         let corners = self.corners.map(|corner| floats.px(corner));
         let p = floats.px(point);
@@ -440,7 +445,7 @@ impl<'a> Numbers<'a> {
             let (a, b) = (corners[i], corners[(i + 1) % 3]);
             floats.cross(floats.minus(b, a), floats.minus(p, [a, b][from]))
         };
-        match self.test.form {
+        match form {
             Form::FromEnd(from) => [0, 1, 2].map(|i| edge(i, from, p)),
             Form::Areas => [0, 1, 2].map(|i| edge(i, 0, p)),
             Form::Plane => [0, 1, 2].map(|i| {

@@ -14,13 +14,17 @@ mod border;
 mod change;
 mod drawer;
 mod edges;
+mod fill;
 mod known;
+mod mend;
 mod model;
 mod picture;
 #[cfg(test)]
 mod programs;
 mod quantity;
 mod question;
+#[cfg(test)]
+mod recipes;
 pub mod rows;
 mod rule;
 mod say;
@@ -80,9 +84,14 @@ impl Learned {
     /// All steps in one sentence, after 'it'; nothing where no step was found.
     pub(crate) fn in_short(&self) -> Option<String> {
         let mut steps = self.does.iter().map(|step| step.trim_end_matches('.'));
-        let mut said = steps.next()?.strip_prefix("It ")?.to_owned();
+        let in_words = |step: &str| format!("{}{}", step[..1].to_ascii_lowercase(), &step[1..]);
+        let first = steps.next()?;
+        let mut said = match first.strip_prefix("It ") {
+            Some(does) => does.to_owned(),
+            None => format!("draws so: {}", in_words(first)),
+        };
         for step in steps {
-            said += &format!("; {}{}", step[..1].to_ascii_lowercase(), &step[1..]);
+            said += &format!("; {}", in_words(step));
         }
         Some(said)
     }

@@ -1,8 +1,9 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
-use super::border::{self, Crossing, RowRule, Site};
+use super::border::{Crossing, Site};
 use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
+use super::fill::{self, RowRule};
 use super::picture::Picture;
 use super::quantity::{self, Name, Quantities, Scene};
 use super::question::{AnyQuestion, Unit};
@@ -167,7 +168,7 @@ impl Model {
         for step in &self.steps {
             drawn = step.apply(a, &drawn, drawer, vocabulary);
         }
-        Some(drawn)
+        Some(if drawer.counts() { drawn } else { drawn.once() })
     }
 
     fn start(&self, a: &LearnedAnswer, drawer: &dyn Drawer) -> Option<Picture> {
@@ -189,7 +190,7 @@ impl Model {
         let all: Vec<Fact> = guards.flatten().flatten().copied().collect();
         let left_out = vocabulary.left_out(&all);
         let scene = Scene::new(&a.question, before, sample);
-        border::redrawn(&a.question, before, sample, self.rows, &|site, right| {
+        fill::redrawn(&a.question, before, sample, self.rows, &|site, right| {
             let row = match all.is_empty() {
                 true => Vec::new(),
                 false => {
@@ -227,11 +228,24 @@ impl Model {
         self.rows.changes() + guards.chain(borders).chain(steps).sum::<usize>()
     }
 
+    /// Every guard in it.
+    pub(super) fn guards(&self) -> impl Iterator<Item = &Vec<Conjunction>> {
+        let of_chain = self.chain.iter().filter_map(|guarded| guarded.when.as_ref());
+        of_chain.chain(self.borders.iter().filter_map(|guarded| guarded.when.as_ref()))
+    }
+
     /// Every conjunction in it.
     pub(super) fn conjunctions(&self) -> impl Iterator<Item = &Conjunction> {
-        let guards = self.chain.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
-        let borders = self.borders.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
-        guards.chain(borders).chain(self.steps.iter().map(|step| &step.facts))
+        self.guards().flatten().chain(self.steps.iter().map(|step| &step.facts))
+    }
+
+    /// Every fact in it, in the same order.
+    pub(super) fn facts_mut(&mut self) -> Vec<&mut Fact> {
+        let of_chain = self.chain.iter_mut().filter_map(|guarded| guarded.when.as_mut());
+        let of_borders = self.borders.iter_mut().filter_map(|guarded| guarded.when.as_mut());
+        let mut all: Vec<&mut Fact> = of_chain.chain(of_borders).flatten().flatten().collect();
+        all.extend(self.steps.iter_mut().flat_map(|step| &mut step.facts));
+        all
     }
 
     /// With another pixel rule.

@@ -70,6 +70,12 @@ impl Picture {
         rows.map(|(a, b)| a.iter().zip(b).filter(|(a, b)| a != b).count()).sum()
     }
 
+    /// The same without counts of pixels that are drawn more than once.
+    pub(super) fn once(mut self) -> Self {
+        self.hits.iter_mut().for_each(|hits| *hits = (*hits).min(1));
+        self
+    }
+
     /// Whether nothing is drawn in the window.
     pub(super) fn is_empty(&self) -> bool {
         self.rows().all(|row| row.iter().all(|hits| *hits == 0))

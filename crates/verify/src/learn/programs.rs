@@ -477,8 +477,140 @@ fn between(q: &AnyQuestion, edges: [[usize; 2]; 2], y: i32) -> [i32; 2] {
     ends
 }
 
+/// A row of a triangle: the crossings of its edges, where `counts` says that an edge counts between its heights, in pixels.
+fn crossings(q: &AnyQuestion, y: i32, counts: &dyn Fn([f64; 2], f64) -> bool) -> Vec<i32> {
+    let center = f64::from(y) + 0.5;
+    let mut all = Vec::new();
+    for [a, b] in [[0, 1], [1, 2], [2, 0]] {
+        let [a, b] = [a, b].map(|i| q.points[i].map(|v| v as f64 / 256.0));
+        if a[1] != b[1] && counts([a[1].min(b[1]), a[1].max(b[1])], center) {
+            let x = a[0] + (center - a[1]) * (b[0] - a[0]) / (b[1] - a[1]);
+            all.push((x - 0.5).ceil().clamp(0.0, f64::from(q.side[0])) as i32);
+        }
+    }
+    all.sort_unstable();
+    all
+}
+
+/// Fills by all edges that cross a row.
+const BY_CROSSINGS: [(&str, Draw); 2] = [
+    ("an edge counts at both of its ends, and rows are filled in pairs", |q, _| {
+        let mut picture = empty(q);
+        for y in 0..q.side[1] {
+            let all = crossings(q, y, &|[upper, lower], y| upper <= y && y <= lower);
+            for pair in all.chunks_exact(2) {
+                (pair[0]..pair[1]).for_each(|x| picture.set([x, y], 1));
+            }
+        }
+        picture
+    }),
+    ("rows that an edge touches, from the least to the greatest crossing", |q, _| {
+        let mut picture = empty(q);
+        for y in 0..q.side[1] {
+            let is_touched = |[upper, lower]: [f64; 2], y: f64| {
+                upper.floor() <= y.floor() && y.floor() <= lower.floor()
+            };
+            let all = crossings(q, y, &is_touched);
+            if let [first, .., end] = all[..] {
+                (first..end).for_each(|x| picture.set([x, y], 1));
+            }
+        }
+        picture
+    }),
+];
+
+/// Fills whose rows come from all edges are explained to the pixel.
+#[test]
+fn crossings_are_explained() {
+    let learned = BY_CROSSINGS.map(|(name, draw)| (name, learn_triangles(&draw)));
+    assert_eq!(not_certain(learned), NO_NAMES);
+}
+
+/// A line from its left or upper end, by so many steps: `place` gets the number of a step and the longer and the shorter side,
+/// and gives the ways along both.
+fn by_places(
+    q: &AnyQuestion,
+    steps: &dyn Fn([i64; 2]) -> i64,
+    place: &dyn Fn(i64, [i64; 2]) -> [i64; 2],
+) -> Picture {
+    let side = q.side_of(0, 1);
+    let longer = usize::from(side[1].abs() > side[0].abs());
+    let order = if side[longer] < 0 { [1, 0] } else { [0, 1] };
+    let [from, to] = order.map(|i| q.points[i]);
+    let aside = (to[1 - longer] - from[1 - longer]).signum();
+    let size = [side[longer].abs(), side[1 - longer].abs()];
+    let mut picture = empty(q);
+    for step in 0..=steps(size) {
+        let ways = place(step, size);
+        let mut at = [0; 2];
+        at[longer] = from[longer] + ways[0];
+        at[1 - longer] = from[1 - longer] + aside * ways[1];
+        picture.set(at.map(|v| v.clamp(-100, 10_000) as i32), 1);
+    }
+    picture
+}
+
+/// Lines of which each pixel has its own place.
+const BY_PLACES: [(&str, Draw); 3] = [
+    ("each 16 steps are a line between rounded points", |q, _| {
+        by_places(q, &|[n, _]| n, &|step, [n, d]| {
+            let joint = |k: i64| if n == 0 { 0 } else { (2 * k * d + n) / (2 * n) };
+            let first = step / 16 * 16;
+            let last = (first + 16).min(n);
+            let rise = joint(last) - joint(first);
+            let aside = (2 * (step - first) * rise + last - first) / (2 * (last - first).max(1));
+            [step, joint(first) + aside]
+        })
+    }),
+    ("as many steps as it is long", |q, _| {
+        let steps = |[n, d]: [i64; 2]| ((n * n + d * d) as f64).sqrt().ceil() as i64;
+        by_places(q, &steps, &|step, size| {
+            let steps = steps(size);
+            size.map(|v| (2 * step * v + steps) / (2 * steps).max(1))
+        })
+    }),
+    ("the memory is checked, and not the column", |q, right| {
+        let mut wide = q.clone();
+        wide.side = [0, 1].map(|axis| q.range(axis)[1].max(q.side[axis].into()) as i32 + 1);
+        let least = [0, 1].map(|axis| q.range(axis)[0].min(0));
+        wide.points.iter_mut().for_each(|p| *p = [p[0] - least[0], p[1] - least[1]]);
+        wide.side = [0, 1].map(|axis| wide.side[axis] - least[axis] as i32);
+        let [width, height] = q.side;
+        let mut picture = empty(q);
+        if wide.side[0].max(wide.side[1]) > 2048 {
+            // Far lines as they are.
+            return right(q, 0);
+        }
+        let drawn = right(&wide, 0);
+        for [x, y] in drawn.pixels().filter(|at| drawn.has(*at)) {
+            let place = (y + least[1] as i32) * width + x + least[0] as i32;
+            if (0..width * height).contains(&place) {
+                picture.set([place % width, place / width], 1);
+            }
+        }
+        picture
+    }),
+];
+
+/// Lines by places are explained to the pixel.
+#[test]
+fn places_are_explained() {
+    let learned = BY_PLACES.map(|(name, draw)| (name, learn_lines(&draw)));
+    assert_eq!(not_certain(learned), NO_NAMES);
+}
+
 /// Right tests of pixels that are come to in another way.
-const ON_THE_WAY: [(&str, Draw); 6] = [
+const ON_THE_WAY: [(&str, Draw); 7] = [
+    ("rows of odd windows are kept one pixel short", |q, right| {
+        let before = right(q, 0);
+        let [width, height] = q.side;
+        let mut memory = vec![0; (width * height) as usize];
+        let place = |[x, y]: [i32; 2]| (y * (width - width % 2) + x) as usize;
+        before.pixels().filter(|at| before.has(*at)).for_each(|at| memory[place(at)] = 1);
+        let mut after = empty(q);
+        after.pixels().for_each(|at| after.set(at, memory[place(at)]));
+        after
+    }),
     ("there and back, each row from where the one before ended", |q, right| {
         let (before, mut after) = (right(q, 0), empty(q));
         let [columns, rows] = [0, 1].map(|axis| {

@@ -369,6 +369,7 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Nothing => return "nothing were given".to_owned(),
         Change::Visit(visit) => return visit.words(),
         Change::Gather(gather) => return gather.words(),
+        Change::Memory(memory) => return memory.words(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Shift(axes) => {
             let axis = match axes {

@@ -1,10 +1,11 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
-use super::border::{self, Crossing, Halves, RowRule, Site, Tie, Toward};
+use super::border::{self, Crossing, Site, Tie, Toward};
 use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, MOST_PIXELS, Nearness, Rule};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
 use super::edges::EdgeTest;
+use super::fill::{Halves, RowRule};
 use super::model::{ALL_OF_A_PIXEL, GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Name, Quantities, Scene};
@@ -33,6 +34,9 @@ const FEW_BORDERS: usize = 20;
 const COMPOSED: usize = 3;
 /// The share of wrong answers from which a changed question is followed by pixel rules first of all.
 const MUCH: f64 = 0.4;
+/// The share of wrong answers from which the rest is looked for beside the pixel rules that predict them, and answers that show it.
+const BESIDE: f64 = 0.2;
+const LEAST_BESIDE: usize = 8;
 /// Questions that a pixel rule must explain, and that a guard must.
 const NEED: usize = 4;
 
@@ -127,6 +131,9 @@ impl Search<'_> {
         if may_go_on(&tried) {
             self.add_bases(&mut tried);
         }
+        if may_go_on(&tried) {
+            self.beside_rules(&mut tried);
+        }
         if may_go_on(&tried) && !best(&tried).model.chain.is_empty() {
             let model = best(&tried).model.clone();
             tried.push(self.tried(self.with_steps(&model, 2, 1)));
@@ -155,37 +162,6 @@ impl Search<'_> {
         self.pruned(best(&tried).model.clone())
     }
 
-    /// A model that was nearly right, with one other field of a formula, and again, as long as more answers are predicted: nothing
-    /// where that does not help, and where too much is not predicted.
-    pub(super) fn mended(&self, model: &Model) -> Option<Model> {
-        let count = |model: &Model, all: &[&LearnedAnswer]| {
-            all.iter().filter(|a| self.fits(model, a)).count()
-        };
-        let mut best: Option<Model> = None;
-        for _ in 0..MOST_MENDED {
-            let model = best.as_ref().unwrap_or(model);
-            let all: Vec<&LearnedAnswer> = self.answered.iter().take(MENDED_BY).collect();
-            let (fitting, missed): (Vec<_>, Vec<_>) = all.iter().partition(|a| self.fits(model, a));
-            if missed.is_empty() || MENDED_PART * missed.len() > all.len() {
-                return best.filter(|_| missed.is_empty());
-            }
-            // The answers that are not predicted tell most apart; of the others none may be lost for them.
-            let mut variants: Vec<(usize, Model)> = variants(model, self.drawer.conventions())
-                .into_iter()
-                .map(|other| (count(&other, &missed), other))
-                .filter(|(more, _)| *more > 0)
-                .collect();
-            variants.sort_by_key(|(more, _)| std::cmp::Reverse(*more));
-            variants.truncate(MENDED_KEPT);
-            let gain = |(more, other): &(usize, Model)| {
-                (more + count(other, &fitting)).saturating_sub(fitting.len())
-            };
-            let next = variants.into_iter().max_by_key(gain).filter(|next| gain(next) > 0);
-            best = Some(next?.1);
-        }
-        best
-    }
-
     /// Changed questions, the one that comes nearest to the wrong answers first; under the pixel rules of a model.
     fn ranked(&self, under: &Model) -> Vec<(Nearness, Base)> {
         let answers = self.some(true, RANKED_BY);
@@ -212,7 +188,7 @@ impl Search<'_> {
                 let model = Model { chain: vec![always(base)], ..under.clone() };
                 let fitting =
                     |some: &[&LearnedAnswer]| some.iter().filter(|a| self.fits(&model, a)).count();
-                let (first, rest) = answers.split_at(answers.len().min(4));
+                let (first, rest) = answers.split_at(answers.len().min(FEW));
                 let exact = match fitting(first) {
                     0 => 0,
                     some => some + fitting(rest),
@@ -300,6 +276,48 @@ impl Search<'_> {
         }
     }
 
+    /// What else is wrong, by the answers that the pixel rules found so far leave as they are: these show the rest by itself.
+    fn beside_rules(&self, tried: &mut Vec<Tried>) {
+        let has_rules = |tried: &&Tried| !tried.model.steps.is_empty() && tried.wrong > BESIDE;
+        let Some(found) = tried.iter().filter(has_rules).reduce(higher) else { return };
+        let rules = found.model.steps.clone();
+        // The later rules may be made of what is looked for.
+        for count in 1..=rules.len().min(2) {
+            if best(tried).is_whole() || self.drawer.work().is_done() {
+                return;
+            }
+            let steps = rules[..count].to_vec();
+            let under = Model { steps: steps.clone(), ..Model::default() };
+            let is_left = |a: &&LearnedAnswer| {
+                let picture = under.predict(a, self.drawer, self.vocabulary);
+                picture.is_some_and(|picture| picture.is_as(&a.right))
+            };
+            let left: Vec<LearnedAnswer> = self.answered.iter().filter(is_left).cloned().collect();
+            if left.iter().filter(|a| a.is_wrong()).count() < LEAST_BESIDE {
+                continue;
+            }
+            let search = Search {
+                drawer: self.drawer,
+                vocabulary: self.vocabulary,
+                answered: &left,
+                first: OnceCell::new(),
+                nearest: &OnceCell::new(),
+            };
+            let mut more = vec![search.tried(Model::default())];
+            search.guard_bases(&search.ranked(&Model::default()), &mut more);
+            if !best(&more).is_whole() {
+                search.test_edges(&mut more);
+                search.walk_lines(&mut more);
+            }
+            if !best(&more).is_whole() {
+                search.move_borders(&mut more);
+            }
+            let mut model = best(&more).model.clone();
+            model.steps.extend(steps);
+            tried.push(self.tried(model));
+        }
+    }
+
     /// Other computations of whether a sample is inside.
     fn test_edges(&self, tried: &mut Vec<Tried>) {
         let pixels = self.pixels_seen();
@@ -336,7 +354,7 @@ impl Search<'_> {
             exact + 0.002 * (near.pixels + kept.pixels) as f64 - 0.3 * walk.changes() as f64
         };
         let mut bases = Vec::new();
-        for start in [Walk::RIGHT, Walk::BOTH_AXES, Walk::ADDED] {
+        for start in [Walk::RIGHT, Walk::BOTH_AXES, Walk::SAMPLED] {
             bases.push(base(&start));
             bases
                 .extend(climbed(start, &Walk::variants, &worth).iter().map(|(_, walk)| base(walk)));
@@ -976,57 +994,6 @@ const GUARDED_FORMULAS: usize = 2;
 const FEW_BROKEN: usize = 10;
 /// The most formulas of borders in a model.
 const MOST_BORDERS: usize = 4;
-
-/// Fields of formulas that are mended in a row, and the answers that show what that brings.
-const MOST_MENDED: usize = 4;
-const MENDED_BY: usize = 400;
-/// Only where at most this part of the answers is not predicted.
-const MENDED_PART: usize = 8;
-/// Variants that are tried on all these answers.
-const MENDED_KEPT: usize = 12;
-
-/// All models with another field in one formula of borders, or with another rule for rows.
-fn variants(model: &Model, rules: usize) -> Vec<Model> {
-    let mut all = Vec::new();
-    for (i, guarded) in model.chain.iter().enumerate() {
-        let others: Vec<Rule> = match &guarded.base.rule {
-            Rule::Convention(_) => continue,
-            Rule::Edges(test) => test.variants(rules).into_iter().map(Rule::Edges).collect(),
-            Rule::Walk(walk) => walk.variants().into_iter().map(Rule::Walk).collect(),
-        };
-        for rule in others {
-            let mut other = model.clone();
-            other.chain[i].base.rule = rule;
-            all.push(other);
-        }
-    }
-    for (i, border) in model.borders.iter().enumerate() {
-        for crossing in border.crossing.variants() {
-            let mut other = model.clone();
-            other.borders[i].crossing = crossing;
-            all.push(other);
-        }
-    }
-    if !model.borders.is_empty() {
-        // A program has one way to round, and uses it everywhere.
-        all.extend(Toward::ALL.map(|toward| rounding(model, toward)));
-    }
-    if !model.borders.is_empty() || model.rows != RowRule::default() {
-        all.extend(model.rows.variants().into_iter().map(|rows| Model { rows, ..model.clone() }));
-    }
-    all
-}
-
-/// A model that rounds the other way wherever it rounds coordinates to whole pixels.
-fn rounding(model: &Model, toward: Toward) -> Model {
-    let mut other = model.clone();
-    for border in &mut other.borders {
-        let Crossing { start, sides, .. } = &mut border.crossing;
-        start.iter_mut().chain(sides).flatten().for_each(|way| *way = toward);
-    }
-    other.rows.heights.iter_mut().for_each(|way| *way = toward);
-    other
-}
 
 fn best(tried: &[Tried]) -> &Tried {
     tried.iter().skip(1).fold(&tried[0], higher)

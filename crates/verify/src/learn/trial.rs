@@ -68,8 +68,11 @@ impl Work {
     }
 }
 
-/// Searches at most, and rounds of new questions.
+/// Searches at most, and rounds of new questions; more where hardly anything is missed, which is a limit that is not met exactly.
 const MOST_ROUNDS: usize = 4;
+const MOST_ROUNDS_NEARLY: usize = 8;
+/// The part of the new answers that is hardly anything.
+const HARDLY: u64 = 25;
 
 /// Somebody who searches for an explanation, and tries out on new questions what was found.
 pub trait Learn {
@@ -90,7 +93,11 @@ pub trait Learn {
     fn explained(&mut self) -> Option<(Trial, Self::Hypothesis)> {
         let mut best: Option<(Trial, Self::Hypothesis)> = None;
         let (mut searches, mut is_refuted) = (0, true);
-        for _ in 0..MOST_ROUNDS {
+        for round in 0..MOST_ROUNDS_NEARLY {
+            let is_nearly = best.as_ref().is_some_and(|(trial, _)| trial.is_nearly());
+            if round >= MOST_ROUNDS && !is_nearly {
+                break;
+            }
             // What was not refuted before is asked for more.
             let again = best.take_if(|_| !is_refuted);
             let (before, found) = again.unwrap_or_else(|| {
@@ -141,6 +148,11 @@ impl Trial {
     #[must_use]
     pub fn missed(&self) -> u64 {
         self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
+    }
+
+    /// Whether hardly any answer is not predicted.
+    fn is_nearly(&self) -> bool {
+        HARDLY * self.missed() <= self.wrong.of + self.right.of
     }
 
     /// Whether there are enough answers to call something the cause.

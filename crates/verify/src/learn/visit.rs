@@ -60,7 +60,8 @@ pub(super) enum Empty {
 /// Squares that are decided by a few of their points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tiles {
-    pub(super) size: i32,
+    /// Pixels along a side; where that is not said, the power of two that holds the window.
+    pub(super) size: Option<i32>,
     /// Whether they begin at the box of the corners, and not at the window.
     pub(super) from_box: bool,
     pub(super) probes: Probes,
@@ -75,6 +76,16 @@ pub(super) enum Probes {
     /// Of the upper left, upper right, lower left and lower right one those that are so.
     Corners([bool; 4]),
     Center,
+    /// The middle of its samples, which may lie as far beyond an edge as it reaches.
+    Reach(Reach),
+}
+
+/// How far a square reaches across an edge: half its side times a length of the edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// The larger of |dx| and |dy|, which is less than it reaches.
+    Larger,
+    Smaller,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +129,25 @@ impl VisitedTriangle<'_> {
     fn has_corner(&self, at: [i32; 2]) -> bool {
         let beyond = EdgeTest { looks_beyond: true, ..EdgeTest::RIGHT };
         beyond.draws(self.question, at, [0; 2], [true; 8])
+    }
+
+    /// Whether the middle of the samples of a square lies inside every edge, or no farther outside than it is said to reach.
+    fn reaches(&self, at: [i32; 2], size: i32, reach: Reach) -> bool {
+        let q = self.question;
+        let turn = i128::from(q.twice_area().signum());
+        let half = 128 * i64::from(size - 1);
+        let middle = [0, 1].map(|axis| 256 * i64::from(at[axis]) + self.sample[axis] + half);
+        (0..3).all(|i| {
+            let ([ax, ay], sides) = (q.points[i], q.side_of(i, (i + 1) % 3));
+            let [dx, dy] = sides.map(i128::from);
+            let value = dx * i128::from(middle[1] - ay) - dy * i128::from(middle[0] - ax);
+            let length = match reach {
+                Reach::Larger => dx.abs().max(dy.abs()),
+                Reach::Smaller => dx.abs().min(dy.abs()),
+            };
+            // A square that only touches holds samples on the edge at most, which the picture decides.
+            turn * value + length * i128::from(half) >= 0
+        })
     }
 
     /// The first pixel of the box of the corners in the window, and the first after it.
@@ -173,7 +203,17 @@ impl Visit {
                 probes.push(Probes::Corners(pair));
             }
         }
-        for size in (1..=6).map(|bits| 1 << bits) {
+        for reach in [Reach::Larger, Reach::Smaller] {
+            for size in (2..=6).map(|bits| Some(1 << bits)).chain([None]) {
+                for decides in [Decides::Skips, Decides::SkipsQuarters] {
+                    let probes = Probes::Reach(reach);
+                    let tiles =
+                        Tiles { size, from_box: false, probes, are_corners: false, decides };
+                    all.push(Self::Tiles(tiles));
+                }
+            }
+        }
+        for size in (1..=6).map(|bits| Some(1 << bits)) {
             for from_box in [false, true] {
                 for &probes in &probes {
                     for are_corners in [false, true] {
@@ -304,13 +344,16 @@ impl Tiles {
     fn apply(self, before: &Picture, looked: &VisitedTriangle<'_>) -> Picture {
         let mut after = before.clone();
         let bounds = looked.bounds(BoxOf::Corners);
+        let [width, height] = before.side;
+        let size =
+            self.size.unwrap_or((width.max(height).max(1) as u32).next_power_of_two() as i32);
         let starts = [0, 1].map(|axis| match self.from_box {
             true => bounds[axis][0],
-            false => bounds[axis][0] / self.size * self.size,
+            false => bounds[axis][0] / size * size,
         });
-        for y in (starts[1]..bounds[1][1]).step_by(self.size as usize) {
-            for x in (starts[0]..bounds[0][1]).step_by(self.size as usize) {
-                self.decide([x, y], self.size, &mut after, looked);
+        for y in (starts[1]..bounds[1][1]).step_by(size as usize) {
+            for x in (starts[0]..bounds[0][1]).step_by(size as usize) {
+                self.decide([x, y], size, &mut after, looked);
             }
         }
         after
@@ -349,6 +392,10 @@ impl Tiles {
                 let is_in = is_in([x + size / 2, y + size / 2]);
                 (is_in, is_in)
             }
+            Probes::Reach(reach) => {
+                let reaches = looked.reaches([x, y], size, reach);
+                (reaches, reaches)
+            }
             Probes::Corners(looked_at) => {
                 let corners = [[x, y], [x + far, y], [x, y + far], [x + far, y + far]];
                 let (mut any, mut all) = (false, true);
@@ -365,9 +412,11 @@ impl Tiles {
     }
 
     fn words(self) -> String {
-        let size = self.size;
         let from = if self.from_box { ", from the box of the corners on," } else { "" };
-        let tiles = format!("tiles of {size} x {size} px{from}");
+        let tiles = match self.size {
+            Some(size) => format!("tiles of {size} x {size} px{from}"),
+            None => "the smallest square of a power of two that holds the window".to_owned(),
+        };
         let point = if self.are_corners { "corners" } else { "corner pixels" };
         let names = ["upper left", "upper right", "lower left", "lower right"];
         let named = |looked_at: [bool; 4]| {
@@ -377,6 +426,16 @@ impl Tiles {
         let which = match self.probes {
             Probes::Center if self.are_corners => "their middle".to_owned(),
             Probes::Center => "the pixel in their middle".to_owned(),
+            Probes::Reach(reach) => {
+                let length = match reach {
+                    Reach::Larger => "the larger",
+                    Reach::Smaller => "the smaller",
+                };
+                return format!(
+                    "{tiles}{} were left out where their middle lies farther outside an edge than half a side times {length} of its |dx| and |dy|, not their sum",
+                    self.quarters()
+                );
+            }
             Probes::Corners(ALL_CORNERS) => format!("their four {point}"),
             Probes::Corners(looked_at) => {
                 let named = named(looked_at);

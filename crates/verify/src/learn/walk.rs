@@ -1,6 +1,6 @@
 //! Lines walked pixel by pixel: the numbers that a program adds up on its way, each with its start, its steps and its word.
 
-use super::border::{From, Toward, float};
+use super::border::{From, Toward, float, round};
 use super::picture::{MARGIN, Picture};
 use super::quantity::AXES;
 use super::question::AnyQuestion;
@@ -19,8 +19,21 @@ pub(super) enum Method {
         /// What the term begins with, in parts of |dx| and of |dy|.
         start: [i64; 2],
     },
-    /// Both coordinates are added up in floats of so many bits, and rounded for each pixel.
-    Added { bits: u32, toward: Toward, steps: Steps },
+    /// A point for each of some steps, rounded to a pixel.
+    Sampled { place: Place, toward: Toward, steps: Steps },
+}
+
+/// How a point on a line is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Both coordinates are added up in floats of so many bits.
+    Added(u32),
+    /// The coordinates as they are.
+    Exact,
+    /// The way from the start as it is: it is this that is rounded.
+    Way,
+    /// The same between points that are so many steps apart and were rounded before.
+    Pieces(i64),
 }
 
 /// How many steps a line is cut into.
@@ -73,6 +86,8 @@ pub(super) struct Error {
     pub(super) gain: [i64; 2],
     /// It shrinks at each step aside by so many `du`, plus a number.
     pub(super) loss: [i64; 2],
+    /// Whether a step aside is made for one pixel alone, and the next one is where it would be without.
+    pub(super) is_lost: bool,
     /// Whether there is a step aside where it is 0, too: of lines that go to larger coordinates along the longer axis, and of others.
     pub(super) is_enough: [bool; 2],
 }
@@ -88,6 +103,7 @@ pub(super) struct Walk {
 }
 
 /// A line in the direction in which it is walked.
+#[derive(Clone, Copy)]
 struct Way {
     from: [i64; 2],
     to: [i64; 2],
@@ -111,6 +127,7 @@ impl Walk {
             is_halved: false,
             gain: [2, 0],
             loss: [2, 0],
+            is_lost: false,
             is_enough: [true; 2],
         }),
         from: From::Before,
@@ -123,8 +140,12 @@ impl Walk {
         along: None,
         bits: None,
     };
-    pub(super) const ADDED: Self = Self {
-        method: Method::Added { bits: 24, toward: Toward::Nearest, steps: Steps::Longer },
+    pub(super) const SAMPLED: Self = Self {
+        method: Method::Sampled {
+            place: Place::Added(24),
+            toward: Toward::Nearest,
+            steps: Steps::Longer,
+        },
         from: From::First,
         along: None,
         bits: None,
@@ -139,11 +160,15 @@ impl Walk {
                 usize::from(error.start != right.start)
                     + usize::from(error.gain != right.gain)
                     + usize::from(error.loss != right.loss)
+                    + usize::from(error.is_lost)
             }
             Method::BothAxes { is_fresh, start, .. } => {
                 1 + usize::from(is_fresh) + usize::from(start != [1, -1])
             }
-            Method::Added { steps, .. } => 1 + usize::from(steps != Steps::Longer),
+            Method::Sampled { place, steps, .. } => {
+                let is_plain = matches!(place, Place::Exact | Place::Way);
+                usize::from(!is_plain) + usize::from(steps != Steps::Longer)
+            }
         };
         let is_from_behind = matches!(self.from, From::After | From::Second);
         let others = [self.bits.is_some(), is_from_behind, self.along.is_some()];
@@ -181,15 +206,17 @@ impl Walk {
                     with([x, y], is_fresh, start);
                 }
             }
-            Method::Added { bits, toward, steps } => {
-                let mut with = |bits, toward, steps| {
-                    let method = Method::Added { bits, toward, steps };
+            Method::Sampled { place, toward, steps } => {
+                let mut with = |place, toward, steps| {
+                    let method = Method::Sampled { place, toward, steps };
                     all.push(Self { method, ..*self });
                 };
-                Steps::ALL.into_iter().for_each(|steps| with(bits, toward, steps));
-                for bits in [24, 53] {
+                Steps::ALL.into_iter().for_each(|steps| with(place, toward, steps));
+                let mut places = vec![Place::Added(24), Place::Added(53), Place::Exact, Place::Way];
+                places.extend((1..=6).map(|bits| Place::Pieces(1 << bits)));
+                for place in places {
                     for toward in Toward::ALL.into_iter().chain([Toward::NearestDown]) {
-                        with(bits, toward, steps);
+                        with(place, toward, steps);
                     }
                 }
             }
@@ -222,6 +249,9 @@ impl Walk {
                         "the error term shrank at each side step by {by}, not by 2 du"
                     ));
                 }
+                if error.is_lost {
+                    said.push("a side step were made for one pixel alone".to_owned());
+                }
                 if said.is_empty() {
                     said.push("an error term were added up".to_owned());
                 }
@@ -250,10 +280,23 @@ impl Walk {
                     ));
                 }
             }
-            (Method::Added { bits, toward: way, steps }, _) => {
+            (Method::Sampled { place, toward, steps }, _) => {
                 said.extend(steps.words().map(|words| format!("its steps were {words}")));
-                said.push(format!("its coordinates were added up in floats of {bits} bits"));
-                said.push(format!("each pixel were rounded {}", way.words()));
+                let what = match place {
+                    Place::Added(bits) => {
+                        said.push(format!(
+                            "its coordinates were added up in floats of {bits} bits"
+                        ));
+                        "each pixel"
+                    }
+                    Place::Exact => "the place of each step",
+                    Place::Way => "the way from the start to each step",
+                    Place::Pieces(steps) => {
+                        said.push(format!("each {steps} of its steps were a line of their own"));
+                        "the way from its start to each step"
+                    }
+                };
+                said.push(format!("{what} were rounded {}", toward.words()));
             }
             (Method::Error(_), _) => {}
         }
@@ -289,8 +332,14 @@ impl Walk {
             Method::BothAxes { equal, is_fresh, start } => {
                 self.on_both_axes(equal, is_fresh, start, &way, &mut plot);
             }
-            Method::Added { bits, toward, steps } => {
-                added(bits, toward, steps.of(&way), &way, &mut plot);
+            Method::Sampled { place, toward, steps } => {
+                let steps = steps.of(&way);
+                match place {
+                    Place::Added(bits) => added(bits, toward, steps, &way, &mut plot),
+                    Place::Exact => placed(false, toward, steps, &way, &mut plot),
+                    Place::Way => placed(true, toward, steps, &way, &mut plot),
+                    Place::Pieces(piece) => in_pieces(piece, toward, steps, &way, &mut plot),
+                }
             }
         }
         Some(picture)
@@ -321,11 +370,17 @@ impl Walk {
         let is_enough = error.is_enough[usize::from(way.step[axis] < 0)];
         let mut value = self.in_word(error.begins(du, dv));
         let mut at = way.from;
+        let mut is_aside = false;
         for _ in 0..=du {
             plot(at);
+            if error.is_lost && is_aside {
+                at[side] -= way.step[side];
+                is_aside = false;
+            }
             while value > 0 || is_enough && value == 0 {
                 at[side] += way.step[side];
                 value -= loss;
+                is_aside = true;
                 // Along the shorter axis there are several steps aside, along the longer one at most one.
                 if self.along.is_none() || loss <= 0 {
                     break;
@@ -385,6 +440,40 @@ fn added(bits: u32, toward: Toward, steps: i64, way: &Way, plot: Plot<'_>) {
         plot([rounded(at[0], bits, toward), rounded(at[1], bits, toward)]);
         at[0] = float(at[0] + by[0], bits);
         at[1] = float(at[1] + by[1], bits);
+    }
+}
+
+/// A point for each step, exactly: its coordinates are rounded, or its ways from the start.
+fn placed(by_way: bool, toward: Toward, steps: i64, way: &Way, plot: Plot<'_>) {
+    let steps = i128::from(steps.max(1));
+    for step in 0..=steps {
+        plot([0, 1].map(|axis| {
+            let (from, to) = (i128::from(way.from[axis]), i128::from(way.to[axis]));
+            let at = match by_way {
+                true => {
+                    from + round((to - from).abs() * step, steps, toward) * (to - from).signum()
+                }
+                false => round(from * steps + (to - from) * step, steps, toward),
+            };
+            // Between the ends, which are numbers of 64 bits.
+            at as i64
+        }));
+    }
+}
+
+/// Pieces of so many steps, between points whose ways from the start are rounded.
+fn in_pieces(piece: i64, toward: Toward, steps: i64, way: &Way, plot: Plot<'_>) {
+    let joint = |step: i64| {
+        [0, 1].map(|axis| {
+            let (from, to) = (way.from[axis], way.to[axis]);
+            let along = i128::from((to - from).abs()) * i128::from(step);
+            from + round(along, steps.max(1).into(), toward) as i64 * (to - from).signum()
+        })
+    };
+    for first in (0..=steps).step_by(piece as usize) {
+        let last = (first + piece).min(steps);
+        let part = Way { from: joint(first), to: joint(last), ..*way };
+        placed(true, toward, last - first, &part, plot);
     }
 }
 
@@ -453,6 +542,7 @@ impl Error {
             all.push(Self { start: start.map(|v| v / 2), ..*self });
         }
         all.push(Self { is_halved: !self.is_halved, ..*self });
+        all.push(Self { is_lost: !self.is_lost, ..*self });
         for is_enough in [[true, true], [true, false], [false, true], [false, false]] {
             all.push(Self { is_enough, ..*self });
         }

@@ -204,7 +204,7 @@ const FIRSTS: [&str; 4] = [
     "the first sample below a corner",
     "the row that holds a corner",
     "the first row that begins below a corner",
-    "the height of a corner, rounded,",
+    "the rounded height of a corner",
 ];
 const HEIGHTS: [&str; 4] = [
     "",
