@@ -196,17 +196,17 @@ class Figure extends HTMLElement {
     this.show();
   }
 
-  clear() {
+  uncover() {
     for (const { element } of this.covers) element.remove();
     this.covers = [];
-    this.controls.replaceChildren();
     this.verdict.textContent = '';
   }
 
   /** Asks for a prediction: nothing else can be done before. */
   invite() {
     const { predict } = this.now;
-    this.clear();
+    this.uncover();
+    this.controls.replaceChildren();
     this.links.hidden = true;
     this.hint.textContent = predict.kind === 'pixels' ? this.words.mark : '';
     const show = button(this.words.show, () => this.reveal(''));
@@ -270,26 +270,23 @@ class Figure extends HTMLElement {
 
   /** What stands below the answer. */
   answered(verdict) {
-    this.clear();
+    this.uncover();
     this.verdict.textContent = verdict;
     const names = this.now.grips.map((grip) => grip.name).join(this.language === 'zh' ? '、' : ', ');
     this.hint.textContent = `${this.words.drag}${names}${this.language === 'zh' ? '。' : '.'}`;
     this.links.hidden = false;
-    const again = button(this.words.again, () => {
+    this.controls.replaceChildren(button(this.words.again, () => {
       this.isAnswered = false;
       this.draw();
       this.invite();
       this.stage.querySelector('.frame button')?.focus();
-    });
-    this.controls.append(again);
+    }));
   }
 
   move(i, value) {
     if (!this.exports) return;
     this.at = this.at.map((old, k) => (k === i ? value : old));
-    for (const { element } of this.covers) element.remove();
-    this.covers = [];
-    this.verdict.textContent = '';
+    this.uncover();
     this.draw();
   }
 }

@@ -22,15 +22,13 @@ function drawFrame() {
     view.show(shownOf(answer));
   }
   pressTools();
-  clearTimeout(explaining);
-  clearTimeout(settling);
-  explaining = setTimeout(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
-  settling = setTimeout(settled, 100);
+  explainLater(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
+  settleLater(settled, 100);
 }
 
 /** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, and follow a drag ten times a second. */
 let explained = 0;
-let explaining = 0;
+const explainLater = delayed();
 function explain(answer) {
   explained = performance.now();
   drawCorners();
@@ -43,7 +41,7 @@ function explain(answer) {
 }
 
 /** What is said once nothing moves: the command, and what a screen reader reads aloud. */
-let settling = 0;
+const settleLater = delayed();
 function settled() {
   const same = command();
   say($('command'), same);
