@@ -12,7 +12,8 @@ const HUES = { missing: [0, 15], extra: [25, 45], twice: [250, 285] };
 function look() {
   const texts = (value) => (typeof value === 'object' ? Object.values(value).map(texts).join('\n') : String(value));
   const hueOf = (name) => {
-    const [r, g, b] = colours[name].match(/\d+/g).map(Number), most = Math.max(r, g, b), range = most - Math.min(r, g, b);
+    const probe = document.body.appendChild(Object.assign(document.createElement('span'), { style: `color: var(--px-${name})` }));
+    const [r, g, b] = getComputedStyle(probe).color.match(/\d+/g).map(Number), most = Math.max(r, g, b), range = most - Math.min(r, g, b);
     const sixth = most === r ? (g - b) / range : most === g ? 2 + (b - r) / range : 4 + (r - g) / range;
     return [(60 * sixth + 360) % 360, range / most];
   };

@@ -30,7 +30,7 @@ export default {
     // In a folder that has the docs beside it, as a checkout has.
     const here = folder();
     fs.mkdirSync(path.join(here, 'docs'));
-    for (const name of ['index.md', 'ties.md']) fs.writeFileSync(path.join(here, 'docs', name), '');
+    for (const name of ['index.md', 'study.md', 'ties.md']) fs.writeFileSync(path.join(here, 'docs', name), '');
     const printed = run(['study', path.join(ROOT, 'tests/transcripts/hard-cases/box.obj'), '--once', '--size', '64x48', '--report'], here);
     assert.equal(printed.status, 0, printed.errors);
     const file = reportOf('study', printed), page = fs.readFileSync(file, 'utf8');
@@ -44,7 +44,7 @@ export default {
     const ring = Object.entries(maps['hard cases'].legend).find(([, says]) => says.includes('stands alone'))[0];
     assert(maps['hard cases'].seen.includes(ring), 'the ring has its own colour');
     const named = await tab.value('[...document.querySelectorAll("main a[href*=docs]")].map(link => [link.textContent, decodeURI(new URL(link.href).pathname)])');
-    assert.deepEqual(named, [['docs/ties.md', path.join(here, 'docs/ties.md')]]);
+    assert.deepEqual(named, [['a study of your own model', path.join(here, 'docs/study.md')], ['docs/ties.md', path.join(here, 'docs/ties.md')]]);
     // A text that names a colour is not needed, and was wrong before.
     assert.doesNotMatch(page.replace(/<script[^]*?<\/script>|<style[^]*?<\/style>/g, ''), /\b(yellow|orange|violet)\b/);
   },
