@@ -183,7 +183,7 @@ class Figure extends HTMLElement {
     const { svg, alt } = this.now;
     const part = svg.match(/viewBox="([^"]*)"/)[1].split(' ').map(Number);
     this.view.show({
-      part, bounds: part, high: 9, title: alt, isPicture: true, covers: this.covers,
+      part, bounds: part, high: this.hasAttribute('open') ? 0.3 : 9, title: alt, isPicture: true, covers: this.covers,
       panels: [{ key: 'sheet', label: alt, svg, view: 'sheet' }],
       grips: () => (this.isAnswered ? figureGrips(this.now.grips, (i, value) => this.move(i, value)) : []),
     });

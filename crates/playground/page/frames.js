@@ -22,16 +22,17 @@ function drawFrame() {
     view.show(shownOf(answer));
   }
   pressTools();
-  explainLater(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
+  const wait = Math.max(0, explained + 100 - performance.now());
+  explainLater(() => explain(answer), wait);
+  cornersLater(drawCorners, wait + 30);
   settleLater(settled, 100);
 }
 
-/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, and follow a drag ten times a second. */
+/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag ten times a second. */
 let explained = 0;
-const explainLater = delayed();
+const [explainLater, cornersLater] = [delayed(), delayed()];
 function explain(answer) {
   explained = performance.now();
-  drawCorners();
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
@@ -55,7 +56,4 @@ function settled() {
   say($('announce'), said);
 }
 
-function trouble(text) {
-  $('trouble').hidden = !text;
-  say($('trouble'), text ?? '');
-}
+const trouble = (text) => say($('trouble'), text ?? '');
