@@ -28,7 +28,7 @@ const STYLE = `
   :is(.question, .verdict) { font-weight: 600; margin-top: 0; }
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
-  rp-view .frame { border-color: transparent; }
+  rp-view .frame { border-color: transparent; justify-self: center; }
   rp-view:not(.is-wide) { position: relative; }
   rp-view:not(.is-wide) .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
   rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
@@ -183,7 +183,7 @@ class Figure extends HTMLElement {
     const { svg, alt } = this.now;
     const part = svg.match(/viewBox="([^"]*)"/)[1].split(' ').map(Number);
     this.view.show({
-      part, bounds: part, high: this.hasAttribute('open') ? 0.3 : 9, title: alt, isPicture: true, covers: this.covers,
+      part, bounds: part, high: this.hasAttribute('open') ? 0.27 : 9, title: alt, isPicture: true, covers: this.covers,
       panels: [{ key: 'sheet', label: alt, svg, view: 'sheet' }],
       grips: () => (this.isAnswered ? figureGrips(this.now.grips, (i, value) => this.move(i, value)) : []),
     });
