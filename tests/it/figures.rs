@@ -25,6 +25,7 @@ use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::target::Antialias;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::differing;
+use rasterproof_teaching::by_hand::Values;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
 use rasterproof_verify::comparison::oracle_coverage;
@@ -36,8 +37,6 @@ use crate::diagrams;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 use crate::scenes::{still, target_of};
-
-type Values = fn() -> Vec<f64>;
 
 /// Fragments of a scene, how many of them an effect is computed for with everything on and by the plan, and the pixels
 /// that are wrong without it.

@@ -26,8 +26,11 @@ use rasterproof_render::pipeline::transform::{about, frustum};
 use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::convention::{Shape, TriangleConvention};
 
-/// The results of each example, by the name that pages give it.
-pub const ALL: &[(&str, fn() -> Vec<f64>)] = &[
+/// What computes the numbers of an example.
+pub type Values = fn() -> Vec<f64>;
+
+/// Every example by the name that pages give it.
+pub const ALL: &[(&str, Values)] = &[
     ("hand-square", square),
     ("corner-square", corner_square),
     ("hand-lines", lines),
@@ -425,7 +428,9 @@ fn levels() -> Vec<f64> {
 
 /// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
 fn seam() -> Vec<f64> {
-    [0.002 - 0.998, 1.002 - 0.998].map(|difference: f64| libm::log2((difference * 256.0).abs())).to_vec()
+    [0.002 - 0.998, 1.002 - 0.998]
+        .map(|difference: f64| libm::log2((difference * 256.0).abs()))
+        .to_vec()
 }
 
 /// What the harder exercises of the chapters come to, in the order of the pages.
