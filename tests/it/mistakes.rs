@@ -181,7 +181,7 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, y| (x + y) % 2 == 0);
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         // The test of a point by two vectors and their dot products, as many copy it.
         let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let minus = |p: [f32; 2], q: [f32; 2]| [p[0] - q[0], p[1] - q[1]];
@@ -331,7 +331,7 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, _| x % 8 != 7);
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         let px = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let turns = area(c) as f32;
         if area(c) == 0 {
@@ -339,16 +339,15 @@ pub const FILLS: &[(&str, Fill)] = &[
         }
         fill_where(out, |x, y| {
             let at = [x as f32 + 0.5, y as f32 + 0.5];
-            let holds = (0..3).all(|i| {
+            (0..3).all(|i| {
                 let (p, q) = (px[i], px[(i + 1) % 3]);
                 let s = turns.signum();
                 let e = s * ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]));
                 e >= 0.0
-            });
-            holds
+            })
         });
     }),
-    ("rounding of floats", |mut c, w, out| {
+    ("rounding of floats", |mut c, _, out| {
         // Weights divided by the area, the third from the other two.
         if area(c) == 0 {
             return;
@@ -605,7 +604,7 @@ pub const FILLS: &[(&str, Fill)] = &[
             }
         });
     }),
-    ("edges in whole numbers", |c, w, out| {
+    ("edges in whole numbers", |c, _, out| {
         // Steps in 1/4 px.
         let turns = area(c).signum();
         let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
@@ -624,7 +623,7 @@ pub const FILLS: &[(&str, Fill)] = &[
             turns != 0 && holds
         });
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         // Ericson's weights from dot products.
         if area(c) == 0 {
             return;
@@ -750,7 +749,7 @@ pub const FILLS: &[(&str, Fill)] = &[
                 .for_each(|x| light(out, x, y));
         }
     }),
-    ("blocks are drawn whole", |c, w, out| {
+    ("blocks are drawn whole", |c, _, out| {
         // Two rows of four pixels are drawn as their middle is covered.
         let clockwise = area(c).signum();
         let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
@@ -773,7 +772,7 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, _| x < w.y1);
     }),
-    ("areas are compared", |c, w, out| {
+    ("areas are compared", |c, _, out| {
         // Half of each cross product, with 1/1000 between.
         let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let part = |a: [f32; 2], b: [f32; 2], at: [f32; 2]| {
@@ -897,7 +896,7 @@ pub const FILLS: &[(&str, Fill)] = &[
             light(out, x.clamp(-1.0, 9999.0) as i32, y);
         }
     }),
-    ("the whole box is filled", |c, w, out| {
+    ("the whole box is filled", |c, _, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         fill_where(out, |x, y| {
             let (u, v) = (x * 256 + 128, y * 256 + 128);
