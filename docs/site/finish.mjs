@@ -32,6 +32,9 @@ function once(text, old, right) {
   return text.replace(old, () => right);
 }
 
+/** Changes a file that is there. */
+const edit = (file, change) => write(file, change(read(file)));
+
 /** A page that mdBook does not make. */
 const bare = (title, body, more = '') => `<!DOCTYPE html>
 <html lang="en">
@@ -81,10 +84,10 @@ function filePage(file) {
     const language = HIGHLIGHTED[path.extname(file).slice(1)] ?? (read(file).startsWith('#!/usr/bin/env bash') ? 'bash' : '');
     body = `<pre><code class="hljs" tabindex="0" role="group" aria-label="${escaped(file)}">${highlighted(read(file), language)}</code></pre>`;
   }
-  const sheet = (name, scheme) => `<link rel="stylesheet" href="${root}/en/${name}" media="(prefers-color-scheme: ${scheme})">`;
+  const sheet = (pattern, scheme) => `<link rel="stylesheet" href="${root}/en/${path.basename(asset('en', pattern))}" media="(prefers-color-scheme: ${scheme})">`;
   const nav = `<nav><a href="${root}/en/index.html">rasterproof</a> · <a href="${root}/zh/index.html" lang="zh-CN">中文</a></nav>`;
-  write(path.join(site, place), bare(`${file} - rasterproof`, `${nav}\n<main>\n<h1>${escaped(file)}</h1>\n${body}\n</main>\n`, `${sheet(asset('en', /^highlight-.*\.css$/), 'light')}
-${sheet(asset('en', /^tomorrow-night-.*\.css$/), 'dark')}
+  write(path.join(site, place), bare(`${file} - rasterproof`, `${nav}\n<main>\n<h1>${escaped(file)}</h1>\n${body}\n</main>\n`, `${sheet(/^highlight-.*\.css$/, 'light')}
+${sheet(/^tomorrow-night-.*\.css$/, 'dark')}
 <style>
 html { background: canvas; color: canvastext; }
 body { font-family: sans-serif; margin: 1em; overflow-wrap: anywhere; }
@@ -94,11 +97,11 @@ pre code { display: block; padding: 0.5em; }
 `));
 }
 
-/** The name of the one file of a book that matches. */
+/** The one file of a book whose name matches. */
 function asset(book, pattern) {
   const found = fs.readdirSync(path.join(site, book)).filter((name) => pattern.test(name));
   if (found.length !== 1) throw new Error(`${book}: ${found.length} files match ${pattern}`);
-  return found[0];
+  return path.join(site, book, found[0]);
 }
 
 /** The width and height of a picture as attributes, so that nothing moves when it arrives. */
@@ -151,20 +154,13 @@ function formula(page, tex, displayMode) {
 
 // Live figures ask a question first. It stands in the page, so that it is seen before the engines are loaded.
 const modulePath = 'target/rasterproof/playground.wasm';
-const engines = fs.existsSync(modulePath) && (await WebAssembly.instantiate(fs.readFileSync(modulePath))).instance.exports;
-
-/** What the engines answer; question and answer are JSON. */
-function ask(question) {
-  const text = new TextEncoder().encode(JSON.stringify(question));
-  const at = engines.room(text.length);
-  new Uint8Array(engines.memory.buffer, at, text.length).set(text);
-  const length = engines.answer();
-  return JSON.parse(new TextDecoder().decode(new Uint8Array(engines.memory.buffer, engines.text(), length)));
-}
+const hasEngines = fs.existsSync(modulePath);
+const { instantiate, ask } = vm.runInThisContext(`${read('crates/playground/page/engines.js')}; ({ instantiate, ask })`);
+if (hasEngines) instantiate(new WebAssembly.Module(fs.readFileSync(modulePath)));
 
 /** The beginning of a live figure behind its first answer on a light and on a dark page: it is painted with that, however slowly the page is read. */
 function withFirstAnswer(page, book, start, name, open) {
-  if (!engines) return start;
+  if (!hasEngines) return start;
   const of = (isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark });
   const first = { light: of(false), dark: of(true) };
   if (first.light.error) wrong.push(`${page}: the figure ${name}: ${first.light.error}`);
@@ -190,6 +186,32 @@ function reachable(head) {
   const named = once(once(once(help, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
   return once(named.replace(/<body[^>]*>/, '$&\n<a class="to-the-text" href="#text">Skip to the text</a>'), '<main>', '<main id="text" tabindex="-1">');
 }
+
+// What mdBook says around a text.
+const ZH = {
+  'Skip to the text': '跳到正文',
+  'Toggle Table of Contents': '打开或收起目录',
+  'Table of contents': '目录',
+  'Change theme': '换主题',
+  'Themes': '主题',
+  'Search (`/`)': '搜索（`/`）',
+  'Toggle Searchbar': '打开或收起搜索栏',
+  'Search this book ...': '搜索本书……',
+  'Page navigation': '翻页',
+  'Previous chapter': '上一章',
+  'Next chapter': '下一章',
+  'Copy to clipboard': '复制',
+  'Keyboard shortcuts': '快捷键',
+  'Auto': '自动',
+  'Light': '浅色',
+  'Rust': '铁锈',
+  'Coal': '深色',
+  'Navy': '深蓝',
+  'Ayu': '墨绿',
+};
+
+/** The same in Chinese: names of things, and texts that stand alone. */
+const inChinese = (html) => html.replace(/(?<=[">])[^<>"]+(?=["<])/g, (text) => ZH[text] ?? text);
 
 /** The code that links of a page lead to, `own/a.py#L3-L9`, as one block with an empty line between two pieces. */
 function linked(page, links) {
@@ -288,33 +310,28 @@ for (const book of ['en', 'zh']) {
     if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
     // What stands below the text, search and copying, leaves the line to what the first view needs.
     const below = once(foot, '</main>', `</main>\n${TEXT_IS_READ}`).replaceAll('<script src="', '<script fetchpriority="low" src="');
-    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + below);
+    const translated = book === 'zh' ? inChinese : (html) => html;
+    write(path.join(site, place), translated(reachable(head).replace('</head>', `${more}</head>`)) + text + translated(below));
   }
   // The headings of a page come into the contents when the text is there, before these are shown, and not after the last script.
-  const contents = path.join(site, book, asset(book, /^toc-.*\.js$/));
-  write(contents, read(contents).replaceAll("addEventListener('DOMContentLoaded'", "addEventListener('text-is-read'"));
+  edit(asset(book, /^toc-.*\.js$/), (text) => text.replaceAll("addEventListener('DOMContentLoaded'", "addEventListener('text-is-read'"));
+  // Two colours of code lack contrast in the dark: the first has 4.45 of 4.5, the second 2.9.
+  edit(asset(book, /^tomorrow-night-.*\.css$/), (text) => once(text, '#cc6666', '#d77c7c'));
+  edit(asset(book, /^ayu-highlight-.*\.css$/), (text) => once(text, '#5c6773', '#84909c'));
 }
 // The contents alone, for readers without scripts, are a page like others.
 for (const [book, title] of [['en', 'Table of contents'], ['zh', '目录']]) {
-  const file = path.join(site, book, 'toc.html');
   const [start, end] = ['<body class="sidebar-iframe-inner">', '</body>'];
-  const titled = once(read(file), '</head>', `<title>${title} - rasterproof</title>\n</head>`);
-  write(file, once(once(titled, start, `${start}\n<main>\n<h1>${title}</h1>`), end, `</main>\n${end}`));
-}
-// Two colours of code lack contrast in the dark: the first has 4.45 of 4.5, the second 2.9.
-for (const book of ['en', 'zh']) {
-  for (const [sheet, old, brighter] of [[/^tomorrow-night-.*\.css$/, '#cc6666', '#d77c7c'], [/^ayu-highlight-.*\.css$/, '#5c6773', '#84909c']]) {
-    const file = path.join(site, book, asset(book, sheet));
-    write(file, once(read(file), old, brighter));
-  }
+  edit(path.join(site, book, 'toc.html'), (text) => {
+    const titled = once(text, '</head>', `<title>${title} - rasterproof</title>\n</head>`);
+    return once(once(titled, start, `${start}\n<main>\n<h1>${title}</h1>`), end, `</main>\n${end}`);
+  });
 }
 for (const file of shown) {
   if (SHOWN_AS_IT_IS.test(file)) {
     fs.mkdirSync(path.join(site, 'files', path.dirname(file)), { recursive: true });
     fs.copyFileSync(file, path.join(site, 'files', file));
-  } else {
-    filePage(file);
-  }
+  } else filePage(file);
 }
 
 // What is found in a lesson comes before what is found in a page to look up, and the history of the project comes last: the
@@ -327,25 +344,26 @@ for (const book of ['en', 'zh']) {
     for (const [, page] of part.matchAll(/\]\(([^)]*)\.md\)/g)) weights[`${page}.html`] = WEIGHTS[at] ?? WEIGHTS.at(-1);
   });
   if (inParts.length + 1 !== WEIGHTS.length) wrong.push(`the SUMMARY.md of the book ${book} has ${inParts.length} parts; WEIGHTS needs one more number than that`);
-  const file = path.join(site, book, asset(book, /^searcher-.*\.js$/));
   const search = 'const results = searchindex.search(searchterm, search_options);';
-  write(file, once(read(file), search, `${search}
+  edit(asset(book, /^searcher-.*\.js$/), (text) => once(text, search, `${search}
         const weights = ${JSON.stringify(weights)};
         for (const result of results) result.score *= weights[doc_urls[result.ref].split('#')[0]] ?? 1;
         results.sort((a, b) => b.score - a.score);`));
 }
 
+edit(asset('zh', /^book-.*\.js$/), (text) => text.replaceAll('Copy to clipboard', '复制'));
+
 // mdBook splits texts at spaces, which Chinese does not have. Here a word of the Chinese index is two characters that stand
 // side by side. The same function splits what a reader types, and is therefore in the script that the book loads.
-const elasticlunrFile = path.join(site, 'zh', asset('zh', /^elasticlunr-.*\.js$/));
-write(elasticlunrFile, `${read(elasticlunrFile)}
+const elasticlunrFile = asset('zh', /^elasticlunr-.*\.js$/);
+edit(elasticlunrFile, (text) => `${text}
 elasticlunr.tokenizer = (text) => (String(text ?? '').toLowerCase().match(/\\p{Script=Han}+|[^\\P{L}\\p{Script=Han}]+|\\p{N}+/gu) ?? []).flatMap((word) => {
   const signs = [...word];
   if (!/\\p{Script=Han}/u.test(word) || signs.length === 1) return [word];
   return signs.slice(1).map((sign, at) => signs[at] + sign);
 });
 `);
-const indexFile = path.join(site, 'zh', asset('zh', /^searchindex-.*\.js$/));
+const indexFile = asset('zh', /^searchindex-.*\.js$/);
 const world = vm.createContext({ window: { search: {} } });
 vm.runInContext(read(elasticlunrFile), world);
 vm.runInContext(read(indexFile), world);
@@ -361,19 +379,18 @@ vm.runInContext(`
   search.index = index.toJSON();
 `, world);
 write(indexFile, `window.search = Object.assign(window.search, ${JSON.stringify(world.window.search)});\n`);
-const searcherFile = path.join(site, 'zh', asset('zh', /^searcher-.*\.js$/));
-let searcher = once(read(searcherFile), 'function makeTeaser(body, searchterms) {', `function makeTeaser(body, searchterms) {
+const teaser = (text) => once(text, 'function makeTeaser(body, searchterms) {', `function makeTeaser(body, searchterms) {
         const at = body.toLowerCase().indexOf(searchterms[0].toLowerCase());
         if (at < 0) return body.slice(0, 90);
         const end = at + searchterms[0].length;
         return body.slice(Math.max(0, at - 30), at) + '<em>' + body.slice(at, end) + '</em>' + body.slice(end, end + 60);
     }
     function unusedTeaser(body, searchterms) {`);
-searcher = once(searcher, 'function formatSearchMetric(count, searchterm) {', `function formatSearchMetric(count, searchterm) {
+const metric = (text) => once(text, 'function formatSearchMetric(count, searchterm) {', `function formatSearchMetric(count, searchterm) {
         return '“' + searchterm + '”：' + count + ' 处';
     }
     function unusedMetric(count, searchterm) {`);
-write(searcherFile, searcher);
+edit(asset('zh', /^searcher-.*\.js$/), (text) => metric(teaser(text)));
 
 // One compiled module for the whole site, in a script, since a page on disk may load nothing else: the pages in `try` load it
 // at once, live figures when the first is seen.
@@ -396,8 +413,8 @@ for (const name of ['playground', 'your-gpu']) {
 }
 // From what the program wrote, the reader gets back to the book.
 for (const name of fs.readdirSync(path.join(site, 'try')).filter((name) => name.endsWith('.html'))) {
-  const page = path.join(site, 'try', name);
-  write(page, once(read(page), '<header>', '<header>\n<p><a href="../index.html">‹ docs · 文档</a></p>\n'));
+  edit(path.join(site, 'try', name), (text) => once(text, '<header>', '<header>\n<p><a href="../index.html">‹ docs · 文档</a></p>\n')
+    .replaceAll('../../../docs/', '../en/').replace(/("path":"|href="\.\.\/en\/)([\w-]+)\.md/g, '$1$2.html'));
 }
 
 const books = (more = '') => `<a${more} href="en/index.html">rasterproof in English</a> · <a${more} href="zh/index.html" lang="zh-CN">rasterproof 中文</a>`;

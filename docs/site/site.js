@@ -1,31 +1,5 @@
-// The switch of languages stays at the heading that is read, and what mdBook itself says is in the language of the book. The keyboard reaches
-// the contents, and whatever scrolls.
+// The switch of languages stays at the heading that is read. The keyboard reaches the contents, and whatever scrolls.
 'use strict';
-
-const ZH = {
-  'Skip to the text': '跳到正文',
-  'Toggle Table of Contents': '打开或收起目录',
-  'Table of contents': '目录',
-  'Change theme': '换主题',
-  'Themes': '主题',
-  'Search (`/`)': '搜索（`/`）',
-  'Toggle Searchbar': '打开或收起搜索栏',
-  'Search this book ...': '搜索本书……',
-  'Page navigation': '翻页',
-  'Previous chapter': '上一章',
-  'Next chapter': '下一章',
-  'Copy to clipboard': '复制',
-  'Keyboard shortcuts': '快捷键',
-  'Code': '代码',
-  'Table': '表格',
-  'Formula': '公式',
-  'Auto': '自动',
-  'Light': '浅色',
-  'Rust': '铁锈',
-  'Coal': '深色',
-  'Navy': '深蓝',
-  'Ayu': '墨绿',
-};
 
 const links = document.querySelector('.site-links');
 document.querySelector('.right-buttons')?.append(links);
@@ -57,15 +31,14 @@ document.addEventListener('keydown', ({ key }) => {
   button.focus();
 });
 
-const isChinese = document.documentElement.lang.startsWith('zh');
-
 // What is wider than its place scrolls inside itself. The keyboard stops there, and nowhere else.
-const SCROLLING = { 'pre > code': 'Code', '.table-wrapper': 'Table', '.katex-display': 'Formula' };
+const SCROLLING = { 'pre > code': ['Code', '代码'], '.table-wrapper': ['Table', '表格'], '.katex-display': ['Formula', '公式'] };
+const language = Number(document.documentElement.lang.startsWith('zh'));
 const watcher = new ResizeObserver((entries) => {
   for (const { target } of entries) {
     const doesScroll = target.scrollWidth > target.clientWidth;
     const name = SCROLLING[Object.keys(SCROLLING).find((selector) => target.matches(selector))];
-    const attributes = { tabindex: '0', role: 'group', 'aria-label': isChinese ? ZH[name] : name };
+    const attributes = { tabindex: '0', role: 'group', 'aria-label': name[language] };
     for (const [attribute, value] of Object.entries(attributes)) {
       if (doesScroll) target.setAttribute(attribute, value);
       else target.removeAttribute(attribute);
@@ -73,15 +46,3 @@ const watcher = new ResizeObserver((entries) => {
   }
 });
 for (const element of document.querySelectorAll(Object.keys(SCROLLING).join())) watcher.observe(element);
-
-if (isChinese) {
-  for (const name of ['title', 'aria-label', 'placeholder']) {
-    for (const element of document.querySelectorAll(`[${name}]`)) {
-      const text = ZH[element.getAttribute(name)];
-      if (text) element.setAttribute(name, text);
-    }
-  }
-  for (const element of document.querySelectorAll('.theme, .mdbook-help-title, .to-the-text')) {
-    element.textContent = ZH[element.textContent] ?? element.textContent;
-  }
-}

@@ -25,6 +25,7 @@ use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::target::Antialias;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::differing;
+use rasterproof_teaching::by_hand::Values;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
 use rasterproof_verify::comparison::oracle_coverage;
@@ -32,13 +33,10 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
 use crate::book::bugs;
-use crate::by_hand;
 use crate::diagrams;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 use crate::scenes::{still, target_of};
-
-type Values = fn() -> Vec<f64>;
 
 /// Fragments of a scene, how many of them an effect is computed for with everything on and by the plan, and the pixels
 /// that are wrong without it.
@@ -90,33 +88,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("drawn-share", diagrams::share),
     ("drawn-shares", diagrams::shares),
     ("drawn-depths", diagrams::depths),
-    ("hand-square", by_hand::square),
-    ("corner-square", by_hand::corner_square),
-    ("hand-lines", by_hand::lines),
-    ("hand-step", by_hand::step),
-    ("hand-edges", by_hand::edges),
-    ("hand-rows", by_hand::rows),
-    ("hand-plane", by_hand::plane),
-    ("hand-steps", by_hand::steps),
-    ("hand-window", by_hand::window),
-    ("hand-winding", by_hand::winding),
-    ("hand-turns", by_hand::turns),
-    ("hand-light", by_hand::light),
-    ("hand-exercises", by_hand::exercises),
-    ("hand-snapped", by_hand::snapped),
-    ("hand-words", by_hand::words),
-    ("hand-crossing", by_hand::crossing),
-    ("hand-in-space", by_hand::in_space),
-    ("hand-depths", by_hand::depths),
-    ("hand-cut", by_hand::cut),
     ("lessons", crate::terms::lessons),
-    ("hand-shares", by_hand::shares),
-    ("hand-share-errors", by_hand::share_errors),
-    ("hand-shadings", by_hand::shadings),
-    ("hand-mixed", by_hand::mixed),
-    ("hand-floor", by_hand::floor),
-    ("hand-levels", by_hand::levels),
-    ("hand-seam", by_hand::seam),
     ("apart-facets", || apart("facets", Antialias::Supersample(4))),
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),

@@ -116,7 +116,7 @@ fn marks() -> Report {
 
 /// The viewer alone, with the checks that lie beside it.
 fn view() -> String {
-    let (style, script) = (style(&[]), script(&[&read("crates/view/page/checks.js")]));
+    let (style, script) = (style(&[]), script(&[&read("tests/pages/driver/viewer.js")]));
     format!(
         "<!DOCTYPE html><html lang=en><meta charset=utf-8><title>view</title><style>{style}</style>\
          <body data-ready><script>{script}</script>"

@@ -7,7 +7,6 @@
 mod against;
 mod boards;
 mod book;
-mod by_hand;
 mod checkpoint;
 mod circles;
 mod commands;

@@ -16,7 +16,7 @@ use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, Mutant, TriangleMutant};
 use rasterproof_invariants::implementations::{Component, Implementations, component_of, hits};
 use rasterproof_judge as judge;
-use rasterproof_judge::ask::{Answer, Asked};
+use rasterproof_judge::ask::{Answer, Asked, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -46,6 +46,14 @@ pub fn right(corners: Corners, window: PixelRect, picture: &mut Coverage) {
 fn light(picture: &mut Coverage, x: i32, y: i32) {
     if picture.bounds().contains(x, y) && picture.get(x, y) == Some(0) {
         picture.hit(y, x, x + 1);
+    }
+}
+
+/// Draws the pixels of the window of which it is true.
+fn fill_where(picture: &mut Coverage, holds: impl Fn(i32, i32) -> bool) {
+    let window = picture.bounds();
+    for y in window.y0..window.y1 {
+        (window.x0..window.x1).filter(|x| holds(*x, y)).for_each(|x| light(picture, x, y));
     }
 }
 
@@ -79,21 +87,15 @@ fn tested(
     if turns == 0 {
         return;
     }
-    let window = picture.bounds();
-    for y in window.y0..window.y1 {
-        for x in window.x0..window.x1 {
-            let at = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
-            let holds = (0..3).all(|i| {
-                let (from, to) = (p[i], p[(i + 1) % 3]);
-                let e = turns.signum() * product(from, to, at);
-                let along = [0, 1].map(|k| turns.signum() * (to[k] - from[k]));
-                inside(i, e, along)
-            });
-            if holds {
-                light(picture, x, y);
-            }
-        }
-    }
+    fill_where(picture, |x, y| {
+        let at = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
+        (0..3).all(|i| {
+            let (from, to) = (p[i], p[(i + 1) % 3]);
+            let e = turns.signum() * product(from, to, at);
+            let along = [0, 1].map(|k| turns.signum() * (to[k] - from[k]));
+            inside(i, e, along)
+        })
+    });
 }
 
 fn exactly(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> i64 {
@@ -179,23 +181,19 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, y| (x + y) % 2 == 0);
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         // The test of a point by two vectors and their dot products, as many copy it.
         let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let minus = |p: [f32; 2], q: [f32; 2]| [p[0] - q[0], p[1] - q[1]];
         let dot = |p: [f32; 2], q: [f32; 2]| p[0] * q[0] + p[1] * q[1];
         let [v0, v1] = [minus(p[2], p[0]), minus(p[1], p[0])];
         let inverse = 1.0 / (dot(v0, v0) * dot(v1, v1) - dot(v0, v1) * dot(v0, v1));
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let v2 = minus([x as f32 + 0.5, y as f32 + 0.5], p[0]);
-                let u = (dot(v1, v1) * dot(v0, v2) - dot(v0, v1) * dot(v1, v2)) * inverse;
-                let v = (dot(v0, v0) * dot(v1, v2) - dot(v0, v1) * dot(v0, v2)) * inverse;
-                if area(c) != 0 && u >= 0.0 && v >= 0.0 && u + v < 1.0 {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let v2 = minus([x as f32 + 0.5, y as f32 + 0.5], p[0]);
+            let u = (dot(v1, v1) * dot(v0, v2) - dot(v0, v1) * dot(v1, v2)) * inverse;
+            let v = (dot(v0, v0) * dot(v1, v2) - dot(v0, v1) * dot(v0, v2)) * inverse;
+            area(c) != 0 && u >= 0.0 && v >= 0.0 && u + v < 1.0
+        });
     }),
     ("triangles are left out by size", |c, w, out| {
         // Slivers: twice the area is less than a tenth of the square of the longest side.
@@ -333,28 +331,23 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, _| x % 8 != 7);
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         let px = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let turns = area(c) as f32;
         if area(c) == 0 {
             return;
         }
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let at = [x as f32 + 0.5, y as f32 + 0.5];
-                let holds = (0..3).all(|i| {
-                    let (p, q) = (px[i], px[(i + 1) % 3]);
-                    let s = turns.signum();
-                    let e = s * ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]));
-                    e >= 0.0
-                });
-                if holds {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let at = [x as f32 + 0.5, y as f32 + 0.5];
+            (0..3).all(|i| {
+                let (p, q) = (px[i], px[(i + 1) % 3]);
+                let s = turns.signum();
+                let e = s * ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]));
+                e >= 0.0
+            })
+        });
     }),
-    ("rounding of floats", |mut c, w, out| {
+    ("rounding of floats", |mut c, _, out| {
         // Weights divided by the area, the third from the other two.
         if area(c) == 0 {
             return;
@@ -367,15 +360,11 @@ pub const FILLS: &[(&str, Fill)] = &[
             (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0])
         };
         let whole = edge(px[0], px[1], px[2]);
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let at = [x as f32 + 0.5, y as f32 + 0.5];
-                let (u, v) = (edge(px[1], px[2], at) / whole, edge(px[2], px[0], at) / whole);
-                if u >= 0.0 && v >= 0.0 && 1.0 - u - v >= 0.0 {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let at = [x as f32 + 0.5, y as f32 + 0.5];
+            let (u, v) = (edge(px[1], px[2], at) / whole, edge(px[2], px[0], at) / whole);
+            u >= 0.0 && v >= 0.0 && 1.0 - u - v >= 0.0
+        });
     }),
     ("crossings are stepped", |mut c, w, out| {
         // A 16.16 slope that is cut and added row by row.
@@ -590,13 +579,7 @@ pub const FILLS: &[(&str, Fill)] = &[
         // Quads of pixels share the first one's answer.
         let mut first = Coverage::new(w, 0);
         right(c, w, &mut first);
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                if first.get(x & !1, y & !1).is_some_and(|hits| hits > 0) {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| first.get(x & !1, y & !1).is_some_and(|hits| hits > 0));
     }),
     ("the rest of a group", |c, w, out| {
         // Rows are drawn in whole groups of 4.
@@ -621,30 +604,26 @@ pub const FILLS: &[(&str, Fill)] = &[
             }
         });
     }),
-    ("edges in whole numbers", |c, w, out| {
+    ("edges in whole numbers", |c, _, out| {
         // Steps in 1/4 px.
         let turns = area(c).signum();
         let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         let at = [0, 1].map(|axis| i64::from((extent(c, axis)[0] >> 8).max(0)) * 256 + 128);
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let holds = (0..3).all(|i| {
-                    let (from, to) = (p[i], p[(i + 1) % 3]);
-                    let along = [0, 1].map(|k| turns * (to[k] - from[k]));
-                    let step = along.map(|v| v / 64 * 64);
-                    let e = step[0] * (at[1] - from[1]) - step[1] * (at[0] - from[0]);
-                    let [dx, dy] =
-                        [(x, at[0]), (y, at[1])].map(|(v, at)| i64::from(v) * 256 + 128 - at);
-                    let e = e + step[0] * dy - step[1] * dx;
-                    e > 0 || (e == 0 && owns(along))
-                });
-                if turns != 0 && holds {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let holds = (0..3).all(|i| {
+                let (from, to) = (p[i], p[(i + 1) % 3]);
+                let along = [0, 1].map(|k| turns * (to[k] - from[k]));
+                let step = along.map(|v| v / 64 * 64);
+                let e = step[0] * (at[1] - from[1]) - step[1] * (at[0] - from[0]);
+                let [dx, dy] =
+                    [(x, at[0]), (y, at[1])].map(|(v, at)| i64::from(v) * 256 + 128 - at);
+                let e = e + step[0] * dy - step[1] * dx;
+                e > 0 || (e == 0 && owns(along))
+            });
+            turns != 0 && holds
+        });
     }),
-    ("rounding of floats", |c, w, out| {
+    ("rounding of floats", |c, _, out| {
         // Ericson's weights from dot products.
         if area(c) == 0 {
             return;
@@ -655,17 +634,13 @@ pub const FILLS: &[(&str, Fill)] = &[
         let (v0, v1) = (minus(p[1], p[0]), minus(p[2], p[0]));
         let (d00, d01, d11) = (dot(v0, v0), dot(v0, v1), dot(v1, v1));
         let denominator = d00 * d11 - d01 * d01;
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let v2 = minus([x as f32 + 0.5, y as f32 + 0.5], p[0]);
-                let (d20, d21) = (dot(v2, v0), dot(v2, v1));
-                let v = (d11 * d20 - d01 * d21) / denominator;
-                let w = (d00 * d21 - d01 * d20) / denominator;
-                if 1.0 - v - w >= 0.0 && v >= 0.0 && w >= 0.0 {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let v2 = minus([x as f32 + 0.5, y as f32 + 0.5], p[0]);
+            let (d20, d21) = (dot(v2, v0), dot(v2, v1));
+            let v = (d11 * d20 - d01 * d21) / denominator;
+            let w = (d00 * d21 - d01 * d20) / denominator;
+            1.0 - v - w >= 0.0 && v >= 0.0 && w >= 0.0
+        });
     }),
     ("crossings are stepped", |c, w, out| {
         // Steps above the window are forgotten, and slopes have 12 bits that are rounded.
@@ -774,23 +749,19 @@ pub const FILLS: &[(&str, Fill)] = &[
                 .for_each(|x| light(out, x, y));
         }
     }),
-    ("blocks are drawn whole", |c, w, out| {
+    ("blocks are drawn whole", |c, _, out| {
         // Two rows of four pixels are drawn as their middle is covered.
         let clockwise = area(c).signum();
         let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let at = [i64::from(x / 4 * 4 + 2) * 256, i64::from(y / 2 * 2 + 1) * 256];
-                let holds = (0..3).all(|i| {
-                    let (from, to) = (p[i], p[(i + 1) % 3]);
-                    let e = clockwise * exactly(from, to, at);
-                    e > 0 || (e == 0 && owns([0, 1].map(|k| clockwise * (to[k] - from[k]))))
-                });
-                if clockwise != 0 && holds {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let at = [i64::from(x / 4 * 4 + 2) * 256, i64::from(y / 2 * 2 + 1) * 256];
+            let holds = (0..3).all(|i| {
+                let (from, to) = (p[i], p[(i + 1) % 3]);
+                let e = clockwise * exactly(from, to, at);
+                e > 0 || (e == 0 && owns([0, 1].map(|k| clockwise * (to[k] - from[k]))))
+            });
+            clockwise != 0 && holds
+        });
     }),
     ("the box misses a corner", |c, w, out| {
         right(c, w, out);
@@ -801,22 +772,18 @@ pub const FILLS: &[(&str, Fill)] = &[
         right(c, w, out);
         only(out, |x, _| x < w.y1);
     }),
-    ("areas are compared", |c, w, out| {
+    ("areas are compared", |c, _, out| {
         // Half of each cross product, with 1/1000 between.
         let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
         let part = |a: [f32; 2], b: [f32; 2], at: [f32; 2]| {
             ((a[0] - at[0]) * (b[1] - at[1]) - (a[1] - at[1]) * (b[0] - at[0])).abs() * 0.5
         };
         let whole = part(p[1], p[2], p[0]);
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let at = [x as f32 + 0.5, y as f32 + 0.5];
-                let sum = part(p[0], p[1], at) + part(p[1], p[2], at) + part(p[2], p[0], at);
-                if whole > 0.0 && (sum - whole).abs() <= 1e-3 {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let at = [x as f32 + 0.5, y as f32 + 0.5];
+            let sum = part(p[0], p[1], at) + part(p[1], p[2], at) + part(p[2], p[0], at);
+            whole > 0.0 && (sum - whole).abs() <= 1e-3
+        });
     }),
     ("corners are clamped", |c, w, out| {
         // To 300 px, x alone.
@@ -929,16 +896,12 @@ pub const FILLS: &[(&str, Fill)] = &[
             light(out, x.clamp(-1.0, 9999.0) as i32, y);
         }
     }),
-    ("the whole box is filled", |c, w, out| {
+    ("the whole box is filled", |c, _, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let (u, v) = (x * 256 + 128, y * 256 + 128);
-                if area(c) != 0 && u >= x0 && u < x1 && v >= y0 && v < y1 {
-                    light(out, x, y);
-                }
-            }
-        }
+        fill_where(out, |x, y| {
+            let (u, v) = (x * 256 + 128, y * 256 + 128);
+            area(c) != 0 && u >= x0 && u < x1 && v >= y0 && v < y1
+        });
     }),
     ("two halves from their tips", |mut c, w, out| {
         // In floats of 64 bits, between whole corners; only the lower half draws the row between.
@@ -1815,7 +1778,7 @@ fn mistakes_are_not_named_for_thousands_of_conventions() {
     }
 }
 
-type Change = dyn Fn(&judge::ask::Question, Answer) -> Answer + Send;
+type Change = dyn Fn(&Question, Answer) -> Answer + Send;
 
 /// A right program but for the answers that `changed` gives.
 struct Wrong {
@@ -1824,12 +1787,12 @@ struct Wrong {
     changed: Box<Change>,
 }
 
-impl judge::ask::Subject for Wrong {
+impl Subject for Wrong {
     fn declared(&self) -> &Declared {
         &self.declared
     }
 
-    fn ask(&mut self, questions: &[judge::ask::Question], most_deaths: u64) -> Vec<Answer> {
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let answers = self.right.ask(questions, most_deaths);
         questions
             .iter()
@@ -1842,7 +1805,7 @@ impl judge::ask::Subject for Wrong {
 /// The name and the sentence of the causes that the judge finds, as one text, for a program that says these words of itself.
 fn judged(
     words: &str,
-    changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
+    changed: impl Fn(&Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
 ) -> String {
     let least = Declared { tolerance: everything().tolerance, ..Declared::default() };
@@ -1859,7 +1822,7 @@ fn declared(mut declared: Declared, words: &str) -> Declared {
 
 /// What an engine of this project says of itself: it answers every question.
 fn everything() -> Declared {
-    judge::ask::Subject::declared(&Inside::new(engines::find("scanline").unwrap())).clone()
+    Subject::declared(&Inside::new(engines::find("scanline").unwrap())).clone()
 }
 
 /// So many cases of each family, and a minute for a cause.
@@ -1871,16 +1834,50 @@ fn unhurried(cases: u64) -> judge::Options {
 
 fn verdict(
     declared: Declared,
-    changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
+    changed: impl Fn(&Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
 ) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
     let mut options = unhurried(100);
     options.families = families.iter().map(|name| (*name).to_owned()).collect();
-    let mut askers = [Box::new(Wrong { right, declared, changed: Box::new(changed) })
-        as Box<dyn judge::ask::Subject>];
+    let mut askers =
+        [Box::new(Wrong { right, declared, changed: Box::new(changed) }) as Box<dyn Subject>];
     judge::judge(&mut askers, &options, recognise, &|_| ())
+}
+
+/// A program that says these words of itself, and changes its answers so, is told this.
+fn is_told(
+    wanted: &str,
+    words: &str,
+    families: &[&str],
+    changed: impl Fn(&Question, Answer) -> Answer + Send + 'static,
+) {
+    let said = judged(words, changed, families);
+    assert!(said.contains(wanted), "{wanted}: {said}");
+}
+
+/// Values that are changed at each pixel of a triangle.
+fn values_by(
+    change: impl Fn(&Triangle, &mut Fragment<DVec2>) + Send + 'static,
+) -> impl Fn(&Question, Answer) -> Answer + Send + 'static {
+    move |question, answer| match (&question.of, answer) {
+        (Asked::Values(t), Answer::Values(mut fragments)) => {
+            fragments.iter_mut().for_each(|f| change(t, f));
+            Answer::Values(fragments)
+        }
+        (_, answer) => answer,
+    }
+}
+
+/// Polygons that are changed, of the corners that are asked for.
+fn polygons_by(
+    change: impl Fn([ClipCorner; 3], Vec<ClipCorner>) -> Vec<ClipCorner> + Send + 'static,
+) -> impl Fn(&Question, Answer) -> Answer + Send + 'static {
+    move |question, answer| match (judge::near_plane::asked(&question.of), answer) {
+        (Some(t), Answer::Polygon(left)) => Answer::Polygon(change(clip_corners(&t), left)),
+        (_, answer) => answer,
+    }
 }
 
 /// Mistakes beside coverage are named, too: in values, samples, depths and at the near plane.
@@ -1898,50 +1895,35 @@ fn more_mistakes_of_depth_and_clipping_are_named() {
 /// Of each table at most so many programs.
 fn programs_of_depth_and_clipping(most: usize) {
     // Attributes and depth at the upper left corner of the pixel, where the rest is right.
-    let said = judged(
+    is_told(
+        "values: It computes right values, at the upper left corner",
         "attributes",
-        |question, answer| match (&question.of, answer) {
-            (Asked::Values(t), Answer::Values(mut fragments)) => {
-                let at = |v: i32| v.saturating_add(128);
-                let mut moved = *t;
-                for v in &mut moved.vertices {
-                    v.position = SubpixelPoint::new(at(v.position.x), at(v.position.y));
-                }
-                let exact = ExactTriangle::new(
-                    &moved.corners(),
-                    moved.vertices.map(|v| v.depth),
-                    moved.vertices.map(|v| v.inv_w),
-                    moved.vertices.map(|v| v.varying.to_array()),
-                );
-                for f in &mut fragments {
-                    if let Some(exact) = &exact {
-                        let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
-                        f.depth = depth.to_f64();
-                        f.varying = [a.to_f64(), b.to_f64()].into();
-                    }
-                }
-                Answer::Values(fragments)
-            }
-            (_, answer) => answer,
-        },
         &["w-100", "uniform"],
+        values_by(|t, f| {
+            let corners = shifted(t.corners(), 128, 128);
+            let [depths, inverses] = [t.vertices.map(|v| v.depth), t.vertices.map(|v| v.inv_w)];
+            let values = t.vertices.map(|v| v.varying.to_array());
+            if let Some(exact) = ExactTriangle::new(&corners, depths, inverses, values) {
+                let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
+                f.depth = depth.to_f64();
+                f.varying = [a.to_f64(), b.to_f64()].into();
+            }
+        }),
     );
-    assert!(said.contains("values: It computes right values, at the upper left corner"), "{said}");
     // The bits of the samples in the reverse order.
-    let said = judged(
-        "samples4",
-        |_, answer| match answer {
+    is_told("samples: It numbers the samples 3, 2, 1, 0", "samples4", &["uniform"], |_, answer| {
+        match answer {
             Answer::Samples(runs) => Answer::Samples(
                 runs.into_iter().map(|(run, mask)| (run, mask.reverse_bits() >> 4)).collect(),
             ),
             answer => answer,
-        },
-        &["uniform"],
-    );
-    assert!(said.contains("samples: It numbers the samples 3, 2, 1, 0"), "{said}");
+        }
+    });
     // The last triangle that covers a pixel is seen.
-    let said = judged(
+    is_told(
+        "depths: It shows the triangle that was drawn last",
         "depth",
+        &["depth-order"],
         |question, answer| match (&question.of, answer) {
             (Asked::Depth(list), Answer::Seen(_)) => {
                 let window = PixelRect::window(question.width, question.height);
@@ -1959,27 +1941,27 @@ fn programs_of_depth_and_clipping(most: usize) {
             }
             (_, answer) => answer,
         },
-        &["depth-order"],
     );
-    assert!(said.contains("depths: It shows the triangle that was drawn last"), "{said}");
     // Depths are moved by the order of the triangles.
-    let biased = |question: &judge::ask::Question, answer| {
+    let biased = |question: &Question, answer| {
         by_key(question, answer, &|depth, number| depth - 0.002 * number as f64, false)
     };
-    let said = judged("depth", biased, &["depth-order"]);
-    assert!(said.contains("depths: It takes 2e-3 off the depth of a triangle"), "{said}");
+    is_told("depths: It takes 2e-3 off the depth of a triangle", "depth", &["depth-order"], biased);
     // Depths that wrap around.
-    let wrapped = |question: &judge::ask::Question, answer| {
+    let wrapped = |question: &Question, answer| {
         by_key(question, answer, &|depth, _| (depth * 8.0).fract(), false)
     };
-    let said = judged("depth", wrapped, &["depth-order"]);
-    assert!(
-        said.contains("depths: It keeps depth in numbers that begin again at 0 after every 1/8"),
-        "{said}"
+    is_told(
+        "depths: It keeps depth in numbers that begin again at 0 after every 1/8",
+        "depth",
+        &["depth-order"],
+        wrapped,
     );
     // No test of depth in every second column.
-    let said = judged(
+    is_told(
+        "depths: It shows the triangle that was drawn last, without a test of depth where the column is even",
         "depth",
+        &["depth-order"],
         |question, answer| {
             seen(question, answer, &|_, f, _| f.depth, &|kept, new, x| {
                 if new.0 < kept.0 || x % 2 == 0 {
@@ -1987,15 +1969,12 @@ fn programs_of_depth_and_clipping(most: usize) {
                 }
             })
         },
-        &["depth-order"],
-    );
-    assert!(
-        said.contains("depths: It shows the triangle that was drawn last, without a test of depth where the column is even"),
-        "{said}"
     );
     // A pixel keeps the depth of its first triangle.
-    let said = judged(
+    is_told(
+        "depths: It tests depths and does not write them",
         "depth",
+        &["depth-order"],
         |question, answer| {
             let depth = |t: &Triangle, f: &Fragment<DVec2>, _| {
                 let at = [f.x_px, f.y_px].map(|v| f64::from(v) + 0.5);
@@ -2007,22 +1986,17 @@ fn programs_of_depth_and_clipping(most: usize) {
                 }
             })
         },
-        &["depth-order"],
     );
-    assert!(said.contains("depths: It tests depths and does not write them"), "{said}");
     // A quadrilateral loses its last corner.
-    let said = judged(
-        "clip",
-        |_, answer| match answer {
+    is_told("near plane: It keeps at most three corners", "clip", &["near-plane"], |_, answer| {
+        match answer {
             Answer::Polygon(mut corners) => {
                 corners.truncate(3);
                 Answer::Polygon(corners)
             }
             answer => answer,
-        },
-        &["near-plane"],
-    );
-    assert!(said.contains("near plane: It keeps at most three corners"), "{said}");
+        }
+    });
     // The bits of a depth buffer are told: planes that are the same in so many bits show what was drawn first or last.
     for (bits, is_last) in [(16, true), (12, false), (20, false)].into_iter().take(most) {
         let said = judged(
@@ -2091,13 +2065,13 @@ fn programs_of_depth_and_clipping(most: usize) {
 }
 
 /// The nearest triangle by depths that are cut down to so many bits.
-fn in_bits(question: &judge::ask::Question, answer: Answer, bits: i32, is_last: bool) -> Answer {
+fn in_bits(question: &Question, answer: Answer, bits: i32, is_last: bool) -> Answer {
     by_key(question, answer, &|depth, _| (depth * f64::from(1 << bits)).floor(), is_last)
 }
 
 /// The triangle with the least key, from its depth and its number.
 fn by_key(
-    question: &judge::ask::Question,
+    question: &Question,
     answer: Answer,
     key: &dyn Fn(f64, u64) -> f64,
     is_last: bool,
@@ -2115,7 +2089,7 @@ type Held = (f64, u8);
 /// What is seen of triangles whose depths are those of `depth`. `keep` says what becomes of the depth and the number that a pixel
 /// holds, for each triangle after its first one. It also gets what the new triangle has, and the column.
 fn seen(
-    question: &judge::ask::Question,
+    question: &Question,
     answer: Answer,
     depth: &dyn Fn(&Triangle, &Fragment<DVec2>, u8) -> f64,
     keep: &dyn Fn(&mut Held, Held, i32),
@@ -2137,7 +2111,7 @@ fn seen(
 /// A right polygon whose new corners carry what this makes of the corner that stays, the one that goes, and the part of
 /// the way.
 fn carrying(
-    question: &judge::ask::Question,
+    question: &Question,
     answer: Answer,
     attribute: fn(ClipCorner, ClipCorner, f64) -> f64,
     is_zero: bool,
@@ -2176,7 +2150,7 @@ fn mistakes_that_are_planted_are_named() {
         let entry = engines::find_planted(name).unwrap();
         let options = unhurried(120);
         let scope = Scope { triangles: true, lines: true, always: false, patience: None };
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
         let is_named = verdict.cause.iter().any(|cause| cause.why.is_known());
@@ -2344,13 +2318,7 @@ fn programs_of_values_and_samples(most: usize) {
     {
         let said = judged(
             "attributes tolerance=1e-4",
-            move |question, answer| match (&question.of, answer) {
-                (Asked::Values(t), Answer::Values(mut fragments)) => {
-                    fragments.iter_mut().for_each(|f| change(t, f));
-                    Answer::Values(fragments)
-                }
-                (_, answer) => answer,
-            },
+            values_by(change),
             &["w-100", "uniform"],
         );
         assert!(said.contains(&format!("values: {wanted}")), "{wanted}: {said}");
@@ -2442,14 +2410,11 @@ fn programs_of_values_and_samples(most: usize) {
     // A planted fault that draws nothing of these triangles does not explain their values.
     let said = judged(
         "attributes",
-        |question, answer| match (&question.of, answer) {
-            (Asked::Values(t), Answer::Values(mut fragments)) => {
-                let is_wrong = area(t.corners()) < 0;
-                fragments.iter_mut().filter(|_| is_wrong).for_each(|f| f.varying = -f.varying);
-                Answer::Values(fragments)
+        values_by(|t, f| {
+            if area(t.corners()) < 0 {
+                f.varying = -f.varying;
             }
-            (_, answer) => answer,
-        },
+        }),
         &["w-100", "uniform"],
     );
     let wanted = "It gives minus the right value where the value is not depth, and its winding: anticlockwise.";
@@ -2457,15 +2422,11 @@ fn programs_of_values_and_samples(most: usize) {
     // Values of which no mistake is known: what all wrong pixels have in common is said.
     let said = judged(
         "attributes tolerance=1e-4",
-        |question, answer| match (&question.of, answer) {
-            (Asked::Values(t), Answer::Values(mut fragments)) => {
-                for f in fragments.iter_mut().filter(|f| f.y_px % 2 == 1 && area(t.corners()) > 0) {
-                    f.varying.y += 0.1 + f64::from(f.x_px % 7 * (f.x_px % 5)) / 10.0;
-                }
-                Answer::Values(fragments)
+        values_by(|t, f| {
+            if f.y_px % 2 == 1 && area(t.corners()) > 0 {
+                f.varying.y += 0.1 + f64::from(f.x_px % 7 * (f.x_px % 5)) / 10.0;
             }
-            (_, answer) => answer,
-        },
+        }),
         &["w-100", "uniform"],
     );
     for wanted in [
@@ -2478,61 +2439,49 @@ fn programs_of_values_and_samples(most: usize) {
     }
     assert!(!said.contains("even") && !said.contains("right second attribute"), "{said}");
     // A plane that is in no table is read off the new corners.
-    let said = judged(
+    is_told(
+        "near plane: It clips to w >= 0.3.",
         "clip",
-        |question, answer| match (judge::near_plane::asked(&question.of), answer) {
-            (Some(t), Answer::Polygon(_)) => {
-                let (corners, mut left) = (clip_corners(&t), Vec::new());
-                for (i, from) in corners.iter().enumerate() {
-                    let to = corners[(i + 1) % 3];
-                    let [a, b] = [from[3] - 0.3, to[3] - 0.3];
-                    if a >= 0.0 {
-                        left.push(*from);
-                    }
-                    if (a < 0.0) != (b < 0.0) {
-                        left.push(
-                            [0, 1, 2, 3, 4].map(|k| from[k] + (to[k] - from[k]) * (a / (a - b))),
-                        );
-                    }
+        &["near-plane"],
+        polygons_by(|corners, _| {
+            let mut left = Vec::new();
+            for (i, from) in corners.iter().enumerate() {
+                let to = corners[(i + 1) % 3];
+                let [a, b] = [from[3] - 0.3, to[3] - 0.3];
+                if a >= 0.0 {
+                    left.push(*from);
                 }
-                Answer::Polygon(left)
+                if (a < 0.0) != (b < 0.0) {
+                    left.push([0, 1, 2, 3, 4].map(|k| from[k] + (to[k] - from[k]) * (a / (a - b))));
+                }
             }
-            (_, answer) => answer,
-        },
-        &["near-plane"],
+            left
+        }),
     );
-    assert!(said.contains("near plane: It clips to w >= 0.3."), "{said}");
     // New corners with w = 1, and triangles of which two corners lie behind.
-    let said = judged(
+    is_told(
+        "near plane: It gives a new corner 1 for w",
         "clip",
-        |question, answer| match (judge::near_plane::asked(&question.of), answer) {
-            (Some(t), Answer::Polygon(mut corners)) => {
-                let asked = clip_corners(&t);
-                let is_new = |c: &ClipCorner| asked.iter().all(|a| a[..4] != c[..4]);
-                corners.iter_mut().filter(|c| is_new(c)).for_each(|c| c[3] = 1.0);
-                Answer::Polygon(corners)
-            }
-            (_, answer) => answer,
-        },
         &["near-plane"],
+        polygons_by(|asked, mut left| {
+            let is_new = |c: &ClipCorner| asked.iter().all(|a| a[..4] != c[..4]);
+            left.iter_mut().filter(|c| is_new(c)).for_each(|c| c[3] = 1.0);
+            left
+        }),
     );
-    assert!(said.contains("near plane: It gives a new corner 1 for w"), "{said}");
-    let said = judged(
+    is_told(
+        "near plane: It drops the triangle where the number of corners behind the near plane is 2",
         "clip",
-        |question, answer| match (judge::near_plane::asked(&question.of), answer) {
-            (Some(t), Answer::Polygon(corners)) => {
-                let behind = clip_corners(&t).iter().filter(|c| c[2] + c[3] < 0.0).count();
-                Answer::Polygon(if behind == 2 { Vec::new() } else { corners })
-            }
-            (_, answer) => answer,
-        },
         &["near-plane"],
+        polygons_by(|asked, left| {
+            let behind = asked.iter().filter(|c| c[2] + c[3] < 0.0).count();
+            if behind == 2 { Vec::new() } else { left }
+        }),
     );
-    assert!(said.contains("near plane: It drops the triangle where the number of corners behind the near plane is 2"), "{said}");
 }
 
 /// The answer of a part of this project, with a planted fault, where the protocol has a question for it.
-fn planted_answer(mutant: Mutant, question: &judge::ask::Question, answer: Answer) -> Answer {
+fn planted_answer(mutant: Mutant, question: &Question, answer: Answer) -> Answer {
     let subject = Implementations::with(mutant);
     let window = PixelRect::window(question.width, question.height);
     let spans = |picture: &Coverage| {
@@ -2605,8 +2554,7 @@ fn mistakes_planted_elsewhere_are_named() {
             }
         };
         let scope = Scope { triangles: true, lines: false, always: false, patience: None };
-        let change =
-            move |question: &judge::ask::Question, answer| planted_answer(mutant, question, answer);
+        let change = move |question: &Question, answer| planted_answer(mutant, question, answer);
         let verdict = verdict(declared(everything(), words), change, families, &|program| {
             recognise(program, scope)
         });
@@ -2614,7 +2562,7 @@ fn mistakes_planted_elsewhere_are_named() {
     }
     for name in ExactMutant::ALL.map(ExactMutant::name) {
         let entry = engines::find_planted(name).unwrap();
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn Subject>];
         let options = unhurried(100);
         let scope = Scope { triangles: true, lines: false, always: false, patience: None };
         let verdict =

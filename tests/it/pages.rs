@@ -11,6 +11,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use rasterproof_report::words::thousands;
+use rasterproof_teaching::by_hand;
 
 use crate::figures::{ALL, cost_cell};
 
@@ -180,7 +181,7 @@ fn stale<'a>(
 #[test]
 fn pages_figures_are_computed() {
     let mut values = BTreeMap::new();
-    for (name, compute) in ALL {
+    for (name, compute) in ALL.iter().chain(by_hand::ALL) {
         match &compute()[..] {
             [value] => drop(values.insert((*name).to_owned(), *value)),
             all => values.extend((1..).zip(all).map(|(i, value)| (format!("{name}.{i}"), *value))),

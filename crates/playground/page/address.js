@@ -19,9 +19,7 @@ function address() {
   else if (state.triangles) {
     words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
   }
-  if (state.window) words.set('window', state.window.join(','));
-  if (state.by) words.set('by', state.by.join(','));
-  if (state.px) words.set('px', state.px.join(','));
+  for (const key of ['window', 'by', 'px']) if (state[key]) words.set(key, state[key].join(','));
   if (!state.snap || state.named) words.set('snap', Number(state.snap));
   if (state.numbers) words.set('numbers', '1');
   for (const key of scene().keeps ?? []) words.set(key, typeof state[key] === 'object' ? JSON.stringify(state[key]) : state[key]);
@@ -29,12 +27,9 @@ function address() {
   return `#${words.toString().replaceAll('%2C', ',').replaceAll('%3B', ';')}`;
 }
 
-let keeping = 0;
-function keepAddress() {
-  clearTimeout(keeping);
-  // Browsers refuse addresses that change at every frame.
-  keeping = setTimeout(() => history.replaceState(null, '', address()), 250);
-}
+const addressLater = delayed();
+/** Browsers refuse addresses that change at every frame. */
+const keepAddress = () => addressLater(() => history.replaceState(null, '', address()), 250);
 
 /**
  * Restores what an address says; what it does not say is as the scene begins. Of an address that asks for what cannot be
@@ -87,7 +82,8 @@ function read(words) {
   }
   const window = words.get('window') && numbers(words.get('window'));
   if (window?.length === 4 && good(window) && state.window) state.window = window.map(Math.round);
-  const by = words.get('by')?.split(',').filter((name) => scene().choices?.().some(([value]) => value === name)) ?? [];
+  const choices = scene().choices?.().map((one) => [one].flat()[0]) ?? [];
+  const by = words.get('by')?.split(',').filter((name) => choices.includes(name)) ?? [];
   if (by.length) {
     state.by = [...by, ...(by.length < 2 ? state.by.filter((name) => name !== by[0]) : [])].slice(0, Math.max(2, Math.min(4, by.length)));
     state.four = by.length > 3;
@@ -138,10 +134,4 @@ function command() {
   const plant = state.by?.map((name) => PLANTS[Number(state.snap)][name]).find(Boolean);
   if (plant) words.push(`--plant ${plant}`);
   return words.join(' ');
-}
-
-async function copy(text) {
-  await copyText(text);
-  $('copied').textContent = word('copied');
-  setTimeout(() => { $('copied').textContent = ''; }, 1500);
 }

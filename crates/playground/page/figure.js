@@ -28,7 +28,7 @@ const STYLE = `
   :is(.question, .verdict) { font-weight: 600; margin-top: 0; }
   :host([data-dark]) { color-scheme: dark; }
   rp-view { touch-action: manipulation; }
-  rp-view .frame { border-color: transparent; }
+  rp-view .frame { border-color: transparent; justify-self: center; }
   rp-view:not(.is-wide) { position: relative; }
   rp-view:not(.is-wide) .view-tools { position: absolute; right: 0; bottom: -3em; margin: 0; }
   rp-view:not(.is-wide) .view-tools > :not([data-tool=enlarge]), rp-view figcaption { display: none; }
@@ -183,7 +183,7 @@ class Figure extends HTMLElement {
     const { svg, alt } = this.now;
     const part = svg.match(/viewBox="([^"]*)"/)[1].split(' ').map(Number);
     this.view.show({
-      part, bounds: part, high: 9, title: alt, isPicture: true, covers: this.covers,
+      part, bounds: part, high: this.hasAttribute('open') ? 0.27 : 9, title: alt, isPicture: true, covers: this.covers,
       panels: [{ key: 'sheet', label: alt, svg, view: 'sheet' }],
       grips: () => (this.isAnswered ? figureGrips(this.now.grips, (i, value) => this.move(i, value)) : []),
     });
@@ -196,17 +196,17 @@ class Figure extends HTMLElement {
     this.show();
   }
 
-  clear() {
+  uncover() {
     for (const { element } of this.covers) element.remove();
     this.covers = [];
-    this.controls.replaceChildren();
     this.verdict.textContent = '';
   }
 
   /** Asks for a prediction: nothing else can be done before. */
   invite() {
     const { predict } = this.now;
-    this.clear();
+    this.uncover();
+    this.controls.replaceChildren();
     this.links.hidden = true;
     this.hint.textContent = predict.kind === 'pixels' ? this.words.mark : '';
     const show = button(this.words.show, () => this.reveal(''));
@@ -270,26 +270,23 @@ class Figure extends HTMLElement {
 
   /** What stands below the answer. */
   answered(verdict) {
-    this.clear();
+    this.uncover();
     this.verdict.textContent = verdict;
     const names = this.now.grips.map((grip) => grip.name).join(this.language === 'zh' ? '、' : ', ');
     this.hint.textContent = `${this.words.drag}${names}${this.language === 'zh' ? '。' : '.'}`;
     this.links.hidden = false;
-    const again = button(this.words.again, () => {
+    this.controls.replaceChildren(button(this.words.again, () => {
       this.isAnswered = false;
       this.draw();
       this.invite();
       this.stage.querySelector('.frame button')?.focus();
-    });
-    this.controls.append(again);
+    }));
   }
 
   move(i, value) {
     if (!this.exports) return;
     this.at = this.at.map((old, k) => (k === i ? value : old));
-    for (const { element } of this.covers) element.remove();
-    this.covers = [];
-    this.verdict.textContent = '';
+    this.uncover();
     this.draw();
   }
 }

@@ -22,18 +22,17 @@ function drawFrame() {
     view.show(shownOf(answer));
   }
   pressTools();
-  clearTimeout(explaining);
-  clearTimeout(settling);
-  explaining = setTimeout(() => explain(answer), Math.max(0, explained + 100 - performance.now()));
-  settling = setTimeout(settled, 100);
+  const wait = Math.max(0, explained + 100 - performance.now());
+  explainLater(() => explain(answer), wait);
+  cornersLater(drawCorners, wait + 30);
+  settleLater(settled, 100);
 }
 
-/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, and follow a drag ten times a second. */
+/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag ten times a second. */
 let explained = 0;
-let explaining = 0;
+const [explainLater, cornersLater] = [delayed(), delayed()];
 function explain(answer) {
   explained = performance.now();
-  drawCorners();
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
@@ -43,7 +42,7 @@ function explain(answer) {
 }
 
 /** What is said once nothing moves: the command, and what a screen reader reads aloud. */
-let settling = 0;
+const settleLater = delayed();
 function settled() {
   const same = command();
   say($('command'), same);
@@ -57,7 +56,4 @@ function settled() {
   say($('announce'), said);
 }
 
-function trouble(text) {
-  $('trouble').hidden = !text;
-  say($('trouble'), text ?? '');
-}
+const trouble = (text) => say($('trouble'), text ?? '');

@@ -8,13 +8,10 @@ function load(found, from) {
   const kind = drawn.lines?.length ? 'line' : 'triangle';
   const by = state.scene === kind ? state.by : undefined;
   if (state.scene !== kind) { begin(kind); drawAll(); }
-  if (by) state.by = by;
-  state.window = drawn.window;
-  state.snap = drawn.snap;
-  if (kind === 'line') state.lines = drawn.lines;
-  else state.triangles = drawn.triangles;
   forget();
-  Object.assign(state, from, { chosen: 0, px: middle(drawn.window), step: 999, own: drawn.window });
+  const { window, snap } = drawn;
+  const places = kind === 'line' ? { lines: drawn.lines } : { triangles: drawn.triangles };
+  Object.assign(state, by && { by }, places, from, { window, snap, chosen: 0, px: middle(window), step: 999, own: window });
   const box = document.querySelector('[data-state="snap"]');
   if (box) box.checked = state.snap;
   if ($('named')) {
@@ -31,38 +28,30 @@ const middle = ([x0, y0, x1, y1]) => [Math.floor((x0 + x1) / 2), Math.floor((y0 
 const entry = (name) => Object.values(names).flat().find((one) => one.name === name) ?? { name };
 
 /** A list to choose from, with a line below that says what the choice is about. */
-function choice(id, label, options, value) {
-  const select = make('select', { id, 'aria-describedby': `${id}-about` }, ...options);
-  if (value) select.value = value;
-  const says = make('p', { id: `${id}-about`, className: 'quiet' });
-  const tell = () => { says.textContent = about(entry(select.value)); };
-  select.addEventListener('change', tell);
-  tell();
-  return { select, parts: [make('label', { htmlFor: id }, label), select, says] };
+function choice(id, label, options, value, act = () => {}) {
+  const tell = (name) => { says.textContent = about(entry(name)); act(name); };
+  const says = make('p', { id: `${id}-about`, className: 'quiet' }, about(entry(value)));
+  const list = select(options, value, tell, { id, 'aria-describedby': `${id}-about` });
+  return { list, parts: [make('label', { htmlFor: id }, label), list, says] };
 }
 
 function drawBreak() {
-  const section = $('break');
-  section.hidden = !scene().breaks;
-  if (section.hidden) { fill(section, []); return; }
+  if (!scene().breaks) { fill($('break'), []); return; }
   const { families, who, defaults } = scene().breaks();
-  const options = (list) => list.map(({ name }) => make('option', { value: name }, name));
-  const first = make('option', { value: '' }, word('choose'));
-  const named = choice('named', word('named'), [first, ...options([...names.named, ...names.recorded])], state.named);
-  named.select.addEventListener('change', () => {
-    const { value } = named.select;
-    if (value) load(ask({ ask: 'named', name: value }), { named: value });
+  const options = (list) => list.map(({ name }) => name);
+  const named = choice('named', word('named'), [['', word('choose')], ...options([...names.named, ...names.recorded])], state.named ?? '', (name) => {
+    if (name) load(ask({ ask: 'named', name }), { named: name });
   });
-  const by = choice('who', word('who'), who.map(([value, label]) => make('option', { value }, label)), defaults.by).select;
+  const by = select(who, defaults.by, () => {}, { id: 'who' });
   const ofFamily = choice('family', word('family'), options(families), defaults.family);
-  const family = ofFamily.select;
+  const family = ofFamily.list;
   const says = make('p', { id: 'hunt', role: 'status' });
   const show = (found, index) => {
     load(found, { generated: { family: family.value, seed: 1, index } });
     if (!state.by.includes(by.value)) { state.by[state.by.length - 1] = by.value; redraw(); }
     pointAtWrong(by.value);
   };
-  fill(section, [
+  fill($('break'), [
     make('h2', { id: 'break-title' }, word('breakIt')),
     make('div', { className: 'form' }, ...named.parts, make('label', { htmlFor: 'who' }, word('who')), by, ...ofFamily.parts),
     make('p', {},
@@ -110,11 +99,11 @@ function search(by, family, says, show) {
       if (answer.found !== null) {
         hunt = null;
         show(answer, answer.found);
-        shrink(by, says, word('caught')(`${family}#${answer.found}`, from - begun));
+        shrink(by, says, word('caught', `${family}#${answer.found}`, from - begun));
         return;
       }
     } while (performance.now() < until);
-    says.textContent = word('searched')(from - begun);
+    says.textContent = word('searched', from - begun);
     requestAnimationFrame(slice);
   };
   slice();
@@ -132,7 +121,7 @@ function shrink(by, says, caught = '') {
     if (hunt !== mine) return;
     load({ picture: answer.steps[at] }, {});
     pointAtWrong(by);
-    says.textContent = caught + word('shrunk')(at);
+    says.textContent = caught + word('shrunk', at);
     at += 1;
     if (at < answer.steps.length) setTimeout(next, at === 1 ? 800 : Math.min(250, 3000 / answer.steps.length));
     else hunt = null;

@@ -40,14 +40,11 @@ function walkOf(triangle) {
 }
 
 function playRows() {
-  clearInterval(state.playing);
-  if (state.playing) { state.playing = 0; redraw(); return; }
   state.hover = false;
-  state.playing = setInterval(() => {
+  play(700, () => {
     const { rows } = last.look?.triangles.find((t) => t.rows.length) ?? { rows: [] };
     const next = state.px[1] + 1;
-    if (!rows.length || next > rows.at(-1).y_px || next >= state.window[3]) { clearInterval(state.playing); state.playing = 0; redraw(); return; }
-    lookAt(state.px[0], next);
-  }, 700);
-  redraw();
+    if (rows.length) lookAt(state.px[0], next);
+    return rows.length > 0 && next < rows.at(-1).y_px && next + 1 < state.window[3];
+  });
 }

@@ -2,23 +2,19 @@
 
 const view = $('view');
 
-function chooser(i, name) {
-  const select = make('select', { 'aria-label': `${word('panel')} ${i + 1}` });
-  for (const [value, label] of scene().choices()) select.append(make('option', { value }, label));
-  select.value = name;
-  select.addEventListener('change', () => { state.by[i] = select.value; redraw(); });
-  return select;
-}
+/** The name that a list of choices, each a value or value and text, has for one of them. */
+const labelOf = (choices, value) => choices.map((one) => [one].flat()).find(([is]) => is === value)?.at(-1) ?? value;
 
 /** A panel of a scene is {title | select, says, bad, pixel(i, x, y), outlines, over, view, svg}. */
 function panelOf(panel, i, answer) {
   const [x0, y0, x1, y1] = state.window;
-  const { title, select, says, bad: isBad, view: of, svg, over } = panel;
+  const { title, by, says, bad: isBad, view: of, svg, over } = panel;
+  const choose = (name) => { state.by[i] = name; redraw(); };
   const isIn = (x, y) => x >= x0 && y >= y0 && x < x1 && y < y1;
   return {
-    key: JSON.stringify([state.scene, title, select, state.lang]),
-    head: () => (select ? chooser(i, select) : title),
-    label: title ?? scene().choices().find(([value]) => value === select)?.[1] ?? select,
+    key: JSON.stringify([state.scene, title, by, state.lang]),
+    head: () => (by ? select(scene().choices(), by, choose, { 'aria-label': `${word('panel')} ${i + 1}` }) : title),
+    label: title ?? labelOf(scene().choices(), by),
     says, isBad, view: of, svg, over,
     layers: of || !panel.pixel ? [] : [{ mark: (x, y) => (isIn(x, y) ? panel.pixel((y - y0) * (x1 - x0) + x - x0, x, y) : null) }],
     hasGrid: !of,
@@ -61,8 +57,6 @@ const side = () => Math.max(state.window[2] - state.window[0], state.window[3] -
 const MOST_PX = 128;
 
 function keepPixel() {
-  if (!state.px) return;
   const [x0, y0, x1, y1] = state.window;
-  const within = (v, low, high) => Math.max(low, Math.min(high - 1, v));
-  state.px = [within(state.px[0], x0, x1), within(state.px[1], y0, y1)];
+  if (state.px) state.px = [clamp(state.px[0], x0, x1 - 1), clamp(state.px[1], y0, y1 - 1)];
 }

@@ -9,8 +9,8 @@ const mix = (value) => Math.floor(255 * Math.max(0, Math.min(1, value)) + 0.5 + 
 /** Names with a label, for a panel to choose from. */
 function painters() {
   const rules = [['exclusive-edges', word('strict')], ['inclusive-edges', word('inclusive')]];
-  const label = (name) => (name === 'edge-function' ? `${name}: ${word('tl')}` : name);
-  return [...names.triangles.slice(0, 2).map((e) => [e.name, label(e.name)]), ...rules, ...names.triangles.slice(2).map((e) => [e.name, e.name])];
+  const all = names.triangles.map(({ name }) => (name === 'edge-function' ? [name, `${name}: ${word('tl')}`] : name));
+  return [...all.slice(0, 2), ...rules, ...all.slice(2)];
 }
 
 /** A pixel by its hits and what they should be. */
@@ -31,8 +31,7 @@ function verdict(panel) {
 
 /** What two painters of an answer make of each pixel differently. */
 function difference({ panels: [a, b] }) {
-  const label = ({ name }) => painters().find(([value]) => value === name)?.[1] ?? name;
-  const title = `${label(a)} − ${label(b)}`;
+  const title = [a, b].map(({ name }) => labelOf(painters(), name)).join(' − ');
   if (!a.hits || !b.hits) return { title, says: word('refused'), bad: true };
   const count = [...a.hits].filter((hits, i) => hits !== b.hits[i]).length;
   return {
@@ -62,12 +61,11 @@ function shapes() {
   return make('span', { className: 'group', role: 'group', 'aria-label': word('shape') }, `${word('shape')} `, ...buttons);
 }
 
-/** Two panels, or four. */
-function setFour() {
-  const more = ['scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'];
-  while (state.four && state.by.length < 4) state.by.push(more.find((name) => !state.by.includes(name)) ?? 'oracle');
+/** Shows four panels, the last two by the first of these that are not shown, or two. */
+const four = (...more) => check(word('four'), 'four', () => {
+  while (state.four && state.by.length < 4) state.by.push(more.find((name) => !state.by.includes(name)));
   if (!state.four) state.by.length = 2;
-}
+});
 
 /** A value of the corners, in the table; at least `low`. */
 function field(key, low, step) {
@@ -84,7 +82,7 @@ const sliders = (key, range) => handles().map((_, i) => (
 
 /** A value within a range, on its steps. */
 function stepped(value, [low, high, step]) {
-  return Math.max(low, Math.min(high, Number((Math.round(value / step) * step).toFixed(6))));
+  return clamp(Number((Math.round(value / step) * step).toFixed(6)), low, high);
 }
 
 /** A grip for a value of each corner: the longer its stalk to the middle, the larger the value. */
@@ -111,27 +109,28 @@ function snapAll() {
   if (off.length) forget();
 }
 
-function stepper() {
-  const range = make('input', { type: 'range', id: 'step', min: 0, max: 64, value: state.step });
-  range.addEventListener('input', () => stepTo(Number(range.value)));
-  return range;
-}
+const mostSteps = () => last.answer?.lines?.[0]?.length ?? 0;
 
 function stepTo(step) {
-  const most = last.answer?.lines?.[0]?.length ?? 0;
-  state.step = Math.max(0, Math.min(step, most));
-  if ($('step')) Object.assign($('step'), { max: most, value: state.step });
+  state.step = clamp(step, 0, mostSteps());
   redraw();
 }
 
 function playSteps() {
-  clearInterval(state.playing);
-  stepTo(0);
-  state.playing = setInterval(() => {
+  if (!state.playing) stepTo(0);
+  play(250, () => {
     const before = state.step;
-    if (state.scene === 'line') stepTo(state.step + 1);
-    if (state.scene !== 'line' || state.step === before) clearInterval(state.playing);
-  }, 250);
+    stepTo(before + 1);
+    return state.step > before;
+  });
+}
+
+/** Takes a step again and again, until one is the last, or somebody pauses it. */
+function play(milliseconds, step) {
+  clearInterval(state.playing);
+  const tick = () => { if (!step()) play(); };
+  state.playing = state.playing || !step ? 0 : setInterval(tick, milliseconds);
+  redraw();
 }
 
 /** t against t', as a curve in a square, with the diagonal for comparison. */

@@ -37,10 +37,18 @@ function fromTheSide() {
 
 /** The scanline engine or the DDA, or who takes the place of either: rules too, but no specimens. */
 function drawers() {
-  const own = ({ specimen }) => !specimen;
-  const all = [...names.triangles.filter(own).slice(0, 2), { name: 'exclusive-edges' }, { name: 'inclusive-edges' }, ...names.triangles.filter(own).slice(2), ...names.lines.filter(own)];
-  return [...new Set(all.map(({ name }) => name))].map((name) => [name, name]);
+  const [triangles, lines] = [names.triangles, names.lines].map((all) => all.filter(({ specimen }) => !specimen).map(({ name }) => name));
+  return [...new Set([...triangles.slice(0, 2), 'exclusive-edges', 'inclusive-edges', ...triangles.slice(2), ...lines])];
 }
+
+/** Panels of values against the exact ones; `fillOf` colours a value. */
+const valuePanels = (answer, digitsOf, fillOf, more = {}) => answer.panels.map(({ name, refused, worst, values }) => ({
+  by: name,
+  says: refused ?? `${word('worst')} ${digitsOf(worst[1])}`,
+  bad: refused || worst[1] > 1e-9 ? true : undefined,
+  pixel: (i) => (values?.[i] ? { fill: fillOf(values[i]) } : null),
+  ...more,
+}));
 
 const SCENES = {
   triangle: {
@@ -50,11 +58,11 @@ const SCENES = {
     ask: () => ask({ ask: 'draw', picture: picture(), by: state.by }),
     keeps: ['difference'],
     panels: (answer) => [...answer.panels.map((panel) => ({
-      select: panel.name,
+      by: panel.name,
       ...verdict(panel),
       pixel: (i) => (panel.hits ? judged(panel.hits[i], answer.truth[i]) : null),
     })), ...(state.difference ? [difference(answer)] : [])],
-    tools: () => [rules(), shapes(), check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour), check(word('difference'), 'difference')],
+    tools: () => [rules(), shapes(), check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), four('scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'), check(word('difference'), 'difference')],
     look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${word('ties')} ${answer.ties ?? 0}`)],
     breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },
@@ -62,7 +70,7 @@ const SCENES = {
   line: {
     start: { window: [0, 0, 24, 14], lines: [[[2, 3], [20, 10]]], by: ['dda', 'bresenham'], step: 8 },
     noSamples: false,
-    choices: () => names.lines.map((e) => [e.name, e.name]),
+    choices: () => names.lines.map(({ name }) => name),
     keeps: ['step'],
     ask: () => ask({ ask: 'lines', picture: picture(), by: state.by }),
     panels: (answer) => {
@@ -73,7 +81,7 @@ const SCENES = {
         const order = new Map(drawn.slice(0, state.step + 1).map((pixel, i) => [key(pixel), i]));
         const ends = state.lines.map((line) => line.map(([x, y]) => [x + 0.5, y + 0.5]));
         return {
-          select: panel.name,
+          by: panel.name,
           ...verdict(panel),
           outlines: ends,
           pixel: (i, x, y) => {
@@ -86,13 +94,10 @@ const SCENES = {
       });
     },
     tools: () => [
-      make('label', { className: 'group' }, `${word('steps')} `, stepper()),
+      slide(word('steps'), () => Math.min(state.step, mostSteps()), [0, mostSteps, 1], stepTo),
       button('−1', () => stepTo(state.step - 1), { id: 'step-back', 'aria-label': `${word('steps')} −1` }),
       button('+1', () => stepTo(state.step + 1), { id: 'step-on', 'aria-label': `${word('steps')} +1` }),
-      button(word('play'), playSteps, { id: 'play' }), check(word('four'), 'four', () => {
-        while (state.four && state.by.length < 4) state.by.push(['oracle', 'book-dda', 'sysu-bresenham', 'dda'].find((name) => !state.by.includes(name)));
-        if (!state.four) state.by.length = 2;
-      }),
+      button(word('play'), playSteps, { id: 'play' }), four('oracle', 'book-dda', 'sysu-bresenham', 'dda'),
     ],
     look: (answer) => {
       const [line] = answer.lines ?? [];
@@ -110,7 +115,7 @@ const SCENES = {
         table([word('engines'), word('pixel')], rows),
       ];
     },
-    breaks: () => ({ families: names.lineFamilies, who: names.lines.map((e) => [e.name, e.name]), defaults: { by: 'book-dda', family: 'line-octants' } }),
+    breaks: () => ({ families: names.lineFamilies, who: names.lines.map(({ name }) => name), defaults: { by: 'book-dda', family: 'line-octants' } }),
   },
 
   weights: {
@@ -118,22 +123,15 @@ const SCENES = {
       window: [0, 0, 16, 16], triangles: [[at(2, 13, { u: 1 }), at(8, 2, { v: 1 }), at(14, 11)]], by: ['edge-function', 'scanline'], px: [7, 8],
     },
     values: true,
-    choices: () => ['edge-function', 'scanline', 'oracle', 'book-ch3', 'sysu-weights'].map((name) => [name, name]),
+    choices: () => ['edge-function', 'scanline', 'oracle', 'book-ch3', 'sysu-weights'],
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
-    panels: (answer) => answer.panels.map((panel) => ({
-      select: panel.name,
-      says: panel.refused ?? `${word('worst')} ${panel.worst[1] ? panel.worst[1].toExponential(1) : 0}`,
-      bad: panel.refused || panel.worst[1] > 1e-9 ? true : undefined,
-      pixel: (i) => {
-        const value = panel.values?.[i];
-        return value ? { fill: `rgb(${mix(value[1])} ${mix(value[2])} ${mix(1 - value[1] - value[2])})` } : null;
-      },
+    panels: (answer) => valuePanels(answer, (worst) => (worst ? worst.toExponential(1) : 0), ([, u, v]) => `rgb(${mix(u)} ${mix(v)} ${mix(1 - u - v)})`, {
       over: (sheet) => {
         if (!state.px) return;
         const middle = [state.px[0] + 0.5, state.px[1] + 0.5];
         for (const corner of answer.outlines[0]) paintOutline(sheet, [middle, corner], colours.cursor);
       },
-    })),
+    }),
     look: () => {
       const [triangle] = last.look?.triangles ?? [];
       if (!triangle?.edges) return aboutPixel().slice(0, 1);
@@ -149,22 +147,15 @@ const SCENES = {
       triangles: [[at(2, 29, { w: 1 }), at(12, 4, { w: 4, v: 1 }), at(20, 4, { w: 4, u: 1, v: 1 })], [at(2, 29, { w: 1 }), at(20, 4, { w: 4, u: 1, v: 1 }), at(30, 29, { w: 1, u: 1 })]],
     },
     values: true,
-    choices: () => ['edge-function', 'scanline', 'oracle', 'book-affine', 'book-ch11', 'games101-strict', 'games101-depth'].map((name) => [name, name]),
+    choices: () => ['edge-function', 'scanline', 'oracle', 'book-affine', 'book-ch11', 'games101-strict', 'games101-depth'],
     fields: [field('w', 0.25, 0.01)],
     tools: () => sliders('w', RANGE_OF_W),
     grips: () => stalks('w', RANGE_OF_W),
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
-    panels: (answer) => answer.panels.map((panel) => ({
-      select: panel.name,
-      says: panel.refused ?? `${word('worst')} ${round(panel.worst[1], 3)}`,
-      bad: panel.refused || panel.worst[1] > 1e-9 ? true : undefined,
-      pixel: (i) => {
-        const value = panel.values?.[i];
-        if (!value) return null;
-        const dark = (Math.floor(value[1] * 4 + 1e-9) + Math.floor(value[2] * 4 + 1e-9)) % 2 !== 0;
-        return { fill: dark ? 'agrees' : 'extra' };
-      },
-    })),
+    panels: (answer) => valuePanels(answer, (worst) => round(worst, 3), ([, u, v]) => {
+      const isDark = (Math.floor(u * 4 + 1e-9) + Math.floor(v * 4 + 1e-9)) % 2 !== 0;
+      return isDark ? 'agrees' : 'extra';
+    }),
     look: () => {
       const [a, b] = state.triangles[0];
       const answer = ask({ ask: 'along', w: [a.w, b.w], steps: 64 });
@@ -256,11 +247,10 @@ const SCENES = {
       pixel: (i) => (answer.hits[i] > 0 ? { fill: 'agrees' } : null),
     }],
     tools: () => {
-      const select = make('select', { id: 'removes' }, ...['none', 'clockwise', 'counter-clockwise'].map((value) => make('option', { value }, word(value))));
-      select.value = state.removes;
-      select.addEventListener('change', () => { state.removes = select.value; redraw(); });
+      const ways = ['none', 'clockwise', 'counter-clockwise'].map((way) => [way, word(way)]);
+      const removes = select(ways, state.removes, (way) => { state.removes = way; redraw(); }, { id: 'removes' });
       const turn = (i) => button(`${word('turn')} ${i + 1}`, () => { const t = state.triangles[i]; [t[1], t[2]] = [t[2], t[1]]; redraw(); });
-      return [make('label', { className: 'group' }, `${word('cullWhat')} `, select), ...state.triangles.map((_, i) => turn(i))];
+      return [make('label', { className: 'group' }, `${word('cullWhat')} `, removes), ...state.triangles.map((_, i) => turn(i))];
     },
     look: (answer) => [make('h2', {}, word('culling')), table([word('ofTriangle'), '2A', word('winding'), word('result')], (answer.areas ?? []).map((area, i) => [
       String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'removed' : 'drawn')]))],
@@ -284,7 +274,7 @@ const SCENES = {
       return { ...panels[0], panels };
     },
     panels: ({ panels }) => panels.map(({ svg }, i) => ({
-      select: state.by[i], view: 'sheet',
+      by: state.by[i], view: 'sheet',
       says: i ? word(svg === panels[0].svg ? 'samePicture' : 'otherPicture') : '',
       bad: i ? svg !== panels[0].svg : undefined,
       svg,
@@ -295,10 +285,9 @@ const SCENES = {
       redraw();
     }),
     tools: () => {
-      const select = make('select', { id: 'figure' }, ...names.figures.map((figure) => make('option', { value: figure.name }, state.lang === 'zh' ? figure.zh : figure.about)));
-      select.value = state.figure;
-      select.addEventListener('change', () => { Object.assign(state, { figure: select.value, at: '[]', chosen: 0 }); redraw(); });
-      return [make('label', { className: 'group' }, `${word('figure')} `, select)];
+      const figures = names.figures.map(({ name, zh, about: en }) => [name, state.lang === 'zh' ? zh : en]);
+      const choose = (figure) => { Object.assign(state, { figure, at: '[]', chosen: 0 }); redraw(); };
+      return [make('label', { className: 'group' }, `${word('figure')} `, select(figures, state.figure, choose, { id: 'figure' }))];
     },
     look: ({ title, question, answer }) => [make('h2', {}, title), make('p', {}, question), make('p', { className: 'say' }, answer)],
   },

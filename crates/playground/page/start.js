@@ -7,7 +7,6 @@ function drawAll() {
   $('tools').setAttribute('aria-label', word('tools'));
   fill($('scenes'), Object.keys(SCENES).map((name) => button(word(name), () => { begin(name); drawAll(); }, { 'aria-pressed': name === state.scene, id: `scene-${name}` })));
   $('about').textContent = WORDS[state.lang].about[state.scene];
-  $('look').hidden = !scene().look;
   $('keys').textContent = viewWords().keys;
   view.speak();
   cornersFor = '';
@@ -24,8 +23,9 @@ function start() {
   restore(location.hash);
   drawAll();
   $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });
-  $('copy').addEventListener('click', () => copy($('command').textContent));
-  $('copy-address').addEventListener('click', () => { history.replaceState(null, '', address()); copy(location.href); });
+  const copied = (text) => ({ target }) => copyText(text(), target, word('copied'));
+  $('copy').addEventListener('click', copied(() => $('command').textContent));
+  $('copy-address').addEventListener('click', copied(() => new URL(address(), location.href).href));
   $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
   addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
   document.body.dataset.ready = '';

@@ -43,7 +43,7 @@ function grips() {
 
 /** Puts a handle somewhere, on the lattice where corners snap, on a whole pixel for lines. */
 function place(handle, x, y) {
-  const limit = (v) => Math.max(-4096, Math.min(4096, v));
+  const limit = (v) => clamp(v, -4096, 4096);
   if (scene().place) scene().place(handle, x, y);
   else if (state.lines) {
     handle.members[0][0] = limit(Math.floor(x));

@@ -6,12 +6,15 @@ function check(label, key, then = () => {}) {
   return make('label', {}, box, ` ${label}`);
 }
 
+/** A slider for a value; the highest one may be a function. */
 function slide(label, get, [low, high, step], set) {
-  const range = make('input', { type: 'range', min: low, max: high, step, value: get() });
+  const most = () => String(typeof high === 'function' ? high() : high);
+  const range = make('input', { type: 'range', min: low, max: most(), step, value: get() });
   const says = make('output', { 'aria-live': 'off' }, String(get()));
   range.addEventListener('input', () => { set(Number(range.value)); redraw(); });
   sliding.push(() => {
     const text = String(get());
+    if (range.max !== most()) range.max = most();
     if (range.value !== text) range.value = text;
     say(says, text);
   });

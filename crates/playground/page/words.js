@@ -1,71 +1,11 @@
-'use strict';
-// The words of the page, in both languages. A key that one language lacks would show as itself.
-const WORDS = {
-  en: {
-    title: 'Playground', other: '中文', skip: 'Skip to the pixels',
-    scenes: 'Scenes', triangle: 'Triangle', line: 'Line', weights: 'Weights', perspective: 'Perspective',
-    depth: 'Depth', near: 'Near plane', samples: 'Samples', culling: 'Culling', figure: 'Live figure',
-    about: {
-      triangle: 'Every pixel is sampled at its centre, the dot. Grey: as the oracle says. Red −: missing, a hole. Orange +: too many. Purple: hit that often. Point at one to see why; change the rule; drag a corner.',
-      line: 'Drag an end. Both drawers set one pixel a step, the one nearest to the ideal line. Step through them, and watch who decides when.',
-      weights: 'Point at a pixel. The three areas between it and the corners, as parts of the whole, are its weights: they mix the three colours.',
-      perspective: 'Drag w of a corner, the square on its stalk. A step on the screen (t′) is no step in space (t). Where t is taken for t′, the pattern bends along the diagonal.',
-      depth: 'Change the depths of the corners. The depth buffer decides for each pixel, the painter for whole triangles: where they cross, no order is right.',
-      near: 'Seen from the side: drag the near plane, or bring a corner behind the eye (w < 0). Divided by a negative w, the corner flips to the other side of the screen.',
-      samples: 'Drag a corner. One sample knows yes and no; 4 and 16 know shares. Only ringed pixels are told apart: all others are whole.',
-      culling: 'Seen from the front, corners run one way, from behind the other. The sign of the area says which: nothing else is looked at.',
-      figure: 'A live figure of the pages with its answer, drawn twice. Choose who draws it, an engine, the oracle or a rule that is wrong, and drag the blue points.',
-    },
-    tools: 'Tools', engines: 'Engines', four: 'Four panels', snap: 'Snap to 1/256 px', snapped: 'this scene has snapped corners', numbers: 'Hit counts', window: 'Window',
-    panel: 'Panel', decided: 'Decided', winding: 'Winding', result: 'Result', corners: 'Corners', corner: 'Corner', end: 'End', copy: 'Copy', copied: 'copied', address: 'Copy the address', reset: 'Start again',
-    command: 'The same on the command line', pixel: 'The pixel', column: 'column', row: 'row', steps: 'Step', play: 'Play', pause: 'Pause',
-    missing: 'missing', extra: 'too many', twice: 'hit twice', difference: 'Difference', differ: 'pixels differ', same: 'no difference', samePicture: 'the same picture', otherPicture: 'another picture',
-    ruleOf: 'Rule on the right:', shape: 'Shape:', square: 'square', fan: 'fan', single: 'triangle', covered: 'px', agrees: 'as the oracle', ties: 'Samples exactly on an edge:',
-    weight: 'Weight', walk: 'How the scanline got here', longEdge: 'long edge', shortEdge: 'short edge', remainder: 'remainder', carry: 'carry', walkNote: 'Each row adds the step to the column and takes the part off the remainder; when that falls below 0, a column is carried. The span runs from the smaller column to before the larger.',
-    breakIt: 'Break it', named: 'Named case', choose: 'choose …', who: 'Who is to break', family: 'Family', random: 'A random case', search: 'Search until caught', shrink: 'Shrink', stop: 'Stop',
-    searched: (n) => `cases tried: ${n}, not caught yet …`, caught: (name, n) => `caught by ${name}; cases tried: ${n}; `, shrunk: (n) => `shrunk, steps: ${n}`,
-    exact: 'exactly on a pixel', lower: 'less than half, so the lower one', upper: 'more than half, so the higher one', halfway: 'half, so a tie',
-    exactHeight: 'the ideal line is at', after: 'after', ofSteps: 'of', along: 'along',
-    nearPlane: 'Near plane at w =', plane: 'near plane', side: 'From the side', eye: 'eye', clip: 'clipped here', 'book-near-clip': 'clipped by the book', unclipped: 'not clipped', polygon: 'corners left',
-    nearest: 'depth buffer', wrong: 'wrong', last: 'painter: the last one', toldApart: 'pixels told apart', cullWhat: 'Leave out', none: 'nothing', clockwise: 'clockwise', 'counter-clockwise': 'counter-clockwise', removed: 'left out', drawn: 'drawn', turn: 'Turn round',
-    eachRow: 'Each row:', worst: 'u is off by up to',
-    refusedAddress: 'The address asks for something that cannot be shown, so the scene is as it begins:', tPlot: 't in space against t′ on the screen, along the first edge',
-    byFloats: 'certain in floats', byIntegers: 'decided exactly', crossings: 'Where the edges cross this row of centres',
-    crossNote: 'In floats, and how far that may be off. Where a centre lies within that, a quotient of big integers decides. The span runs from the smaller column to before the larger.',
-    refused: 'refuses',
-  },
-  zh: {
-    title: '试验场', other: 'English', skip: '跳到像素',
-    scenes: '场景', triangle: '三角形', line: '直线', weights: '权重', perspective: '透视',
-    depth: '深度', near: '近平面', samples: '采样', culling: '剔除', figure: '互动图',
-    about: {
-      triangle: '每个像素在它的中心（那个点）采样。灰：与真值一致。红 −：缺失，是空洞。橙 +：多余。紫：命中的次数。指向一个像素，看看为什么；换一条规则；拖动一个顶点。',
-      line: '拖动一个端点。两个画线程序每一步画一个像素，即离理想直线最近的那个。一步一步走，看谁在何时作出决定。',
-      weights: '指向一个像素。它与三个顶点围成的三块面积占总面积的比例，就是它的权重：三种颜色按权重混合。',
-      perspective: '拖动一个顶点的 w，即杆头上的方块。屏幕上的一步（t′）不是空间中的一步（t）。把 t′ 当作 t，图案就会沿对角线折断。',
-      depth: '改变各顶点的深度。深度缓冲逐像素决定，画家算法按整个三角形决定：三角形相交时，没有一种顺序是对的。',
-      near: '从侧面看：拖动近平面，或把一个顶点移到眼睛后面（w < 0）。除以负的 w，顶点就翻到屏幕的另一边。',
-      samples: '拖动一个顶点。一个采样点只知道是与否；4 个和 16 个知道比例。只有带圈的像素要把采样点分开，其余都是整块。',
-      culling: '从正面看，顶点朝一个方向转，从背面看则相反。面积的符号说明是哪一种：别的什么也不看。',
-      figure: '书中的一幅互动图，连同答案，画了两遍。选择由谁来画：某个引擎、真值，或一条错误的规则；拖动蓝点。',
-    },
-    tools: '工具', engines: '引擎', four: '四个画面', snap: '吸附到 1/256 像素', snapped: '本场景的顶点都经过吸附', numbers: '命中次数', window: '窗口',
-    panel: '画面', decided: '怎样判定', winding: '绕向', result: '结果', corners: '顶点', corner: '顶点', end: '端点', copy: '复制', copied: '已复制', address: '复制地址', reset: '重新开始',
-    command: '在命令行上看同一个用例', pixel: '这个像素', column: '列', row: '行', steps: '步', play: '播放', pause: '暂停',
-    missing: '缺失', extra: '多余', twice: '重复命中', difference: '差别', differ: '个像素不同', same: '没有差别', samePicture: '画面相同', otherPicture: '画面不同',
-    ruleOf: '右边的规则：', shape: '图形：', square: '正方形', fan: '扇形', single: '三角形', covered: '像素', agrees: '与真值一致', ties: '恰好在边上的采样点：',
-    weight: '权重', walk: '扫描线怎样走到这里', longEdge: '长边', shortEdge: '短边', remainder: '余数', carry: '进位', walkNote: '每一行给列加上步长，从余数中减去零头；余数小于 0 时进一列。区段从较小的列开始，到较大的列之前为止。',
-    breakIt: '弄坏它', named: '有名字的用例', choose: '选择……', who: '要弄坏谁', family: '用例族', random: '随机一个用例', search: '搜索，直到抓住', shrink: '缩小', stop: '停',
-    searched: (n) => `${n} 个用例，还没有抓住……`, caught: (name, n) => `被 ${name} 抓住，看了 ${n} 个用例；`, shrunk: (n) => `${n} 步后缩到最小`,
-    exact: '恰好在像素上', lower: '不到一半，取低的', upper: '超过一半，取高的', halfway: '正好一半，平局',
-    exactHeight: '理想直线在', after: '走了', ofSteps: '共', along: '沿着',
-    nearPlane: '近平面在 w =', plane: '近平面', side: '从侧面看', eye: '眼睛', clip: '这里的裁剪', 'book-near-clip': '书中的裁剪', unclipped: '不裁剪', polygon: '个顶点',
-    nearest: '深度缓冲', wrong: '错', last: '画家算法：最后画的', toldApart: '个像素要把采样点分开', cullWhat: '去掉', none: '都不去掉', clockwise: '顺时针', 'counter-clockwise': '逆时针', removed: '去掉了', drawn: '画了', turn: '翻转',
-    eachRow: '每一行：', worst: 'u 的最大误差',
-    refusedAddress: '地址要求的内容无法显示，因此场景保持初始状态：', tPlot: '沿第一条边：空间中的 t 与屏幕上的 t′',
-    byFloats: '浮点数就能确定', byIntegers: '由精确计算决定', crossings: '边与这一行中心线的交点',
-    crossNote: '浮点数的结果，以及它至多差多少。像素中心落在这个范围里时，由大整数的商决定。区段从较小的列开始，到较大的列之前为止。',
-    refused: '拒绝',
-  },
-};
-const word = (key) => WORDS[state.lang][key] ?? pixelWords()[key] ?? key;
+// The words of the page in both languages, and in Chinese what cases and painters are about. A key that a language lacks would show as itself.
+const WORDS = {{words}};
+
+/** Words in the language of the page, with values where they have `{}`. */
+function word(key, ...values) {
+  const text = WORDS[state.lang][key] ?? pixelWords()[key] ?? key;
+  return values.reduce((filled, value) => filled.replace('{}', () => value), text);
+}
+
+/** What an entry of the engines' lists is about: in English the engines say it. */
+const about = ({ name, about: said = '' }) => WORDS[state.lang].cases[name] ?? said;

@@ -20,7 +20,6 @@ pub const PLAYGROUND: Parts = Parts {
     scripts: &[
         rasterproof_view::PIXEL,
         include_str!("../page/words.js"),
-        include_str!("../page/cases.js"),
         include_str!("../page/engines.js"),
         include_str!("../page/state.js"),
         include_str!("../page/parts.js"),
@@ -91,6 +90,7 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
         ("{{body}}", parts.body),
         ("{{style}}", &*rasterproof_view::style(parts.styles)),
         ("{{script}}", &*rasterproof_view::script(parts.scripts)),
+        ("{{words}}", include_str!("../page/words.json")),
         ("{{clauses}}", &*clauses()),
         ("{{module}}", &*STANDARD.encode(module)),
     ];

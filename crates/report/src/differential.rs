@@ -120,7 +120,9 @@ fn table(families: &[&FamilyReport]) -> Table {
         for second in [false, true] {
             cells.extend(judged(f).map(|p| cell(p, second)));
         }
-        (cells, f.pairs.iter().any(|p| p.wrong_cases > 0) || f.oracle_faults > 0)
+        let is_right = f.pairs.iter().all(|p| p.wrong_cases == 0) && f.oracle_faults == 0;
+        let wrong = f.pairs.iter().map(|p| p.tally.total()).sum();
+        Row { search: Some(f.family.clone()), wrong, ..Row::from(cells).marked(is_right) }
     };
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
     let what = match first.kind {
@@ -140,21 +142,14 @@ fn wrong(tally: Tally, panics: u64) -> String {
 }
 
 /// A row for each family, and where there are several one for all of them together.
-fn rows(
-    families: &[&FamilyReport],
-    row: impl Fn(&FamilyReport) -> (Vec<String>, bool),
-) -> Vec<Row> {
-    let one = |family: &&FamilyReport| {
-        let (cells, is_wrong) = row(family);
-        Row { search: Some(cells[0].clone()), ..Row::from(cells).marked(!is_wrong) }
-    };
-    let mut rows: Vec<Row> = families.iter().map(one).collect();
+fn rows(families: &[&FamilyReport], row: impl Fn(&FamilyReport) -> Row) -> Vec<Row> {
+    let mut rows: Vec<Row> = families.iter().map(|family| row(family)).collect();
     if let [first, others @ ..] = families
         && !others.is_empty()
     {
         let mut all = FamilyReport::clone(first);
         others.iter().for_each(|family| all += FamilyReport::clone(family));
-        let (mut cells, _) = row(&all);
+        let Row { mut cells, .. } = row(&all);
         cells[0] = "all".to_owned();
         rows.push(Row { cells, mark: Mark::Sum, ..Row::default() });
     }

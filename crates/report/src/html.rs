@@ -25,6 +25,8 @@ use super::words::{grouped, same, serialize_grouped, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
+/// Of a table with more rows than these a page shows the wrong ones and six others, and all once the reader asks for them.
+const MOST_ROWS: usize = 8;
 /// Below a table with more notes than these, they are folded: a list of them is longer than the table.
 const MOST_NOTES: usize = 4;
 const MOST_TABLE_BYTES: usize = 500_000;
@@ -270,7 +272,7 @@ pub fn page(report: &Report) -> String {
     let is_folded = report.pictured.is_some();
     let (mut tables, mut has_rows) = (String::new(), false);
     for one in &report.tables {
-        tables += &table(one, is_folded || has_rows && !one.rows.is_empty());
+        tables += &table(one, is_folded || has_rows && !one.rows.is_empty(), &report.docs);
         has_rows |= !one.rows.is_empty();
     }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
@@ -472,14 +474,30 @@ fn folded(title: &str, inside: &str) -> String {
     format!("<details><summary>{}</summary>\n{inside}</details>\n", escape(title))
 }
 
-fn table(table: &Table, is_folded: bool) -> String {
+/// A text in which each page of the docs that it names is a link, where the page knows the way there.
+fn with_links(html: &str, docs: &str) -> String {
+    let mut parts = html.split("docs/");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_name = |name: &str| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-');
+        let _ = match part.split_once(".md").filter(|(name, _)| !docs.is_empty() && is_name(name)) {
+            Some((name, rest)) => {
+                write!(out, "<a href=\"{0}{name}.md\">docs/{name}.md</a>{rest}", escape(docs))
+            }
+            None => write!(out, "docs/{part}"),
+        };
+    }
+    out
+}
+
+fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     let mut out = String::new();
     if !table.rows.is_empty() {
-        out += &rows(table);
+        out += &rows(table, is_folded);
     }
     let mut notes = String::new();
     for note in &table.notes {
-        let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", prose(note));
+        let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", with_links(&prose(note), docs));
     }
     let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
     out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
@@ -491,7 +509,7 @@ fn table(table: &Table, is_folded: bool) -> String {
     }
 }
 
-fn rows(table: &Table) -> String {
+fn rows(table: &Table, is_folded: bool) -> String {
     // A table without a caption belongs to the one above it, and has the name of its rows.
     let name = match (&*table.caption, table.columns.first()) {
         ("", Some(column)) => &column.label,
@@ -512,6 +530,7 @@ fn rows(table: &Table) -> String {
     }
     out.push_str("</tr></thead>\n<tbody>\n");
     let mut left_out = table.rows.len();
+    let most_wrong = table.rows.iter().map(|row| row.wrong).max().unwrap_or(0);
     let others = table.rows.iter().filter(|row| row.mark != Mark::Sum);
     for row in table.rows.iter().filter(|row| row.mark == Mark::Sum).chain(others) {
         if out.len() > MOST_TABLE_BYTES {
@@ -532,10 +551,17 @@ fn rows(table: &Table) -> String {
                 true => " class=\"number\"".to_owned(),
                 false => String::new(),
             };
+            // A bar beside the name of a family: its wrong pixels as a share of the most.
+            let bar = match most_wrong {
+                0 => String::new(),
+                most => {
+                    format!(" style=\"--share: {:.1}%\"", 100.0 * row.wrong as f64 / most as f64)
+                }
+            };
             let _ = match (i, &row.search) {
                 (0, Some(search)) => write!(
                     out,
-                    "<th scope=\"row\"><button type=\"button\" class=\"find\" data-search=\"{}\">{text}</button></th>",
+                    "<th scope=\"row\"{bar}><button type=\"button\" class=\"find\" data-search=\"{}\">{text}</button></th>",
                     escape(search)
                 ),
                 (0, None) if text.is_empty() => write!(out, "<td></td>"),
@@ -546,6 +572,13 @@ fn rows(table: &Table) -> String {
         out.push_str("</tr>\n");
     }
     out.push_str("</tbody></table></div>\n");
+    if !is_folded && table.rows.len() > MOST_ROWS {
+        let count = table.rows.len();
+        let _ = writeln!(
+            out,
+            "<label class=\"unfold\"><input type=\"checkbox\"> show all {count} rows</label>"
+        );
+    }
     if left_out > 0 {
         let _ = writeln!(out, "<p>{left_out} more rows are left out.</p>");
     }

@@ -86,6 +86,8 @@ pub struct Row {
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
+    /// How many of its pixels are wrong: the length of its bar on a page.
+    pub wrong: u64,
     /// The columns of its cells that are as good as can be, shown in green.
     pub good: Vec<usize>,
 }

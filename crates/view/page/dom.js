@@ -73,8 +73,29 @@ export function button(label, act, more = {}) {
   return made;
 }
 
-/** Copies a text, where the page may not use the clipboard by a field that is selected. */
-export async function copyText(text) {
+/** A list to choose from; an option is its value, or value and text. */
+export function select(options, value, act, more = {}) {
+  const optionOf = ([value, text = value]) => make('option', { value }, text);
+  const made = make('select', more, ...options.map((option) => optionOf([option].flat())));
+  made.value = value;
+  made.addEventListener('change', () => act(made.value));
+  return made;
+}
+
+/** A value, or the end of a range that it is beyond. */
+export const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
+
+/** What does a thing so many milliseconds later, unless it is asked for another one before. */
+export function delayed() {
+  let timer = 0;
+  return (act, ms) => {
+    clearTimeout(timer);
+    timer = setTimeout(act, ms);
+  };
+}
+
+/** Copies a text, where the page may not use the clipboard by a field that is selected, and says so on the button that was pressed. */
+export async function copyText(text, pressed, says) {
   try {
     await navigator.clipboard.writeText(text);
   } catch {
@@ -84,6 +105,10 @@ export async function copyText(text) {
     document.execCommand('copy');
     area.remove();
   }
+  const before = pressed.textContent;
+  if (before === says) return;
+  Object.assign(pressed, { ariaLive: 'polite', textContent: says });
+  setTimeout(() => { pressed.textContent = before; }, 1500);
 }
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };

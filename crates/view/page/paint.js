@@ -1,6 +1,6 @@
 // Pixels on a canvas: marks, grid, samples, outlines, corners and numbers. A sheet is {g, x0, y0, x1, y1, unit, width, height}: what it shows, in
 // pixels of the picture, and how large, in those of the screen.
-import { make } from './dom.js';
+import { clamp, make } from './dom.js';
 
 /** The colours of the style sheet by their names, as the page around an element has them. */
 export let colours = {};
@@ -27,6 +27,17 @@ const MISSING = { fill: 'missing', glyph: '\u2212' };
 const EXTRA = { fill: 'extra', glyph: '+' };
 const AGREES = { fill: 'agrees', glyph: '' };
 const OVERLAP = { fill: 'overlap', glyph: '*' };
+
+/** The smallest box of pixels around places with a margin, inside of another box. */
+export function boxAround(places, margin, box) {
+  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const [x, y] of places) {
+    [x0, x1] = [Math.min(x0, x), Math.max(x1, x)];
+    [y0, y1] = [Math.min(y0, y), Math.max(y1, y)];
+  }
+  const [left, top] = [clamp(Math.floor(x0) - margin, box[0], box[2] - 1), clamp(Math.floor(y0) - margin, box[1], box[3] - 1)];
+  return [left, top, clamp(Math.ceil(x1) + margin, left + 1, box[2]), clamp(Math.ceil(y1) + margin, top + 1, box[3])];
+}
 
 /** A canvas at the size of the screen's own pixels, ready to be painted. */
 export function contextOf(canvas, width, height) {

@@ -10,7 +10,7 @@
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
 //   high      the largest share of the window's height, and `most`, the largest pixel
-import { arrowOf, become, button, fill, make, pageLanguage, say } from './dom.js';
+import { arrowOf, become, button, clamp, fill, make, pageLanguage, say } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
 /** Pixels along the longer side, from the nearest view to the farthest. */
@@ -200,7 +200,7 @@ class View extends HTMLElement {
     g.fillStyle = colours.empty;
     g.fillRect(0, 0, width, height);
     for (const { mark, image, from = -Infinity, to = Infinity, veil = 0 } of panel.layers ?? []) {
-      const [left, right] = [from, to].map((x) => Math.max(0, Math.min(width, (x - x0) * this.unit)));
+      const [left, right] = [from, to].map((x) => clamp((x - x0) * this.unit, 0, width));
       g.save();
       g.beginPath();
       g.rect(left, 0, right - left, height);
@@ -255,7 +255,7 @@ class View extends HTMLElement {
     let [left, top] = [x0, y0];
     const [width, height] = [x1 - x0, y1 - y0];
     if (bounds) {
-      const inside = (at, size, low, high) => (size >= high - low ? (low + high - size) / 2 : Math.max(low, Math.min(high - size, at)));
+      const inside = (at, size, low, high) => (size >= high - low ? (low + high - size) / 2 : clamp(at, low, high - size));
       left = inside(x0, width, bounds[0], bounds[2]);
       top = inside(y0, height, bounds[1], bounds[3]);
     } else [left, top] = [Math.round(left), Math.round(top)];
@@ -323,8 +323,7 @@ class View extends HTMLElement {
   point([x, y], byKeys) {
     const { bounds, cursor, onPoint } = this.source;
     const [x0, y0, x1, y1] = bounds ?? [-Infinity, -Infinity, Infinity, Infinity];
-    const inside = (v, low, high) => Math.max(low, Math.min(high - 1, Math.floor(v)));
-    const next = [inside(x, x0, x1), inside(y, y0, y1)];
+    const next = [clamp(Math.floor(x), x0, x1 - 1), clamp(Math.floor(y), y0, y1 - 1)];
     if (!onPoint || String(next) === String(cursor)) return;
     onPoint(...next, byKeys);
     // The keyboard may go on beyond what is seen.

@@ -1,7 +1,7 @@
 // Firefox with one tab, driven through its Marionette protocol: JSON with its length before it, over a socket.
 //
-// Firefox draws WebGL only where it has a display, so it gets one by Xvfb. Where either is missing a check says so and passes:
-// nothing else needs them.
+// Firefox draws WebGL only where it has a display, so it gets one by Xvfb. Where either is missing a check says so and passes,
+// unless `RASTERPROOF_NEEDS_FIREFOX` is set, as `.ci/run --all` does: nothing else needs them.
 
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
@@ -12,7 +12,7 @@ import path from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { pathToFileURL } from 'node:url';
 
-import { folder, Missing } from './program.mjs';
+import { folder, missing } from './program.mjs';
 import { PATIENCE, Questions } from './tab.mjs';
 
 const isThere = (name) => spawnSync('which', [name]).status === 0;
@@ -71,7 +71,7 @@ export class Firefox extends Questions {
   /** Starts Firefox. */
   static async start() {
     const program = ['firefox-esr', 'firefox'].find(isThere);
-    if (!program || !isThere('Xvfb')) throw new Missing("no Firefox or no Xvfb; install Debian's firefox-esr and xvfb");
+    if (!program || !isThere('Xvfb')) missing("no Firefox or no Xvfb; install Debian's firefox-esr and xvfb", 'RASTERPROOF_NEEDS_FIREFOX');
     const firefox = new Firefox(), profile = folder(), port = await freePort();
     fs.writeFileSync(path.join(profile, 'user.js'), `user_pref("marionette.port", ${port});\nuser_pref("webgl.force-enabled", true);\n`);
     const screen = ['-displayfd', '1', '-nolisten', 'tcp', '-screen', '0', '1280x1024x24'];

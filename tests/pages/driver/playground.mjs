@@ -12,7 +12,7 @@ export async function show(tab, address) {
   await tab.settle();
 }
 
-export const isTroubled = (tab) => tab.value('!document.getElementById("trouble").hidden');
+export const isTroubled = (tab) => tab.value('document.getElementById("trouble").checkVisibility()');
 
 /** What the page's engines answer, and what those of this program do. */
 export const both = async (tab, question) => [await tab.value((question) => ask(question), question), await ours(question)];

@@ -11,7 +11,7 @@ export default {
     await tab.when('state.at === "[[1.5,5.5],[7,1.5]]"');
     const says = (text) => tab.when((text) => document.querySelectorAll('figcaption output')[1]?.textContent === text, text);
     await says('the same picture');
-    await tab.value('(clearTimeout(keeping), location.hash = "#scene=figure&at=[[3.5,3.5]]&by=scanline,inclusive-edges&lang=en", 0)');
+    await tab.value('(addressLater(() => {}, 0), location.hash = "#scene=figure&at=[[3.5,3.5]]&by=scanline,inclusive-edges&lang=en", 0)');
     await says('another picture');
     assert.equal(await tab.value('state.scene'), 'figure');
   },

@@ -35,7 +35,7 @@ const follow = (to) => new Promise((done) => {
       weights: last.look?.triangles?.[0]?.edges?.map((edge) => edge.weight) ?? [],
     });
   };
-  clearTimeout(keeping);
+  addressLater(() => {}, 0);
   if (location.hash === to) look();
   else {
     addEventListener('hashchange', look, { once: true });

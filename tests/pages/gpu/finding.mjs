@@ -93,6 +93,7 @@ export default {
     for (const address of [fixed.replace('webgl2', 'webgpu'), fixed]) {
       await repeat(address);
       assert.equal(await tab.text('#one .equal'), 'This case is as promised here.');
+      assert.match(await tab.text('#finding h2'), /: A case, where nothing differs$/);
       assert.equal(await tab.value(drawsAlone), true, address);
     }
   },

@@ -4,6 +4,10 @@ export default {
   says: 'The first screen shows the picture of the case, cropped, with numbers and corners, at any width',
   page: 'verify --cases 60 --plant inclusive-edges --report --json',
   async check(tab) {
+    await tab.resize(360, 740);
+    await tab.open();
+    const share = await tab.value('document.querySelector("rp-view .frame").getBoundingClientRect().width / document.querySelector("main").clientWidth');
+    assert(share > 0.8, `${share} of the width of a phone`);
     for (const [width, height] of [[1280, 900], [400, 850]]) {
       await tab.resize(width, height);
       await tab.open();

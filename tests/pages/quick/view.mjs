@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 
 export default {
-  says: 'The sentences of crates/view/page/checks.js are true of the viewer, light and dark',
+  says: 'The sentences of tests/pages/driver/viewer.js are true of the viewer, light and dark',
   page: 'made view',
   async check(tab) {
     for (const scheme of ['light', 'dark']) {

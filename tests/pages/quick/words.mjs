@@ -8,7 +8,7 @@ export default {
     assert.deepEqual(en, zh);
     const unnamed = await tab.value(() => Object.entries(names)
       .flatMap(([list, all]) => (['recorded', 'figures'].includes(list) ? [] : all))
-      .map(({ name }) => name).filter((name) => !ABOUT_ZH[name]));
+      .map(({ name }) => name).filter((name) => !WORDS.zh.cases[name]));
     assert.deepEqual(unnamed, []);
   },
 };

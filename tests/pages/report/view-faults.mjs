@@ -21,7 +21,7 @@ const FAULTS = [
 ];
 
 export default {
-  says: 'Each part that is taken away from the viewer makes a sentence of crates/view/page/checks.js false',
+  says: 'Each part that is taken away from the viewer makes a sentence of tests/pages/driver/viewer.js false',
   page: 'made view',
   async check(tab) {
     const page = fs.readFileSync(tab.file, 'utf8'), spoilt = path.join(folder(), 'index.html');

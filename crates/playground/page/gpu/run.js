@@ -2,6 +2,7 @@
 
 const state = { lang: 'en', plant: null, seed: 1, running: false };
 const APIS = { webgl2: openWebgl2, webgpu: openWebgpu };
+const TITLES = { webgl2: 'WebGL 2', webgpu: 'WebGPU' };
 const WORST = ['equal', 'allowed', 'outside'];
 
 function must(answer) {
@@ -79,10 +80,9 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
     return api;
   };
   let api = await open();
-  Object.assign(result, { title: { webgl2: 'WebGL 2', webgpu: 'WebGPU' }[name], refused: api.refused });
-  if (api.refused) return;
-  Object.assign(result, { renderer: api.renderer, isSoftware: api.isSoftware, apart: api.apart });
-  result.notes.push(...api.notes);
+  const { refused, renderer, isSoftware, notes = [] } = api;
+  Object.assign(result, { title: TITLES[name], refused, renderer, isSoftware, notes: [...notes] });
+  if (refused) return;
   const plan = must(ask({ ask: 'gpu-plan' }));
   const batches = plan.batches.filter(({ check, number: n }) => (
     (!alone || check === alone) && (!only || only.some(([c, i]) => c === check && i === n))));
@@ -176,7 +176,7 @@ async function judgeOne({ name, check, subject }) {
     if (api.refused) throw new Error(said(api.refused));
     if (api.bits === null) api.bits = (await judged(api, { check: 'lattice', number: 0 })).facts.bits;
     const { word: verdict, view, facts } = await judged(api, { check, only: subject });
-    state.results = [{ name, title: api.title, renderer: api.renderer, rows: {}, views: { [check]: view }, notes: [] }];
+    state.results = [{ name, title: TITLES[name], renderer: api.renderer, rows: {}, views: { [check]: view }, notes: [] }];
     Object.assign(state.one, { verdict, view, facts });
     state.shown = [0, check];
   } catch (error) {

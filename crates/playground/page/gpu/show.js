@@ -49,8 +49,8 @@ function row(result, index, check) {
 function resultOf(result, index) {
   const checks = Object.keys(WORDS.en.checks).filter((check) => result.rows[check]);
   const software = result.isSoftware ? make('p', { className: 'note' }, word('software')) : null;
-  const { samples } = result.rows;
-  const totals = result.seconds ? make('p', {}, word('totals')(result.triangles, samples?.tally?.subjects ?? 0, result.seconds.toFixed(1))) : null;
+  const samples = result.rows.samples?.tally?.subjects ?? 0;
+  const totals = result.seconds ? make('p', {}, word('totals')(result.triangles, samples, result.seconds.toFixed(1))) : null;
   return make('section', { 'data-api': result.name },
     make('h2', {}, result.title ?? result.name),
     result.refused ? make('p', {}, said(result.refused)) : null,
@@ -64,24 +64,19 @@ function resultOf(result, index) {
 
 /** The pixels around what matters: corners and marks, with one to spare. */
 function crop({ cell, outlines, marks }) {
-  const points = [...outlines.flat(), ...marks.map(({ x, y }) => [x, y]), ...marks.map(({ x, y }) => [x + 1, y + 1])];
-  const range = (axis) => {
-    const values = points.map((point) => point[axis]);
-    return [Math.max(0, Math.floor(Math.min(...values)) - 1), Math.min(cell, Math.ceil(Math.max(...values)) + 1)];
-  };
-  return points.length ? [range(0), range(1)] : [[0, cell], [0, cell]];
+  const places = [...outlines.flat(), ...marks.flatMap(({ x, y }) => [[x, y], [x + 1, y + 1]])];
+  return places.length ? boxAround(places, 1, [0, 0, cell, cell]) : [0, 0, cell, cell];
 }
 
 /** What the viewer shows of a case: what is expected and what is drawn, with the differences; of four samples those that differ. */
 function seenIn(view, heads) {
-  const [[x0, x1], [y0, y1]] = crop(view);
+  const part = crop(view);
   const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
   const corners = placesOf(view).map((at, i) => ({ at, name: letter(i), text: letter(i) }));
   const panels = (wanted.length ? wanted : [0]).flatMap((plane) => [view.ours, view.theirs].map((planes, i) => {
     const label = heads[i] + (view.samples.length ? ` (${word('sample')(plane)})` : '');
     const [dx, dy] = view.samples[plane] ?? [128, 128];
     const mark = (x, y) => {
-      if (x < 0 || y < 0 || x >= view.cell || y >= view.cell) return null;
       const hits = planes[plane][y * view.cell + x];
       const found = i === 1 && view.marks.find((m) => m.plane === plane && m.x === x && m.y === y);
       if (hits === '0' && !found) return null;
@@ -89,7 +84,6 @@ function seenIn(view, heads) {
     };
     return { key: `${state.lang} ${label}`, label, layers: [{ mark }], outlines: view.outlines, corners, samples: [dx / 256, dy / 256] };
   }));
-  const part = [x0, y0, x1, y1];
   const first = view.marks.find(({ plane }) => plane === (wanted[0] ?? 0));
   let cursor = first ? [first.x, first.y] : null;
   const source = {
@@ -134,7 +128,7 @@ function tellPixel(view, [x, y]) {
 
 /** The rows of a plane as text, for a report. */
 function asText(view, planes) {
-  const [[x0, x1], [y0, y1]] = crop(view);
+  const [x0, y0, x1, y1] = crop(view);
   return planes.map((plane) => Array.from({ length: y1 - y0 }, (_, i) => plane.slice((y0 + i) * view.cell + x0, (y0 + i) * view.cell + x1)).join('\n')).join('\n\n');
 }
 
@@ -187,7 +181,7 @@ ${WGSL.split('\n').find((line) => line.startsWith(`@fragment fn ${kind === 'valu
 
 function report(result, check, view) {
   const rule = ruleOf(result.name, check, 'en');
-  const [[x0, x1], [y0, y1]] = crop(view).map((range, axis) => range.map((at) => at + view.origin[axis]));
+  const [x0, y0, x1, y1] = crop(view).map((at, i) => at + view.origin[i % 2]);
   const [ours, theirs] = check === 'twice' ? [WORDS.en.drawnFirst, WORDS.en.drawnAgain] : ['Expected', 'Drawn'];
   const notes = view.marks.filter(({ note }) => note).slice(0, 8).map(({ x, y, note }) => `pixel ${x}, ${y}: ${note}`);
   return [
@@ -204,14 +198,7 @@ function report(result, check, view) {
   ].join('\n');
 }
 
-function copying(text) {
-  const done = make('span', { role: 'status' });
-  const press = async () => {
-    await copyText(text);
-    done.textContent = ` ${word('copied')}`;
-  };
-  return [button(word('copy'), press), done];
-}
+const copying = (text) => button(word('copy'), ({ target }) => copyText(text, target, word('copied')));
 
 const finding = $('finding');
 
@@ -239,8 +226,8 @@ function drawFinding() {
     make('p', { className: 'quiet' }, word('legend')(check)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
     make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', { tabIndex: 0 }, corners(view.subject)),
-    make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),
-    make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), ...copying(text)));
+    make('p', {}, make('a', { href: link }, word('address')), ' ', copying(link)),
+    make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), copying(text)));
   pixels.speak();
   pixels.show(seenIn(view, heads));
   if (pixels.source.cursor) tellPixel(view, pixels.source.cursor);

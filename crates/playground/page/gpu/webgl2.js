@@ -85,7 +85,6 @@ function openWebgl2() {
 
   return {
     name: 'webgl2',
-    title: 'WebGL 2',
     renderer,
     bits,
     apart,

@@ -59,7 +59,6 @@ async function openWebgpu() {
 
   return {
     name: 'webgpu',
-    title: 'WebGPU',
     renderer,
     bits: null,
     apart: true,

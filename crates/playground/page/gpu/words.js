@@ -7,14 +7,13 @@ const RULE_ZH = { 'top-right': '右上规则', 'bottom-left': '左下规则', 'b
 
 const WORDS = {
   en: {
-    title: 'your GPU', other: '中文', playground: 'playground',
+    title: 'your GPU', other: '中文',
     about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
     private: 'Nothing is sent: all of it happens in this browser.',
     judge: 'Judge my GPU', again: 'Judge again', alone: 'Or one check alone:', stop: 'Stop', stopped: 'Stopped before all checks were made.',
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
     asking: (api, at) => `${api}: looking for the cause (picture ${at}) …`,
     cause: ({ cause, asked }) => `By ${count(asked, 'more triangle')}, ${cause}`,
-    
     noWebgl2: 'This browser gives no WebGL 2 context.', noWebgpu: 'This browser has no WebGPU here.', noAdapter: 'The browser has WebGPU, but gave no adapter.', noDevice: (why) => `The adapter refused to make a device (${why}).`,
     advice: 'Nothing could be judged. Turn on hardware acceleration in the settings of this browser, or open this page in a current Chrome, Edge, Firefox or Safari.',
     contextLost: 'the WebGL context was lost', deviceLost: 'the WebGPU device was lost', unnamed: 'not named by the browser',
@@ -55,14 +54,13 @@ const WORDS = {
     show: 'Show', repeats: 'This is one case, from the address of this page.', badCase: 'The address holds no case that can be drawn:', fails: 'This case breaks the promise here.', passes: 'This case is as promised here.', differs: 'This case differs here, and is free to.',
   },
   zh: {
-    title: '你的 GPU', other: 'English', playground: '试验场',
+    title: '你的 GPU', other: 'English',
     about: '本页用这个浏览器的图形接口画大约二十八万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
     private: '不发送任何东西：一切都在这个浏览器里进行。',
     judge: '评判我的 GPU', again: '再评判一次', alone: '或者只做一项检查：', stop: '停', stopped: '在做完所有检查之前停了。',
     starting: '正在启动……', progress: (api, check, at, of) => `${api}：${check}（第 ${at} 批，共 ${of} 批）`, shrinking: (api, check) => `${api}：${check}：正在寻找最小的用例……`,
     asking: (api, at) => `${api}：正在寻找原因（第 ${at} 张图）……`,
     cause: ({ cause, asked }) => `又问了 ${zhCount(asked)} 个三角形（结论为英文）：${cause}`,
-    
     noWebgl2: '这个浏览器不提供 WebGL 2 上下文。', noWebgpu: '这个浏览器在这里没有 WebGPU。', noAdapter: '浏览器有 WebGPU，但没有给出适配器。', noDevice: (why) => `适配器拒绝创建设备（${why}）。`,
     advice: '什么都没能评判。请在浏览器设置里打开硬件加速，或者用新版的 Chrome、Edge、Firefox 或 Safari 打开本页。',
     contextLost: 'WebGL 上下文丢失了', deviceLost: 'WebGPU 设备丢失了', unnamed: '浏览器没有给出名字',

@@ -75,14 +75,10 @@ export const judgeLinePixel = ([from, to], x, y) => {
 /** A BigInt times 2^-bits in decimal, rounded to four digits where it is long. */
 export const decimal = (value, bits) => {
   if (value === 0n) return '0';
-  const size = value < 0n ? -value : value;
-  const length = size.toString(2).length;
-  const lead = Number(length > 60 ? size >> BigInt(length - 60) : size);
-  const log = Math.log10(lead) + (Math.max(0, length - 60) - bits) * Math.log10(2);
-  let exponent = Math.floor(log);
-  let lead10 = 10 ** (log - exponent);
-  if (lead10 >= 9.9995) { lead10 = 1; exponent += 1; }
-  const sign = value < 0n ? '\u2212' : '';
-  if (exponent >= -3 && exponent < 7) return sign + String(Number((10 ** log).toPrecision(4)));
-  return `${sign}${lead10.toFixed(3)}e${exponent}`;
+  // 2^-bits is 5^bits * 10^-bits.
+  const digits = String((value < 0n ? -value : value) * 5n ** BigInt(bits));
+  const [lead, more] = Number(`${digits[0]}.${digits.slice(1, 20)}`).toExponential(3).split('e');
+  const exponent = digits.length - 1 - bits + Number(more);
+  const text = exponent >= -3 && exponent < 7 ? String(Number(`${lead}e${exponent}`)) : `${lead}e${exponent}`;
+  return value < 0n ? `\u2212${text}` : text;
 };

@@ -42,8 +42,8 @@ const aboutLines = (item, x, y) => {
     else if (!j.beyond) {
       const off = distance(j.twice, 2n * j.length);
       const tie = j.isTie ? ', a tie: halfway between two pixels' : '';
-      text = `${which}the centre lies ${off} off the line in ${j.minor}${tie}; ${j.isOn ? 'the pixel is lit' : 'another pixel is nearer'}`;
-      if (j.isTie && !j.isOn) text = text.replace('another pixel is nearer', 'the tie goes to the other pixel');
+      const other = j.isTie ? 'the tie goes to the other pixel' : 'another pixel is nearer';
+      text = `${which}the centre lies ${off} off the line in ${j.minor}${tie}; ${j.isOn ? 'the pixel is lit' : other}`;
     }
     words.push(text);
     return make('p', {}, text);

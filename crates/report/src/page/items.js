@@ -1,6 +1,7 @@
 // What a page shows: cases of the harness and rendered pictures, in columns and rows of the window they have.
 import { make } from './dom.js';
 import { fixedPoint, judgeLinePixel, judgeSample } from './exact.js';
+import { boxAround } from './paint.js';
 
 const unpack = (runs, size) => {
   const hits = new Uint8Array(size);
@@ -130,23 +131,6 @@ export const corners = (item) => {
 
 // ---- What matters of a window ----
 
-/** The part of a box in the window, at least a pixel. */
-const cut = ({ box }, [x0, y0, x1, y1]) => {
-  const inside = (v, low, high) => Math.min(high, Math.max(low, v));
-  const [left, top] = [inside(x0, box[0], box[2] - 1), inside(y0, box[1], box[3] - 1)];
-  return [left, top, Math.max(left + 1, inside(x1, box[0], box[2])), Math.max(top + 1, inside(y1, box[1], box[3]))];
-};
-
-/** The smallest box around places, a margin of pixels around it, in the window. */
-const boxAround = (item, places, margin) => {
-  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const [x, y] of places) {
-    [x0, x1] = [Math.min(x0, x), Math.max(x1, x)];
-    [y0, y1] = [Math.min(y0, y), Math.max(y1, y)];
-  }
-  return cut(item, [Math.floor(x0) - margin, Math.floor(y0) - margin, Math.ceil(x1) + margin, Math.ceil(y1) + margin]);
-};
-
 /** Larger ones are cropped to the pixels in question. */
 const MOST_CROPPED_PX = 48;
 
@@ -156,9 +140,9 @@ export const cropOf = (item, a, b) => {
   const layers = [...new Set([a, b, item.oracle])].map((i) => item.layers[i]);
   const squares = (picks) => pixelsWhere(item, picks).flatMap(([x, y]) => [[x, y], [x + 1, y + 1]]);
   const hit = squares((x, y) => layers.some((layer) => hitsOf(item, layer, x, y) > 0));
-  const shape = boxAround(item, [...outlines(item).flat(), ...hit], 1);
+  const shape = boxAround([...outlines(item).flat(), ...hit], 1, item.box);
   if (shape[2] - shape[0] <= MOST_CROPPED_PX && shape[3] - shape[1] <= MOST_CROPPED_PX) return shape;
   const differs = squares((x, y) => layers.some((layer) => differIn(item, layer, layers[0])(x, y)));
-  if (differs.length > 0) return boxAround(item, differs, 4);
-  return hit.length > 0 ? boxAround(item, hit, 1) : shape;
+  if (differs.length > 0) return boxAround(differs, 4, item.box);
+  return hit.length > 0 ? boxAround(hit, 1, item.box) : shape;
 };

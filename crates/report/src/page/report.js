@@ -1,12 +1,11 @@
 // The report page: its cases and pictures in the viewer, which of them is shown and how, and the address that leads to it.
-import { $, button, copyText, fill, make, renew } from './dom.js';
+import { $, button, clamp, copyText, delayed, fill, make, renew } from './dom.js';
 import { MOST_CORNERS, judge } from './paint.js';
 import { viewWords } from './view.js';
 import { aboutPixel, plural } from './explain.js';
 import { byRule, caseItem, cheapRule, colourOf, corners, cropOf, differIn, hitsOf, isTie, load, outlines, pictureItem, pixelsWhere } from './items.js';
 import { ROLES, layerTable, rowTable } from './tables.js';
 
-const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 const within = (selector) => document.querySelector(selector);
 const data = JSON.parse($('data').textContent);
 const items = [...data.cases.map(caseItem), ...data.frames.map(pictureItem)];
@@ -96,7 +95,7 @@ const show = () => {
     high: isSide ? 0.42 : item.isCase ? 0.56 : 0.68, most: isLarge ? 1 : Math.max(112, 240 / Math.max(part[2] - part[0], part[3] - part[1])),
     grips: () => (mode !== 'slider' ? [] : [{
       name: 'A | B', says: `A to column ${Math.floor(state.split)}`, x: state.split, y: (part[1] + part[3]) / 2,
-      place: (x) => { state.split = Math.max(part[0], Math.min(part[2], x)); show(); },
+      place: (x) => { state.split = clamp(x, part[0], part[2]); show(); },
     }]),
   });
 };
@@ -107,7 +106,7 @@ const legend = ({ isCase, layers, oracle }) => (isCase
     ['twice', '2', 'too often'], ['overlap', '*', 'rightly more than once']]
   : [...new Set([state.a, state.b])].flatMap((i) => (layers[i].legend ?? []).map(([colour, text]) => [colour, '', text])));
 
-let announcing = 0;
+const announce = delayed();
 const tellPixel = (delay) => {
   const { item, a, b, cursor } = state;
   if (!cursor) {
@@ -116,8 +115,7 @@ const tellPixel = (delay) => {
   }
   const { nodes, words } = aboutPixel(item, a, b, cursor);
   renew($('about-pixel'), nodes);
-  clearTimeout(announcing);
-  if (delay) announcing = setTimeout(() => { $('announce').textContent = words; }, delay);
+  announce(() => { if (delay) $('announce').textContent = words; }, delay);
 };
 
 const moveCursor = (x, y, byKeys) => {
@@ -185,7 +183,7 @@ const fillPickers = () => {
 
 const setMode = (mode) => {
   Object.assign(state, { mode, phase: 'A', split: null });
-  for (const input of all('#modes input')) input.checked = input.value === mode;
+  for (const input of $('modes').elements) input.checked = input.value === mode;
   $('blink-controls').hidden = mode !== 'blink';
   $('opacity-controls').hidden = mode !== 'onion';
 };
@@ -271,12 +269,11 @@ const address = () => {
   return `#case-${encodeURIComponent(item.name)}&mode=${mode}&a=${name(a)}&b=${name(b)}${at}`;
 };
 
-let remembering = 0;
+const addressLater = delayed();
 /** Puts what is shown into the address, some time after the last change. */
-const remember = () => {
-  clearTimeout(remembering);
-  remembering = setTimeout(() => history.replaceState(null, '', address()), 150);
-};
+const remember = () => addressLater(() => history.replaceState(null, '', address()), 150);
+/** What nobody chose is not in the address. */
+const forget = () => addressLater(() => {}, 0);
 
 const decodeWord = (text) => {
   try { return decodeURIComponent(text); } catch { return text; }
@@ -361,8 +358,7 @@ const open = async (item, settings = {}) => {
   if (isNew) Object.assign(state, { whole: false, split: null, cursor: firstDifferent(item), phase: 'A' });
   const [x, y] = (settings.px ?? '').split(',').map(Number);
   if (Number.isInteger(x) && Number.isInteger(y)) {
-    const inside = (v, low, high) => Math.min(high - 1, Math.max(low, v));
-    state.cursor = [inside(x, item.box[0], item.box[2]), inside(y, item.box[1], item.box[3])];
+    state.cursor = [clamp(x, item.box[0], item.box[2] - 1), clamp(y, item.box[1], item.box[3] - 1)];
   }
   $('lost').hidden = true;
   $('case-title').textContent = item.name;
@@ -390,10 +386,10 @@ const open = async (item, settings = {}) => {
 const follow = async (url) => {
   const found = parseAddress(url);
   if (!found) return;
-  clearTimeout(remembering);
+  forget();
   if (found.item || !state.item) await open(found.item ?? items[0], found.settings);
   if (found.lost) {
-    clearTimeout(remembering);
+    forget();
     $('lost').textContent = `${found.lost}; this is ${state.item.name}.`;
     $('lost').hidden = false;
   }
@@ -402,12 +398,6 @@ const follow = async (url) => {
 };
 
 // ---- Wiring ----
-
-const copy = async (pressed) => {
-  await copyText(pressed.parentElement.querySelector('code').textContent);
-  pressed.textContent = 'copied';
-  setTimeout(() => { pressed.textContent = 'copy'; }, 1500);
-};
 
 /** Another way to compare, chosen by the reader. */
 const choose = (mode) => {
@@ -427,33 +417,6 @@ const keyAnywhere = (event) => {
   else if (event.key === 'b') {
     if (state.mode === 'blink') setPaused(!state.paused);
     else { choose('blink'); setPaused(false); }
-  }
-};
-
-const foldTables = () => {
-  for (const table of all('table.counts')) {
-    const rows = all('tbody tr', table);
-    const more = rows.length - 6;
-    if (more < 3 || table.closest('details')) continue;
-    const folder = button('', () => fold(!table.classList.contains('folded')), { className: 'unfold' });
-    const fold = (folded) => {
-      table.classList.toggle('folded', folded);
-      folder.setAttribute('aria-expanded', String(!folded));
-      folder.textContent = folded ? `show all ${rows.length} rows` : 'show fewer';
-    };
-    fold(true);
-    table.parentElement.after(folder);
-  }
-};
-
-/** Bars beside the families in a table: the wrong pixels of each, as a share of the most. A press on the name shows its cases. */
-const drawBars = () => {
-  for (const table of all('table.counts')) {
-    const wrong = all('thead th', table).flatMap((head, i) => (head.textContent.includes(' : ') ? [i] : []));
-    const rows = all('tbody tr:has(button.find)', table);
-    const sums = rows.map(({ cells }) => wrong.reduce((sum, i) => sum + (parseInt(cells[i]?.textContent.replaceAll(',', ''), 10) || 0), 0));
-    const most = Math.max(...sums);
-    if (most > 0) rows.forEach(({ cells }, i) => { cells[0].style.setProperty('--share', `${(100 * sums[i]) / most}%`); });
   }
 };
 
@@ -493,11 +456,9 @@ const listen = () => {
 };
 
 const start = async () => {
-  foldTables();
-  drawBars();
   document.addEventListener('click', (event) => {
     const pressed = event.target.closest('button.copy');
-    if (pressed) copy(pressed);
+    if (pressed) copyText(pressed.parentElement.querySelector('code').textContent, pressed, 'copied');
     event.target.closest('.plot button')?.parentElement.classList.toggle('is-wide');
   });
   document.addEventListener('keydown', ({ key }) => { if (key === 'Escape') within('.plot.is-wide')?.classList.remove('is-wide'); });
@@ -513,11 +474,7 @@ const start = async () => {
   fillFilters();
   listen();
   if (parseAddress(location.href)) await follow(location.href);
-  else {
-    await open(items[0]);
-    // What nobody chose is not in the address.
-    clearTimeout(remembering);
-  }
+  else await open(items[0]).then(forget);
 };
 
 // For tests: the cases in which the rule, computed here at every pixel, differs from the oracle, and what the viewer saves.

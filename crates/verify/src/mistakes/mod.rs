@@ -265,7 +265,11 @@ impl Mistakes {
         }
         if self.is_known() {
             let more = self.causes.len().saturating_sub(MOST_SAID);
-            said.extend((more > 0).then(|| format!("{more} other causes explain the same.")));
+            said.extend(match more {
+                0 => None,
+                1 => Some("One other cause explains the same.".to_owned()),
+                _ => Some(format!("{more} other causes explain the same.")),
+            });
             said.extend(self.limits.iter().map(Threshold::to_string));
             return said;
         }

@@ -1,4 +1,5 @@
-//! The examples that the chapters work by hand, computed by the engines: their results are marked like other figures.
+//! The examples that the chapters work by hand, computed by the engines: pages name their results as they name other figures
+//! (`tests/it/pages.rs`).
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::angle::turn_z;
@@ -24,6 +25,39 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
 use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::convention::{Shape, TriangleConvention};
+
+/// What computes the numbers of an example.
+pub type Values = fn() -> Vec<f64>;
+
+/// Every example by the name that pages give it.
+pub const ALL: &[(&str, Values)] = &[
+    ("hand-square", square),
+    ("corner-square", corner_square),
+    ("hand-lines", lines),
+    ("hand-step", step),
+    ("hand-edges", edges),
+    ("hand-rows", rows),
+    ("hand-plane", plane),
+    ("hand-steps", steps),
+    ("hand-window", window),
+    ("hand-winding", winding),
+    ("hand-turns", turns),
+    ("hand-light", light),
+    ("hand-exercises", exercises),
+    ("hand-snapped", snapped),
+    ("hand-words", words),
+    ("hand-crossing", crossing),
+    ("hand-in-space", in_space),
+    ("hand-depths", depths),
+    ("hand-cut", cut),
+    ("hand-shares", shares),
+    ("hand-share-errors", share_errors),
+    ("hand-shadings", shadings),
+    ("hand-mixed", mixed),
+    ("hand-floor", floor),
+    ("hand-levels", levels),
+    ("hand-seam", seam),
+];
 
 const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 12, y1: 12 };
 
@@ -64,7 +98,7 @@ fn edge_functions(corners_px: [[f64; 2]; 3], [x, y]: [i32; 2], parts: f64) -> [f
 }
 
 /// Chapter 1: a square of 2.8 px, with samples in the centres, and in the corners of the pixels.
-pub fn square() -> Vec<f64> {
+fn square() -> Vec<f64> {
     let covered = |moved: f64| {
         let [low, high] = [0.6, 3.4].map(|v| v + moved);
         let halves =
@@ -83,7 +117,7 @@ pub fn square() -> Vec<f64> {
 }
 
 /// Chapter 2: the rows of a line by column, and the pixels of a steep one.
-pub fn lines() -> Vec<f64> {
+fn lines() -> Vec<f64> {
     let pixels = |to: [i32; 2]| {
         let ends = [[0, 0], to].map(|[x, y]| LineEnd {
             pixel: PixelPoint::new(x, y),
@@ -99,7 +133,7 @@ pub fn lines() -> Vec<f64> {
 }
 
 /// Chapter 3: the value after one of four steps.
-pub fn step() -> Vec<f64> {
+fn step() -> Vec<f64> {
     let end = |x, varying| LineEnd { pixel: PixelPoint::new(x, 0), depth: 0.0, varying };
     let mut found = Vec::new();
     Dda.draw(&ScreenLine { ends: [end(0, 2.0), end(4, 10.0)] }, WINDOW, |f| found.push(f.varying));
@@ -110,14 +144,14 @@ const UPPER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]];
 const LOWER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
 
 /// The edge functions of the upper triangle in half pixels, their sum, and the one on the diagonal in both triangles.
-pub fn edges() -> Vec<f64> {
+fn edges() -> Vec<f64> {
     let [second, third, first] = edge_functions(UPPER, [2, 1], 2.0);
     let ties = [edge_functions(UPPER, [1, 1], 2.0)[1], edge_functions(LOWER, [1, 1], 2.0)[2]];
     vec![first, second, third, first + second + third, ties[0], ties[1]]
 }
 
 /// The pixels of each row of both halves of a square, and of both together.
-pub fn rows() -> Vec<f64> {
+fn rows() -> Vec<f64> {
     let count = |triangle: [[f64; 2]; 3], row: i32| {
         values(triangle, [0.0; 3]).iter().filter(|([_, y], _)| *y == row).count() as f64
     };
@@ -130,7 +164,7 @@ pub fn rows() -> Vec<f64> {
 }
 
 /// Chapter 3: the value of a plane at a point, and the third exercise: edge functions, and the value.
-pub fn plane() -> Vec<f64> {
+fn plane() -> Vec<f64> {
     // Moved by half a pixel, so that the point is a centre.
     let value = value_at([[0.5, 0.5], [8.5, 0.5], [0.5, 8.5]], [100.0, 20.0, 60.0], [3, 3]);
     let triangle = [[1.0, 0.0], [5.0, 2.0], [0.0, 5.0]];
@@ -140,7 +174,7 @@ pub fn plane() -> Vec<f64> {
 }
 
 /// Chapter 5: the shares of the picture that four equal steps in space take.
-pub fn steps() -> Vec<f64> {
+fn steps() -> Vec<f64> {
     let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).unwrap();
     let picture = |t: f64| {
         let p = projection * DVec3::new(12.0 * t, 0.0, 1.0 + 2.0 * t).extend(1.0);
@@ -150,20 +184,20 @@ pub fn steps() -> Vec<f64> {
 }
 
 /// Chapter 8: where a point is in a window of 5 x 5 px.
-pub fn window() -> Vec<f64> {
+fn window() -> Vec<f64> {
     let p =
         frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).unwrap() * DVec3::new(2.0, 1.0, 4.0).extend(1.0);
     vec![(p.x / p.w + 1.0) / 2.0 * 5.0, (1.0 - p.y / p.w) / 2.0 * 5.0]
 }
 
 /// Chapter 9: twice the area of a triangle, which is the sum of its edge functions.
-pub fn winding() -> Vec<f64> {
+fn winding() -> Vec<f64> {
     vec![edge_functions([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]], [1, 1], 1.0).iter().sum()]
 }
 
 /// Chapter 1: the square of the specimen `games101-int`, with its samples in the corners and a right rule for edges. As in the
 /// published program, y points up, so that the lower left corner of a pixel is its sample.
-pub fn corner_square() -> Vec<f64> {
+fn corner_square() -> Vec<f64> {
     let halves = [[[2.5, 2.5], [10.5, 2.5], [10.5, 10.5]], [[2.5, 10.5], [2.5, 2.5], [10.5, 10.5]]];
     let corner = TriangleConvention {
         shape: Shape::Point { x: 0, y: SUBPIXELS },
@@ -190,7 +224,7 @@ fn height(a: [f64; 2], b: [f64; 2], x: f64) -> f64 {
 }
 
 /// Chapter 1: a snapped coordinate and how far it moved, the crack beside a snapped corner, and small coordinates in subpixels.
-pub fn snapped() -> Vec<f64> {
+fn snapped() -> Vec<f64> {
     let subpixels = f64::from(SUBPIXELS);
     let snapped = f64::from(SubpixelPoint::from_px(1.7, 0.0).unwrap().x) / subpixels;
     let diagonal = |x: f64| height([0.0, 0.0], [9.0, 5.0], x);
@@ -200,7 +234,7 @@ pub fn snapped() -> Vec<f64> {
 }
 
 /// Chapter 2b: the first side of a square box that does not fit 32 bits, and the widest box 16 px high that does, both in subpixels.
-pub fn words() -> Vec<f64> {
+fn words() -> Vec<f64> {
     let square = (1i32..).find(|side| side.checked_mul(*side).is_none()).unwrap();
     let fits = |width: &i64| (width + 256) * (16 * 256 + 256) < 1 << 31;
     let widest = (1..).take_while(fits).last().unwrap();
@@ -208,13 +242,13 @@ pub fn words() -> Vec<f64> {
 }
 
 /// Chapter 2c: where the long edge of the last exercise crosses row 5.
-pub fn crossing() -> Vec<f64> {
+fn crossing() -> Vec<f64> {
     // Columns and rows exchanged.
     vec![height([0.0, 0.0], [10.0, 3.0], 5.5)]
 }
 
 /// Chapter 5: the value at three quarters of an edge from w = 4 to w = 1, and the affine one.
-pub fn in_space() -> Vec<f64> {
+fn in_space() -> Vec<f64> {
     // The centre of pixel (3, 0) lies on the upper edge, which belongs to the triangle.
     let corners_px = [[0.5, 0.5], [4.5, 0.5], [0.5, 8.5]];
     let value = |w| {
@@ -239,7 +273,7 @@ fn depth_slope(near: f64, z: f64) -> f64 {
 
 /// Chapter 6: depths, the slope at distance 50, a step of 16 bits and its length there, the same for a near plane at half of the
 /// distance, the slope at the far plane, and how many steps of 0.01 it asks for.
-pub fn depths() -> Vec<f64> {
+fn depths() -> Vec<f64> {
     let step = 0.5f64.powi(16);
     let [slope, nearer, far] =
         [(1.0, 50.0), (0.5, 50.0), (1.0, 100.0)].map(|(near, z)| depth_slope(near, z));
@@ -248,12 +282,12 @@ pub fn depths() -> Vec<f64> {
 }
 
 /// Chapter 7: a value at a third of an edge, computed from the end that is farther away.
-pub fn cut() -> Vec<f64> {
+fn cut() -> Vec<f64> {
     vec![0.5 - 0.3 * (2.0 / 3.0)]
 }
 
 /// Chapter 10: scaled and moved, moved and scaled, and turned about another point.
-pub fn turns() -> Vec<f64> {
+fn turns() -> Vec<f64> {
     let (larger, moved) =
         (DMat4::from_scale(DVec3::splat(2.0)), DMat4::from_translation(DVec3::X * 3.0));
     let corner = DVec3::new(1.0, 1.0, 0.0);
@@ -264,7 +298,7 @@ pub fn turns() -> Vec<f64> {
 }
 
 /// Chapter 11: the brightness of a road, and of a place between two texels, by both filters.
-pub fn light() -> Vec<f64> {
+fn light() -> Vec<f64> {
     let light = Light { towards: DVec3::new(0.6, 0.8, 0.0), ambient: 0.0, diffuse: 1.0 };
     let texture =
         |filter| Texture::grey(4, 1, vec![10, 20, 30, 40]).unwrap().with(filter, Wrap::Repeat);
@@ -295,12 +329,12 @@ fn sampled_shares() -> [Vec<f64>; 4] {
 }
 
 /// The exact shares, then the sampled ones.
-pub fn shares() -> Vec<f64> {
+fn shares() -> Vec<f64> {
     [vec![row_of_shares(ExactArea, FLAT)], sampled_shares().to_vec()].concat().concat()
 }
 
 /// The root of the mean square of the errors of each choice.
-pub fn share_errors() -> Vec<f64> {
+fn share_errors() -> Vec<f64> {
     let exact = row_of_shares(ExactArea, FLAT);
     let error = |shares: &Vec<f64>| {
         let squares = shares.iter().zip(&exact).map(|(a, b)| (a - b).powi(2));
@@ -310,7 +344,7 @@ pub fn share_errors() -> Vec<f64> {
 }
 
 /// How often a colour is computed: once for each pixel with a covered sample, or for each covered sample of a grid.
-pub fn shadings() -> Vec<f64> {
+fn shadings() -> Vec<f64> {
     let [one, two, pattern, four] = sampled_shares();
     let touched = |shares: &[f64]| shares.iter().filter(|share| **share > 0.0).count() as f64;
     let samples = |shares: &[f64], each: f64| shares.iter().sum::<f64>() * each;
@@ -318,7 +352,7 @@ pub fn shadings() -> Vec<f64> {
 }
 
 /// The shares of pixel 2 of the triangles on both sides, and the white of 255 that is left when two black ones are mixed by them.
-pub fn mixed() -> Vec<f64> {
+fn mixed() -> Vec<f64> {
     let [first, second] = [FLAT, OTHER_SIDE].map(|side| row_of_shares(ExactArea, side)[2]);
     vec![first, second, 255.0 * (1.0 - first) * (1.0 - second)]
 }
@@ -365,7 +399,7 @@ impl Floor {
 }
 
 /// The lengths of the derivatives and the levels in some rows, the difference of two pixels, and how row 10 is read along its axis.
-pub fn floor() -> Vec<f64> {
+fn floor() -> Vec<f64> {
     let floor = Floor::new();
     let w = |row: i32| 100.0 / f64::from(row);
     let [across, along] = floor.footprint.lengths(floor.uv(10), w(10));
@@ -376,13 +410,13 @@ pub fn floor() -> Vec<f64> {
     let mut all = vec![across, along];
     all.extend(levels);
     all.extend(differences);
-    all.extend(differences.map(f64::log2));
+    all.extend(differences.map(libm::log2));
     all.extend([f64::from(taps.count), taps.level]);
     all
 }
 
 /// A row of eight texels at the levels 1 to 3 and at 1.5, and one of two islands at the levels 2 and 3.
-pub fn levels() -> Vec<f64> {
+fn levels() -> Vec<f64> {
     let row = |grey: [u8; 8]| Texture::grey(8, 1, grey.to_vec()).unwrap().with_mip_map();
     let read =
         |texture: &Texture, level: f64| texture.at_level(DVec2::new(0.1, 0.5), level).x * 255.0;
@@ -393,12 +427,14 @@ pub fn levels() -> Vec<f64> {
 }
 
 /// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
-pub fn seam() -> Vec<f64> {
-    [0.002 - 0.998, 1.002 - 0.998].map(|difference: f64| (difference * 256.0).abs().log2()).to_vec()
+fn seam() -> Vec<f64> {
+    [0.002 - 0.998, 1.002 - 0.998]
+        .map(|difference: f64| libm::log2((difference * 256.0).abs()))
+        .to_vec()
 }
 
 /// What the harder exercises of the chapters come to, in the order of the pages.
-pub fn exercises() -> Vec<f64> {
+fn exercises() -> Vec<f64> {
     // Chapter 1: the mean of squares, each at a place of its own, and a triangle that vanishes.
     let side = 2.8_f64;
     let part = side.fract();
@@ -452,7 +488,7 @@ pub fn exercises() -> Vec<f64> {
         cosine(DVec2::new(1.0, 4.0)),
         cosine(DVec2::new(4.0, 1.0)),
         mean_of_60.length(),
-        2.0 * 0.95f64.acos().to_degrees(),
+        2.0 * libm::acos(0.95).to_degrees(),
     ]
 }
 
