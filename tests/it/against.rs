@@ -18,7 +18,10 @@ fn programs_that_draw_the_same_do_not_differ() {
     ] {
         let verdict = compared(first, second, &[]);
         assert!(verdict.agrees(), "{first} {second}: {:?}", verdict.failures);
-        assert!(verdict.shapes(Shapes::Triangles) + verdict.shapes(Shapes::Lines) > 200, "{first} {second}");
+        assert!(
+            verdict.shapes(Shapes::Triangles) + verdict.shapes(Shapes::Lines) > 200,
+            "{first} {second}"
+        );
         let is_wrong = first == "games101-strict";
         assert_eq!(verdict.sides().same_but_wrong > 0, is_wrong, "{first}: {:?}", verdict.sides());
     }

