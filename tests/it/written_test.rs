@@ -181,7 +181,7 @@ fn every_kind_of_pixel_is_tested() {
 }
 
 /// An engine that draws otherwise than is declared, and a function that draws as it does or as it should.
-struct Declared {
+struct WrongDeclaration {
     engine: &'static str,
     family: &'static str,
     declares: &'static str,
@@ -197,20 +197,20 @@ fn wide_lines_and_shares_are_tested() {
         return;
     }
     let all = [
-        Declared {
+        WrongDeclaration {
             engine: "wide-rectangles",
             family: "wide-line",
             declares: "wide=parallelogram rule=none",
             bodies: include_str!("../data/written-test/wide.py.txt"),
         },
-        Declared {
+        WrongDeclaration {
             engine: "area",
             family: "area",
             declares: "levels=100",
             bodies: include_str!("../data/written-test/area.py.txt"),
         },
     ];
-    for Declared { engine, family, declares, bodies } in all {
+    for WrongDeclaration { engine, family, declares, bodies } in all {
         let folder = Folder::new(&format!("written-test-{family}"));
         let command = |name: &str| {
             let judge = ["judge", "--cases", "40", "--family", family, "--declare", declares];
