@@ -40,6 +40,11 @@ typedef void (*rasterproof_set_samples)(int x, int y, int mask);
 typedef void (*rasterproof_samples)(double x0, double y0, double x1, double y1, double x2, double y2,
                                     int width, int height, rasterproof_set_samples set_pixel);
 
+/* Gives samples of one pixel the same values: bit s of the mask is sample s. */
+typedef void (*rasterproof_set_sampled)(int x, int y, int mask, double z, double a, double b);
+typedef void (*rasterproof_sample_values)(const struct rasterproof_corner corners[3], int width, int height,
+                                          rasterproof_set_sampled set_samples);
+
 /* A corner for depth order: position in pixels, depth. */
 struct rasterproof_point { double x, y, z; };
 /* Shows triangle t, counted from 0, at one pixel; outside the window it does nothing. */
@@ -76,6 +81,7 @@ struct rasterproof_drawers {
     rasterproof_wide_line wide_line;
     /* The share of each pixel that is covered: the mask is a level, and 255 a pixel that is covered whole. */
     rasterproof_samples area;
+    rasterproof_sample_values sample_values;
 };
 
 enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
@@ -108,6 +114,12 @@ static void rasterproof_hit_pixel(int x, int y) { rasterproof_hit_values(x, y, 0
 static void rasterproof_hit_samples(int x, int y, int mask) {
     int before = rasterproof_plane.count;
     if (mask) rasterproof_hit_values(x, y, 0, 0, 0);
+    if (rasterproof_plane.count > before) rasterproof_plane.hits[before].mask = mask;
+}
+
+static void rasterproof_hit_sampled(int x, int y, int mask, double z, double a, double b) {
+    int before = rasterproof_plane.count;
+    rasterproof_hit_values(x, y, z, a, b);
     if (rasterproof_plane.count > before) rasterproof_plane.hits[before].mask = mask;
 }
 
@@ -160,12 +172,15 @@ static void rasterproof_write_line(FILE *out, const char *id) {
         fprintf(out, " %d %d", rasterproof_plane.hits[i].x, rasterproof_plane.hits[i].y);
 }
 
-static void rasterproof_write_values(FILE *out, const char *id) {
+/* Pixels with their values, or samples with theirs. */
+static void rasterproof_write_values(FILE *out, char letter, const char *id) {
     int i;
-    fprintf(out, "F %s %d", id, rasterproof_plane.count);
+    fprintf(out, "%c %s %d", letter, id, rasterproof_plane.count);
     for (i = 0; i < rasterproof_plane.count; i++) {
         const struct rasterproof_hit *hit = &rasterproof_plane.hits[i];
-        fprintf(out, " %d %d %.17g %.17g %.17g", hit->x, hit->y, hit->z, hit->a, hit->b);
+        fprintf(out, " %d %d", hit->x, hit->y);
+        if (letter == 'U') fprintf(out, " %d", hit->mask);
+        fprintf(out, " %.17g %.17g %.17g", hit->z, hit->a, hit->b);
     }
 }
 
@@ -214,8 +229,8 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
     const char *high = strstr(declares, "window=");
     const char verb = words[0][0];
     /* Of each corner the first two numbers are positions. */
-    const int size = verb == 'I' ? 6 : verb == 'D' ? 3 : 2;
-    int i, numbers = verb == 'I' ? 18 : verb == 'L' ? 4 : verb == 'W' ? 5 : 6;
+    const int has_values = verb == 'I' || verb == 'X', size = has_values ? 6 : verb == 'D' ? 3 : 2;
+    int i, numbers = has_values ? 18 : verb == 'L' ? 4 : verb == 'W' ? 5 : 6;
     if (verb == 'D') numbers = count < 13 ? 9 : (count - 4) / 9 * 9;
     if (high && (high = strchr(high, 'x')) != NULL) most_high = strtod(high + 1, NULL);
     if (count != numbers + 4) {
@@ -257,14 +272,15 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
             point->x = v[2 + 3 * i], point->y = v[3 + 3 * i], point->z = v[4 + 3 * i];
         }
         drawers->depth((const struct rasterproof_point (*)[3])triangles, numbers / 9, (int)v[0], (int)v[1], rasterproof_hit_seen);
-    } else if (verb == 'I') {
+    } else if (has_values) {
         struct rasterproof_corner corners[3];
         for (i = 0; i < 3; i++) {
             const double *at = v + 2 + 6 * i;
             corners[i].x = at[0], corners[i].y = at[1], corners[i].z = at[2];
             corners[i].w = at[3], corners[i].a = at[4], corners[i].b = at[5];
         }
-        drawers->values(corners, (int)v[0], (int)v[1], rasterproof_hit_values);
+        if (verb == 'I') drawers->values(corners, (int)v[0], (int)v[1], rasterproof_hit_values);
+        else drawers->sample_values(corners, (int)v[0], (int)v[1], rasterproof_hit_sampled);
     } else
         drawers->line((int)floor(v[2]), (int)floor(v[3]), (int)floor(v[4]), (int)floor(v[5]), (int)v[0], (int)v[1],
              rasterproof_hit_pixel);
@@ -303,9 +319,9 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
                                 (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
                                 (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip) ||
                                 (verb[0] == 'A' && drawers->clip_attributes) || (verb[0] == 'W' && drawers->wide_line) ||
-                                (verb[0] == 'R' && drawers->area));
+                                (verb[0] == 'R' && drawers->area) || (verb[0] == 'X' && drawers->sample_values));
     if (strcmp(verb, "HELLO") == 0) {
-        char known[100] = "";
+        char known[120] = "";
         if (drawers->triangle) strcat(known, " coverage");
         if (drawers->line) strcat(known, " line");
         if (drawers->values) strcat(known, " attributes");
@@ -315,6 +331,7 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         if (drawers->clip_attributes) strcat(known, " clip-attributes");
         if (drawers->wide_line) strcat(known, " wide-line");
         if (drawers->area) strcat(known, " area");
+        if (drawers->sample_values) strcat(known, " sample-values");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -326,7 +343,7 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     else if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
     else if (verb[0] == 'T' || verb[0] == 'W') rasterproof_write_runs(out, id);
-    else if (verb[0] == 'I') rasterproof_write_values(out, id);
+    else if (verb[0] == 'I' || verb[0] == 'X') rasterproof_write_values(out, verb[0] == 'I' ? 'F' : 'U', id);
     else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);
     else if (verb[0] == 'D') rasterproof_write_marked(out, 'V', id);
     else if (verb[0] == 'R') rasterproof_write_marked(out, 'K', id);
@@ -356,7 +373,7 @@ static int rasterproof_serve_all(const char *name, const char *declares, struct 
 
 /* The same for a program that draws triangles and lines alone. */
 static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
-    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
     return rasterproof_serve_all(name, declares, drawers);
 }
 

@@ -44,6 +44,7 @@ static void line(int x0, int y0, int x1, int y1, int width, int height, rasterpr
 
 // What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them. And verbs
 // W and R: a rasterproof_wide_line, which draws a line with a width, and a rasterproof_samples whose masks are levels from 0 to 255.
+// And verb X: a rasterproof_sample_values, which gives covered samples their values.
 static const rasterproof_values values = nullptr;
 static const rasterproof_samples samples = nullptr;
 static const rasterproof_depth depth = nullptr;
@@ -51,10 +52,11 @@ static const rasterproof_clip clip = nullptr;
 static const rasterproof_clip_attributes clip_attributes = nullptr;
 static const rasterproof_wide_line wide_line = nullptr;
 static const rasterproof_samples area = nullptr;
+static const rasterproof_sample_values sample_values = nullptr;
 
 // ---- the line protocol ----
 
 int main() {
     return rasterproof_serve_all("mine", "batch=64",
-                                 {triangle, line, values, samples, depth, clip, clip_attributes, wide_line, area});
+                                 {triangle, line, values, samples, depth, clip, clip_attributes, wide_line, area, sample_values});
 }

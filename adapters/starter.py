@@ -46,8 +46,9 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
 
 # What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them. And verb W:
 # wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel), set_pixel(x, y) for every pixel of a line with a width. And verb R:
-# area, as triangle, with set_pixel(x, y, level), where 255 is a pixel that is covered whole.
-values = samples = depth = clip = clip_attributes = wide_line = area = None
+# area, as triangle, with set_pixel(x, y, level), where 255 is a pixel that is covered whole. And verb X: sample_values, as values,
+# with set_samples(x, y, mask, z, a, b) for covered samples that have the same values (say where in DECLARES: "values-at=sample").
+values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = None
 
 
 # ---- the line protocol: nothing to change from here on ----
@@ -96,11 +97,11 @@ def number(word, is_coordinate=True):
 
 def answer(words):
     verb, id = words[0], words[1] if len(words) > 1 else "-"
-    wide, shares = (globals().get(name) for name in ("wide_line", "area"))
+    wide, shares, sampled = (globals().get(name) for name in ("wide_line", "area", "sample_values"))
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
         more = {"attributes": values, "samples4": samples, "depth": depth, "clip": clip}
-        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares})
+        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares, "sample-values": sampled})
         known += "".join(f" {word}" for word, has in more.items() if has is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
@@ -109,7 +110,7 @@ def answer(words):
         }.get(tuple(words[1:]), "E - say HELLO 1 or HELLO 2")
     verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
     verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G"), "A": (clip_attributes, 15, "B")})
-    verbs.update({"W": (wide, 5, "C"), "R": (shares, 6, "K")})
+    verbs.update({"W": (wide, 5, "C"), "R": (shares, 6, "K"), "X": (sampled, 18, "U")})
     draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
@@ -121,13 +122,13 @@ def answer(words):
         if not all(1 <= side <= MOST_SIDE for side in sides):
             raise Refused(f"the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}")
         # Of each corner the first two are coordinates of the window.
-        size = {"I": 6, "D": 3}.get(verb, 2)
+        size = {"I": 6, "X": 6, "D": 3}.get(verb, 2)
         numbers = [number(word, verb not in "NA" and i % size < 2) for i, word in enumerate(words[first:])]
         if verb in "TW":
             found = runs(drawn(draw, numbers, *sides))
-        elif verb == "I":
+        elif verb in "IX":
             hits = drawn(draw, [[numbers[0:6], numbers[6:12], numbers[12:18]]], *sides)
-            found = [(x, y, float(z), float(a), float(b)) for y, x, z, a, b in hits]
+            found = [(x, y, *map(operator.index, more[:-3]), *map(float, more[-3:])) for y, x, *more in hits]
         elif verb == "D":
             corners = [numbers[i : i + 3] for i in range(0, count, 3)]
             triangles = [corners[i : i + 3] for i in range(0, count // 3, 3)]

@@ -69,6 +69,8 @@ const CLIP: Option<Clip<4>> = None;
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
+/// And verb X, as I, with values for each covered sample: see SampleValues.
+const SAMPLE_VALUES: Option<SampleValues> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -78,6 +80,13 @@ type Values = fn(
     width: i32,
     height: i32,
     set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]),
+);
+/// The same; set_samples(x, y, mask, [z, a, b]) for covered samples of a pixel that have the same values.
+type SampleValues = fn(
+    corners: [[f64; 6]; 3],
+    width: i32,
+    height: i32,
+    set_samples: &mut dyn FnMut(i32, i32, u8, [f64; 3]),
 );
 /// Corners in pixels; set_pixel(x, y, mask), bit s of the mask is sample s.
 type Samples =
@@ -163,7 +172,7 @@ fn draw(words: &[&str]) -> Result<String, String> {
     let count = match verb {
         "L" => 4,
         "W" => 5,
-        "I" => 18,
+        "I" | "X" => 18,
         "D" => (words.len().saturating_sub(4) / 9).max(1) * 9,
         _ => 6,
     };
@@ -176,7 +185,7 @@ fn draw(words: &[&str]) -> Result<String, String> {
     };
     let is_position = |i: usize| {
         i % match verb {
-            "I" => 6,
+            "I" | "X" => 6,
             "D" => 3,
             _ => 2,
         } < 2
@@ -203,6 +212,16 @@ fn draw(words: &[&str]) -> Result<String, String> {
         let hits = drawn(width, height, |set| values(corners, width, height, set))?;
         let group = |(y, x, [z, a, b]): (i32, i32, [f64; 3])| vec![x.into(), y.into(), z, a, b];
         ("F", hits.into_iter().map(group).collect())
+    } else if let ("X", Some(values)) = (verb, SAMPLE_VALUES) {
+        let corner = |i: usize| std::array::from_fn(|n| v[6 * i + n]);
+        let corners = [corner(0), corner(1), corner(2)];
+        let hits = drawn(width, height, |set| {
+            values(corners, width, height, &mut |x, y, mask, values| set(x, y, (mask, values)));
+        })?;
+        let group = |(y, x, (mask, [z, a, b])): (i32, i32, (u8, [f64; 3]))| {
+            vec![x.into(), y.into(), mask.into(), z, a, b]
+        };
+        ("U", hits.into_iter().map(group).collect())
     } else if let ("D", Some(depth)) = (verb, DEPTH) {
         let corners: Vec<[f64; 3]> = v.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
         let triangles: Vec<_> = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
@@ -255,6 +274,7 @@ fn answer(words: &[&str]) -> String {
     let more = [VALUES.is_some(), SAMPLES.is_some(), DEPTH.is_some(), CLIP.is_some()];
     let [values, samples, depth, clip] = more;
     let (carries, wide, area) = (CLIP_ATTRIBUTES.is_some(), WIDE_LINE.is_some(), AREA.is_some());
+    let sampled = SAMPLE_VALUES.is_some();
     let has = [
         (HAS_LINES, " line"),
         (values, " attributes"),
@@ -264,6 +284,7 @@ fn answer(words: &[&str]) -> String {
         (carries, " clip-attributes"),
         (wide, " wide-line"),
         (area, " area"),
+        (sampled, " sample-values"),
     ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
@@ -276,7 +297,7 @@ fn answer(words: &[&str]) -> String {
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         [verb, ..]
-            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area)]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area), ("X", sampled)]
                 .contains(&(*verb, true)) =>
         {
             draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))

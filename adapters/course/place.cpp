@@ -39,4 +39,5 @@ static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corne
 static const rasterproof_clip_attributes clip_attributes = nullptr;
 static const rasterproof_wide_line wide_line = nullptr;
 static const rasterproof_samples area = nullptr;
+static const rasterproof_sample_values sample_values = nullptr;
 

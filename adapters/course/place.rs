@@ -9,6 +9,7 @@ const CLIP: Option<Clip<4>> = Some(clip);
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
+const SAMPLE_VALUES: Option<SampleValues> = None;
 
 /// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a).
 fn line(

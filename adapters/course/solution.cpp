@@ -117,6 +117,7 @@ static void depth(const rasterproof_point (*triangles)[3], int count, int width,
 
 static const rasterproof_wide_line wide_line = nullptr;
 static const rasterproof_samples area = nullptr;
+static const rasterproof_sample_values sample_values = nullptr;
 
 static void clip_attributes(const rasterproof_carried_corner corners[3], rasterproof_add_carried add_corner) {
     for (int i = 0; i < 3; i++) {

@@ -79,6 +79,7 @@ const CLIP: Option<Clip<4>> = Some(clip);
 const CLIP_ATTRIBUTES: Option<Clip<5>> = Some(clip);
 const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
+const SAMPLE_VALUES: Option<SampleValues> = None;
 
 fn line(
     from: (i32, i32),

@@ -317,7 +317,7 @@ impl Run<'_> {
         };
         let families = cases::families().filter(is_judged);
         let limits = Limits::default();
-        DesignShare::of_families(families, options.seed, &options.numbers(), &limits)
+        DesignShare::of_families(families, options.seed, |_| options.numbers(), &limits)
     }
 
     /// The verdict; where the cause is known, it says which engine is wrong and why.

@@ -1,7 +1,7 @@
 //! Two programs compared: where they differ, and which of them the oracle agrees with.
 
 use rasterproof_judge::against::compare;
-use rasterproof_judge::verdict::{Scores as _, Verdict};
+use rasterproof_judge::verdict::{Scores as _, Shapes, Verdict};
 
 use crate::judge::{inside, options};
 
@@ -18,7 +18,10 @@ fn programs_that_draw_the_same_do_not_differ() {
     ] {
         let verdict = compared(first, second, &[]);
         assert!(verdict.agrees(), "{first} {second}: {:?}", verdict.failures);
-        assert!(verdict.shapes(false) + verdict.shapes(true) > 200, "{first} {second}");
+        assert!(
+            verdict.shapes(Shapes::Triangles) + verdict.shapes(Shapes::Lines) > 200,
+            "{first} {second}"
+        );
         let is_wrong = first == "games101-strict";
         assert_eq!(verdict.sides().same_but_wrong > 0, is_wrong, "{first}: {:?}", verdict.sides());
     }

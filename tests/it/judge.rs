@@ -13,7 +13,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::expected::Expect as _;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::verdict::{Outcome, Scores as _, Verdict};
+use rasterproof_judge::verdict::{Outcome, Scores as _, Shapes, Verdict};
 use rasterproof_judge::{Asking, Options, judge};
 use rasterproof_program::{Limits, Program};
 use rasterproof_registry::engines::{self, SPECIMENS};
@@ -72,7 +72,7 @@ fn judge_agrees_with_the_engines() {
         let failures: Vec<_> =
             verdict.failures.iter().map(|f| (&f.evidence.property, &f.what)).collect();
         assert!(verdict.agrees(), "{name}: {failures:?}");
-        assert!(verdict.shapes(false) + verdict.shapes(true) > 200, "{name}");
+        assert!(verdict.shapes(Shapes::Triangles) + verdict.shapes(Shapes::Lines) > 200, "{name}");
     }
 }
 

@@ -2612,7 +2612,9 @@ fn mistakes_beyond_small_windows_are_found() {
     );
     let wrong: Vec<_> =
         verdict.families.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
-    assert_eq!(wrong, ["wide-window"]);
+    // The design has such windows, too.
+    assert!(wrong.contains(&"wide-window"), "{wrong:?}");
+    assert!(wrong.iter().all(|name| ["design", "wide-window"].contains(name)), "{wrong:?}");
     let said: Vec<_> = verdict.cause.iter().flat_map(|cause| cause.why.sentences()).collect();
     let said = said.join(" ");
     assert!(said.contains("triangles are wrong from column 256 on"), "{said}");

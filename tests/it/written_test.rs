@@ -179,3 +179,63 @@ fn every_kind_of_pixel_is_tested() {
         run.shows("fill in ");
     }
 }
+
+/// An engine that draws otherwise than is declared, and a function that draws as it does or as it should.
+struct WrongDeclaration {
+    engine: &'static str,
+    family: &'static str,
+    declares: &'static str,
+    bodies: &'static str,
+}
+
+/// The same of lines with a width and of shares of pixels.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn wide_lines_and_shares_are_tested() {
+    if !has("python3") {
+        eprintln!("skipped: no python3");
+        return;
+    }
+    let all = [
+        WrongDeclaration {
+            engine: "wide-rectangles",
+            family: "wide-line",
+            declares: "wide=parallelogram rule=none",
+            bodies: include_str!("../data/written-test/wide.py.txt"),
+        },
+        WrongDeclaration {
+            engine: "area",
+            family: "area",
+            declares: "levels=100",
+            bodies: include_str!("../data/written-test/area.py.txt"),
+        },
+    ];
+    for WrongDeclaration { engine, family, declares, bodies } in all {
+        let folder = Folder::new(&format!("written-test-{family}"));
+        let command = |name: &str| {
+            let judge = ["judge", "--cases", "40", "--family", family, "--declare", declares];
+            let rest = ["--write-test", name, "--", PROGRAM, "engine", engine];
+            judge.into_iter().chain(rest).map(str::to_owned).collect::<Vec<_>>()
+        };
+        folder.check(command("a_test.py"), 1);
+        let text = folder.text("a_test.py");
+        assert!(text.contains("def test_"), "{text}");
+        for (word, passes) in [("True", true), ("False", false)] {
+            let run = result(&folder, &LANGUAGES[0], &filled(&text, bodies, word));
+            assert_eq!(run.status == Some(0), passes, "{engine}: {run}");
+        }
+        // In the other languages the same cases compile.
+        for language in &LANGUAGES[2..] {
+            let tool = language.build.first().unwrap_or(&language.run[0]);
+            if !has(tool) {
+                eprintln!("skipped: no {tool}");
+                continue;
+            }
+            let name = format!("a_test.{}", language.ending);
+            folder.check(command(&name), 1);
+            let run = result(&folder, language, &folder.text(&name));
+            assert!(run.status != Some(0), "{run}");
+            run.shows("fill in ");
+        }
+    }
+}

@@ -313,6 +313,21 @@ pub struct WideLine {
 }
 
 crate::named! {
+    /// At which point of a pixel the values of its samples are computed.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum ValuePlace {
+        /// At the centre, also where the triangle does not cover it: values are extrapolated there.
+        #[default]
+        Centre = "centre",
+        /// Each sample at its own place.
+        Sample = "sample",
+        /// At the centre where all samples are covered, and else at the covered sample with the least number: the rule of
+        /// Direct3D 11 (functional specification, section 3.5.4).
+        Centroid = "centroid",
+    }
+}
+
+crate::named! {
     /// How a segment with a width becomes a polygon, by the clause of Vulkan on line segments.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub enum WideForm {

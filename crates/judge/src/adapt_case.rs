@@ -5,10 +5,14 @@
 //! where the grid holds the sample. The protocol's windows begin at the origin, so the family `far`,
 //! whose windows do not, is left out.
 
+use std::ops::Range;
+
+use super::Options;
 use super::declared::Declared;
 use rasterproof_core::geometry::is_disjoint;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::facts::Topic;
 use rasterproof_verify::cases::{self, Case, Family, Limits, Shape};
 
 /// Families whose danger are ties come first, values and far coordinates last.
@@ -36,6 +40,14 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
 
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
+}
+
+/// The numbers of the cases of a family: a design of many classes has more of them, so that nearly all of its triples are asked.
+#[must_use]
+pub fn numbers(options: &Options, design: Option<&Topic>) -> Range<u64> {
+    let Range { start, end } = options.numbers();
+    let blocks = design.filter(|_| options.only.is_none()).map_or(1, Topic::blocks);
+    start..end.saturating_mul(blocks)
 }
 
 #[must_use]

@@ -50,6 +50,8 @@ pub enum Asked {
     Area(Corners),
     /// W: the pixels of a line with a width.
     Wide(WideLine),
+    /// X: the samples of a triangle, with values.
+    SampleValues(Triangle),
     /// Y: the triangles of a polygon; the window has no part in it.
     Polygon(Polygon),
 }
@@ -67,13 +69,14 @@ impl Asked {
             Self::Carried(_) => b"AB",
             Self::Wide(_) => b"WC",
             Self::Area(_) => b"RK",
+            Self::SampleValues(_) => b"XU",
             Self::Polygon(_) => b"YZ",
         }
     }
 }
 
 /// The letters that answers begin with, of every verb.
-pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKGBZE";
+pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKUGBZE";
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
@@ -89,6 +92,8 @@ pub enum Answer {
     Seen(Vec<(Span, u8)>),
     /// K: runs of pixels, with the level of each.
     Area(Vec<(Span, u8)>),
+    /// U: samples of pixels with their values.
+    SampleValues(Vec<SampledValues>),
     /// G: corners of a polygon, their attributes 0.
     Polygon(Vec<ClipCorner>),
     /// B: corners of a polygon with attributes.
@@ -101,6 +106,13 @@ pub enum Answer {
     Two(Box<[Self; 2]>),
     /// No answer: the program had to be started again.
     Died(Misbehaviour),
+}
+
+/// Some samples of a pixel, as a mask, and the values that all of them have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledValues {
+    pub mask: u8,
+    pub values: Fragment<DVec2>,
 }
 
 impl Answer {
@@ -132,6 +144,7 @@ impl Answer {
             Self::Coverage(runs) => runs.is_empty(),
             Self::Values(fragments) => fragments.is_empty(),
             Self::Samples(runs) | Self::Seen(runs) | Self::Area(runs) => runs.is_empty(),
+            Self::SampleValues(samples) => samples.is_empty(),
             Self::Line(pixels) => pixels.is_empty(),
             Self::Polygon(corners) | Self::Carried(corners) => corners.is_empty(),
             Self::Triangles(triangles) => triangles.is_empty(),
@@ -294,7 +307,7 @@ impl Question {
             Asked::Coverage(corners) | Asked::Samples(corners) | Asked::Area(corners) => {
                 corners.iter().for_each(|p| add(&at(*p)));
             }
-            Asked::Values(triangle) => {
+            Asked::Values(triangle) | Asked::SampleValues(triangle) => {
                 for v in &triangle.vertices {
                     add(&at(v.position));
                     add(&[v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y]);
@@ -366,6 +379,7 @@ impl Question {
             Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
             Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
             Asked::Area(_) => Answer::Area(each(n, words, marked)?),
+            Asked::SampleValues(_) => Answer::SampleValues(each(n, words, sampled)?),
             Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
             Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
                 Some([w.float()?, w.float()?, w.float()?, w.float()?, 0.0])
@@ -411,6 +425,13 @@ fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
     Some(Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) })
+}
+
+fn sampled(words: &mut Words<'_>) -> Option<SampledValues> {
+    let (x_px, y_px) = (words.int()?, words.int()?);
+    let mask = words.int().and_then(|mask| u8::try_from(mask).ok())?;
+    let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
+    Some(SampledValues { mask, values: Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) } })
 }
 
 /// The answer as a line of the protocol, cut where it gets long.
@@ -462,6 +483,12 @@ pub fn line(answer: &Answer, id: u64) -> String {
                 format!("{} {} {} {} {}", f.x_px, f.y_px, f.depth, f.varying.x, f.varying.y)
             };
             list('F', fragments.iter().map(one).collect())
+        }
+        Answer::SampleValues(samples) => {
+            let one = |SampledValues { mask, values: f }: &SampledValues| {
+                format!("{} {} {mask} {} {} {}", f.x_px, f.y_px, f.depth, f.varying.x, f.varying.y)
+            };
+            list('U', samples.iter().map(one).collect())
         }
         Answer::Refused(reason) => format!("E {id} {reason}"),
         Answer::Two(both) => line(&both[0], id),

@@ -19,16 +19,18 @@ pub(super) fn asked(options: &Options, rows: &[Row], declared: &Declared) -> Vec
     let is_asked = |family: &&'static Family| {
         let Some(topic) = family.design() else { return false };
         // What is counted over all families has a row of its own.
-        let check = match topic.name {
-            name if name == facts::values::TOPIC.name => Some(Check::Values),
-            name if name == facts::samples::TOPIC.name => Some(Check::Samples),
-            name if name == facts::near::TOPIC.name => Some(Check::Carried),
-            _ => None,
+        let checks: &[Check] = match topic.name {
+            name if name == facts::values::TOPIC.name => &[Check::Values, Check::SampleValues],
+            name if name == facts::samples::TOPIC.name => &[Check::Samples],
+            name if name == facts::near::TOPIC.name => &[Check::Carried],
+            _ => &[],
         };
-        let is_judged =
-            |row: &&Row| row.name == family.name || (check.is_some() && row.check == check);
+        let is_judged = |row: &&Row| {
+            row.name == family.name || row.check.is_some_and(|check| checks.contains(&check))
+        };
         rows.iter().filter(is_judged).any(|row| !row.stopped)
     };
     let families = adapt_case::families(&options.families).into_iter().filter(is_asked);
-    DesignShare::of_families(families, options.seed, &options.numbers(), &limits)
+    let numbers = |topic: &_| adapt_case::numbers(options, Some(topic));
+    DesignShare::of_families(families, options.seed, numbers, &limits)
 }

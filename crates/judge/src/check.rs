@@ -11,9 +11,9 @@ use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
 use super::judged::{CaseJudgement, push};
-use super::pixels::{length, masks_of, mesh_of, painted, picture_of, pixel_of};
-use super::{adapt_case, difference, mesh, near_plane, outline};
-use rasterproof_core::frame::Coverage;
+use super::pixels::{length, mesh_of, painted, picture_of, pixel_of};
+use super::{adapt_case, difference, mesh, near_plane, outline, sample_values};
+use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
@@ -38,6 +38,8 @@ pub enum Check {
     Values,
     /// Four samples a pixel against the oracle's.
     Samples,
+    /// The same with values: of some samples against exact ones.
+    SampleValues,
     /// Which of several triangles is seen, against exact depths.
     Depth,
     /// What the near plane leaves of a triangle, against exact corners.
@@ -130,7 +132,7 @@ impl Check {
     pub fn counted(self) -> Counted {
         match self {
             Self::Coverage | Self::Line | Self::Values | Self::Wide => Counted::Pixels,
-            Self::Samples => Counted::Samples,
+            Self::Samples | Self::SampleValues => Counted::Samples,
             Self::Depth => Counted::Seen,
             Self::Near | Self::Carried => Counted::Corners,
             Self::Order | Self::Direction => Counted::Changes,
@@ -156,7 +158,7 @@ impl Check {
             }
             Self::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
             Self::Order | Self::Direction => vec![(missing + extra + twice, "pixels differ")],
-            Self::Samples => {
+            Self::Samples | Self::SampleValues => {
                 vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
             }
             Self::Area => vec![
@@ -235,6 +237,7 @@ impl Check {
             Self::Values => "values",
             Self::Carried => "clip-attributes",
             Self::Samples => "samples4",
+            Self::SampleValues => "sample-values",
             Self::Order => "vertex-order",
             Self::Watertight => "watertight",
             Self::Direction => "line-direction",
@@ -282,14 +285,21 @@ impl Check {
         match Self::made_for(family.name, declared) {
             Some(checks) => !checks.is_empty(),
             None if adapt_case::is_lines(family) => declared.line,
-            None => declared.coverage || declared.attributes || declared.answers_samples(),
+            None => {
+                declared.coverage
+                    || declared.attributes
+                    || declared.answers_samples()
+                    || declared.answers_sample_values()
+            }
         }
     }
 
     /// The checks of a case of one program: one that every case has, and others that some have.
     #[must_use]
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
-        if let Some(checks) = Self::made_for(family, declared) {
+        if let Some(mut checks) = Self::made_for(family, declared) {
+            let has_places = case.triangles().iter().all(has_places);
+            checks.retain(|check| *check != Self::Samples || has_places);
             // Exact depths of overlapping triangles are dear, and a design leaves no case out.
             let every = match family {
                 "depth-order" => 4,
@@ -306,6 +316,11 @@ impl Check {
                 let is_perspective = family.starts_with("w-");
                 if declared.attributes && (is_perspective || index % 8 == 3) {
                     checks.push(Self::Values);
+                }
+                let has_places = list.iter().all(has_places);
+                let has_turn = is_perspective || index % 8 == 5;
+                if declared.answers_sample_values() && has_turn && has_places {
+                    checks.push(Self::SampleValues);
                 }
                 if declared.coverage && !is_perspective {
                     checks.push(Self::Coverage);
@@ -327,7 +342,8 @@ impl Check {
                         checks.push(Self::Watertight);
                     }
                 }
-                if declared.answers_samples() && index % 8 == 1 && !is_perspective {
+                let has_turn = index % 8 == 1 && !is_perspective;
+                if declared.answers_samples() && has_turn && has_places {
                     checks.push(Self::Samples);
                 }
             }
@@ -367,6 +383,7 @@ impl Check {
             (Shape::Triangles { list, .. }, check) => out.extend(list.iter().map(|t| {
                 ask(match check {
                     Self::Values => Asked::Values(*t),
+                    Self::SampleValues => Asked::SampleValues(*t),
                     Self::Samples => Asked::Samples(t.corners()),
                     Self::Near => Asked::Near(*t),
                     Self::Carried => Asked::Carried(*t),
@@ -494,7 +511,7 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
     };
     let declared = &of_two[0].declared;
     for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
-        if first == second {
+        if first.is_same(second) {
             continue;
         }
         let triangle = match &case.shape {
@@ -504,6 +521,11 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
         difference::difference(&mut judged, [first, second], triangle, case.window, declared);
     }
     judged
+}
+
+/// Whether all samples have places: not where a corner lies at the very end of the domain.
+fn has_places(triangle: &Triangle) -> bool {
+    multisample::SAMPLES.iter().all(|sample| multisample::moved(triangle, *sample).is_some())
 }
 
 /// The triangle turned over where this winding alone is drawn and it has the other.
@@ -526,7 +548,7 @@ fn one_triangle(
     let corners = triangle.corners();
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     judged.shapes += 1;
-    if !matches!(answer, Answer::Samples(_) | Answer::Area(_)) {
+    if !matches!(answer, Answer::Samples(_) | Answer::SampleValues(_) | Answer::Area(_)) {
         judged.pixels += length(&picture.must);
     }
     let compare_both = |runs: &[Span], judged: &mut CaseJudgement| {
@@ -550,7 +572,14 @@ fn one_triangle(
             let expected = hits(&picture.must, window).0;
             values(judged, triangle, fragments, &expected, truth);
         }
-        Answer::Samples(runs) => samples(judged, &corners, runs, window, truth),
+        Answer::Samples(runs) => {
+            samples(judged, &corners, runs, window, truth);
+        }
+        Answer::SampleValues(list) => {
+            let runs: Vec<_> = list.iter().map(|s| (pixel_of(&s.values), s.mask)).collect();
+            let Some(covered) = samples(judged, &corners, &runs, window, truth) else { return };
+            sample_values::compare(judged, triangle, list, &covered, &truth.declared);
+        }
         Answer::Area(runs) => levels(judged, &corners, runs, window, truth),
         _ => {}
     }
@@ -607,31 +636,33 @@ fn values(
     }
 }
 
-/// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
+/// Compares masks bit by bit, and returns the right ones; the samples have fixed places, so the declared one does not matter.
 fn samples(
     judged: &mut CaseJudgement,
     corners: &Corners,
     runs: &[(Span, u8)],
     window: PixelRect,
     truth: &Truth,
-) {
+) -> Option<Frame<u8>> {
     let drawn = truth.declared.convention.draws(twice_area(corners));
-    let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
-        return;
-    };
-    let actual = masks_of(runs, window);
+    let expected = multisample::masks(&Oracle, *corners, window).filter(|_| drawn)?;
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
-    let (hit, outside) = hits(&all, window);
-    judged.finding.tally.extra += outside;
-    for (y, row) in actual.rows() {
-        for ((&a, &e), &n) in row.iter().zip(expected.row(y)).zip(hit.row(y)) {
+    judged.finding.tally.extra += hits(&all, window).1;
+    // Of each pixel its samples, and how many were drawn when they had been drawn already.
+    let drawn = painted(runs, window, [0_u8; 2], |[mask, twice], more| {
+        *twice = twice.saturating_add((*mask & more).count_ones() as u8);
+        *mask |= more;
+    });
+    for (y, row) in drawn.rows() {
+        for (&[a, twice], &e) in row.iter().zip(expected.row(y)) {
             judged.pixels += u64::from(e.count_ones());
             judged.finding.tally.missing += u64::from((e & !a).count_ones());
             judged.finding.tally.extra += u64::from((a & !e).count_ones());
-            judged.finding.tally.twice += u64::from(n.saturating_sub(1));
+            judged.finding.tally.twice += u64::from(twice);
             mix(&mut judged.mark, u64::from(a ^ e));
         }
     }
+    Some(expected)
 }
 
 /// Compares the levels of pixels with their exact shares. How far the worst is off is counted in tolerances.
@@ -746,6 +777,6 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             }
             Some(Answer::Area(runs))
         }
-        Asked::Samples(_) | Asked::Polygon(_) => None,
+        Asked::Samples(_) | Asked::SampleValues(_) | Asked::Polygon(_) => None,
     }
 }

@@ -89,7 +89,24 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             let of = |([x, y], triangle): ([i32; 2], usize)| pixel(x, y, vec![triangle as f64]);
             out.expected = seen.into_iter().map(of).collect();
         }
-        Asked::Area(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+        Asked::Area(corners) => {
+            let (levels, bound) = (f64::from(declared.levels), declared.steps_off());
+            for (x, y) in
+                (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)))
+            {
+                let level = declared.share(corners, [x, y]) * levels;
+                // A level of 0 is right, and so may be a small one.
+                if level > bound {
+                    out.expected.push(pixel(x, y, vec![level]));
+                } else if level > 0.0 || bound >= 1.0 {
+                    out.either.push([x, y]);
+                }
+            }
+            out.bounds = vec![bound];
+        }
+        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_) => {
+            return None;
+        }
     }
     Some(out)
 }
@@ -161,7 +178,11 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
             let covered = runs.iter().filter(|(_, mask)| *mask != 0);
             covered.for_each(|(run, mask)| add_run(run, &[f64::from(*mask)]));
         }
-        Answer::Seen(runs) | Answer::Area(runs) => {
+        Answer::Area(runs) => {
+            let drawn = runs.iter().filter(|(_, level)| *level != 0);
+            drawn.for_each(|(run, level)| add_run(run, &[f64::from(*level)]));
+        }
+        Answer::Seen(runs) => {
             runs.iter().for_each(|(run, number)| add_run(run, &[f64::from(*number)]));
         }
         Answer::Line(pixels) => out.extend(pixels.iter().map(|&(x, y)| pixel(x, y, Vec::new()))),
@@ -170,7 +191,8 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
                 .iter()
                 .map(|f| pixel(f.x_px, f.y_px, vec![f.depth, f.varying.x, f.varying.y])),
         ),
-        Answer::Polygon(_)
+        Answer::SampleValues(_)
+        | Answer::Polygon(_)
         | Answer::Carried(_)
         | Answer::Triangles(_)
         | Answer::Refused(_)
@@ -193,14 +215,31 @@ mod tests {
     /// For every kind of question that has pixels, a test finds exactly those answers wrong that the judge finds wrong.
     #[test]
     fn a_test_finds_what_the_judge_finds() {
-        let checks = [Check::Coverage, Check::Line, Check::Values, Check::Samples, Check::Depth];
+        let checks = [
+            Check::Coverage,
+            Check::Line,
+            Check::Values,
+            Check::Samples,
+            Check::Depth,
+            Check::Wide,
+            Check::Area,
+        ];
         let mut found = checks.map(|check| (check, [0, 0]));
         let names = ["scanline", "games101-strict", "book-affine", "book-ch7", "dda", "book-dda"];
         let all = names.into_iter().chain(["exclusive-edges", "swapped-weights"]);
-        for name in all {
+        // Right, and wrong by what they are said to declare.
+        let declared = [
+            ("wide-rectangles", ""),
+            ("wide-rectangles", "wide=parallelogram"),
+            ("area", ""),
+            ("area", "levels=100"),
+        ];
+        for (name, words) in all.map(|name| (name, "")).chain(declared) {
             let planted = || engines::find_planted(name);
             let mut asked = Inside::new(&engines::find(name).copied().or_else(planted).unwrap());
-            let truth = Truth::of(asked.declared());
+            let mut declared = asked.declared().clone();
+            declared.declare(words).unwrap();
+            let truth = Truth::of(&declared);
             for family in adapt_case::families(&[]) {
                 for index in 0..12 {
                     let case = adapt_case::case(family, 1, index, &truth.declared);
@@ -221,7 +260,8 @@ mod tests {
                         // seen, the test says nothing.
                         let may_differ = match check {
                             Check::Values => refuted,
-                            Check::Depth => is_wrong,
+                            // A small share may be drawn as 0.
+                            Check::Depth | Check::Area => is_wrong,
                             _ => false,
                         };
                         assert!(refuted == is_wrong || may_differ, "{place}");

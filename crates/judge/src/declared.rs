@@ -9,7 +9,7 @@ use std::fmt;
 use super::text::{number, printable, px};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, WideForm};
+use rasterproof_core::triangle::{Corners, ValuePlace, WideForm};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rasterproof_verify::oracle::area::share;
 use rasterproof_verify::partition::{self, Tessellation};
@@ -45,6 +45,10 @@ pub struct Declared {
     pub levels: u8,
     /// How many steps a share may be off.
     pub area_tolerance: f64,
+    /// Answers X: gives the samples of a pixel values.
+    pub sample_values: bool,
+    /// Where the values of samples are computed.
+    pub values_at: ValuePlace,
     /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
     pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
@@ -109,7 +113,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 15] = [
+const FLAGS: [&str; 16] = [
     "coverage",
     "line",
     "attributes",
@@ -119,6 +123,7 @@ const FLAGS: [&str; 15] = [
     "clip-attributes",
     "wide-line",
     "area",
+    "sample-values",
     "partition",
     "t-junctions",
     "degenerate",
@@ -128,7 +133,7 @@ const FLAGS: [&str; 15] = [
 ];
 
 /// The values of words that have one of a few.
-fn listed() -> [(&'static str, Vec<&'static str>); 9] {
+fn listed() -> [(&'static str, Vec<&'static str>); 10] {
     [
         ("rule", Rule::ALL.iter().map(|(word, _)| *word).collect()),
         ("winding", vec!["cw", "ccw", "both"]),
@@ -136,6 +141,7 @@ fn listed() -> [(&'static str, Vec<&'static str>); 9] {
         ("shape", Shape::ALL.iter().map(|shape| shape.name()).collect()),
         ("near", vec!["zero", "minus-w"]),
         ("wide", WideForm::ALL.iter().map(|form| form.name()).collect()),
+        ("values-at", ValuePlace::ALL.iter().map(|place| place.name()).collect()),
         ("fill-rule", FILL_RULES.iter().map(|(word, _)| *word).collect()),
         ("triangles", WINDINGS.iter().map(|(word, _)| *word).collect()),
         ("coordinates", COORDINATES.iter().map(|(word, _)| *word).collect()),
@@ -230,6 +236,8 @@ impl Default for Declared {
             area: false,
             levels: u8::MAX,
             area_tolerance: HALF_A_STEP,
+            sample_values: false,
+            values_at: ValuePlace::default(),
             convention: Convention::default(),
             shape: Shape::Sample,
             range: None,
@@ -301,6 +309,10 @@ impl Declared {
             ("clip-attributes", None) => self.clip_attributes = true,
             ("wide-line", None) => self.wide_line = true,
             ("area", None) => self.area = true,
+            ("sample-values", None) => self.sample_values = true,
+            ("values-at", Some(v)) => {
+                self.values_at = ValuePlace::ALL.into_iter().find(|place| place.name() == v)?;
+            }
             ("levels", Some(v)) => self.levels = whole(v, 255)? as u8,
             ("area-tolerance", Some(v)) => {
                 self.area_tolerance = number(v).filter(|t| (0.0..=255.0).contains(t))?;
@@ -373,6 +385,9 @@ impl Declared {
             wide_line: self.wide_line && other.wide_line,
             area: self.area && other.area && self.levels == other.levels,
             area_tolerance: self.area_tolerance.max(other.area_tolerance),
+            sample_values: self.sample_values
+                && other.sample_values
+                && self.values_at == other.values_at,
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -397,7 +412,17 @@ impl Declared {
     /// Whether it can be asked for the samples of a triangle: they have fixed places, so that the top-left rule must be meant.
     #[must_use]
     pub fn answers_samples(&self) -> bool {
-        self.samples4 && self.shape == Shape::Sample && self.convention.is_standard()
+        self.samples4 && self.has_standard_samples()
+    }
+
+    /// The same of samples with values.
+    #[must_use]
+    pub fn answers_sample_values(&self) -> bool {
+        self.sample_values && self.has_standard_samples()
+    }
+
+    fn has_standard_samples(&self) -> bool {
+        self.shape == Shape::Sample && self.convention.is_standard()
     }
 
     /// How many steps a share may be off, with what roundings of floats add.
@@ -426,6 +451,7 @@ impl Declared {
             ("clip-attributes", self.clip_attributes),
             ("wide-line", self.wide_line),
             ("area", self.area),
+            ("sample-values", self.sample_values),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
@@ -468,6 +494,9 @@ impl fmt::Display for Declared {
         if self.area {
             write!(f, " levels={} area-tolerance={}", self.levels, self.area_tolerance)?;
         }
+        if self.sample_values {
+            write!(f, " values-at={}", self.values_at.name())?;
+        }
         if self.near_is_zero {
             f.write_str(" near=zero")?;
         }
@@ -478,7 +507,8 @@ impl fmt::Display for Declared {
             write!(f, " window={width}x{height}")?;
         }
         write!(f, " batch={}", self.batch)?;
-        if self.attributes || self.depth || self.clip || self.clip_attributes {
+        let has_values = self.attributes || self.sample_values;
+        if has_values || self.depth || self.clip || self.clip_attributes {
             write!(f, " tolerance={:e}", self.tolerance)?;
         }
         Ok(())

@@ -76,6 +76,9 @@ pub(super) fn difference(
                 }
             }
         }
+        (Answer::SampleValues(first), Answer::SampleValues(second)) if first != second => {
+            judged.finding.tally.order += 1;
+        }
         (Answer::Values(first), Answer::Values(second)) => {
             if let Some(triangle) = triangle {
                 values(judged, first, second, triangle, declared);

@@ -4,7 +4,9 @@ use super::ask::{Answer, Breach, Question, Subject};
 use super::declared::{Declared, MOST_IN_FLIGHT, Shape};
 use super::server;
 use super::text::Words;
-use rasterproof_registry::engines::{Entry, Specimen, TouchedPixels, Variant, WideLines};
+use rasterproof_registry::engines::{
+    Entry, SampleValues, Specimen, TouchedPixels, Variant, WideLines,
+};
 use rasterproof_verify::comparison::{Watch, caught};
 
 /// The values of both engines lie within u (15 D + 2 M) of the exact ones (`verify::tolerance`),
@@ -28,6 +30,10 @@ impl From<&Entry> for Declared {
             Some(Variant::WideLines(WideLines { form })) => Some(form),
             _ => None,
         };
+        let values_at = match entry.variant {
+            Some(Variant::SampleValues(SampleValues { at })) => Some(at),
+            _ => None,
+        };
         Self {
             name: entry.name.to_owned(),
             version: 2,
@@ -42,6 +48,8 @@ impl From<&Entry> for Declared {
             wide_line: wide.is_some(),
             wide: wide.unwrap_or_default(),
             area: matches!(entry.variant, Some(Variant::Area(_))),
+            sample_values: values_at.is_some(),
+            values_at: values_at.unwrap_or_default(),
             depth: is_engine,
             clip: is_engine,
             clip_attributes: is_engine,

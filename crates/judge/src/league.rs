@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::check::Check;
-use super::verdict::{Score, Scores as _, Verdict};
+use super::verdict::{Score, Scores as _, Shapes, Verdict};
 
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
@@ -70,17 +70,17 @@ impl Ranked {
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));
-        let kind = |lines: bool, about: &str| {
-            let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));
+        let kind = |shapes: Shapes, about: &str| {
+            let as_declared = verdict.score(Some(shapes), |r| (r.tally.total(), r.pixels, 0));
             let found = verdict
-                .score(Some(lines), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
+                .score(Some(shapes), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
             let said = verdict.more.recognised.as_ref();
             let sentence =
                 said.and_then(|said| said.sentences.iter().find_map(|s| s.strip_prefix(about)));
             let sentence = sentence.unwrap_or_default().to_owned();
             let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
             let by_convention = is_explained.then_some(found);
-            let check = if lines { Check::Line } else { Check::Coverage };
+            let check = if shapes == Shapes::Lines { Check::Line } else { Check::Coverage };
             let why = verdict.cause.iter().find(|why| why.check == check);
             let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
             let kind = Kind { sentence, as_declared, by_convention, mistake };
@@ -95,8 +95,8 @@ impl Ranked {
             date,
             call: adapter.call.clone(),
             declares: verdict.more.declared.to_string(),
-            triangles: kind(false, "Triangles: "),
-            lines: kind(true, "Lines: "),
+            triangles: kind(Shapes::Triangles, "Triangles: "),
+            lines: kind(Shapes::Lines, "Lines: "),
             meshes: row(Check::Watertight)
                 .map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
             orders: changed(Check::Order),

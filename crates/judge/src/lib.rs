@@ -38,6 +38,7 @@ mod reach;
 pub mod recognise;
 pub mod record;
 pub mod run;
+mod sample_values;
 pub mod server;
 pub mod shrink;
 pub mod stages;

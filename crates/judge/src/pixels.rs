@@ -29,6 +29,7 @@ pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
             runs.iter().map(|(run, _)| *run).collect()
         }
         Answer::Values(fragments) => fragments.iter().map(pixel_of).collect(),
+        Answer::SampleValues(samples) => samples.iter().map(|s| pixel_of(&s.values)).collect(),
         Answer::Line(pixels) => as_runs(pixels),
         Answer::Polygon(_)
         | Answer::Carried(_)

@@ -229,6 +229,7 @@ impl RunFindings {
         };
         let is_wrong = |row: &&Row| match row.check {
             Some(Check::Values) => row.worst > 1.0,
+            Some(Check::SampleValues) => row.wrong_cases > 0,
             _ => row.tally.total() > 0 && !is_explained(row),
         };
         checks_of(self.rows.iter().filter(is_wrong))
@@ -454,7 +455,8 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
         if let Some(index) = options.only {
             return u64::from(is_asked(&index));
         }
-        let (whole, rest) = (options.cases / PERIOD, options.cases % PERIOD);
+        let cases = adapt_case::numbers(options, family.design()).end;
+        let (whole, rest) = (cases / PERIOD, cases % PERIOD);
         let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
         whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
     };
@@ -482,7 +484,9 @@ pub fn run<'a>(
     let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
     let families = judged.families.len();
     let at_once = askers.iter().map(|asker| asker.cases_at_once()).min().unwrap_or(1);
-    let plan = Plan::new(options, [PASSES, families], at_once, at_once);
+    let numbers =
+        judged.families.iter().map(|of| adapt_case::numbers(options, of.design())).collect();
+    let plan = Plan::of(options, PASSES, numbers, [at_once, at_once]);
     let counts = Counts {
         found: RunFindings::default(),
         changing: Vec::new(),

@@ -2,12 +2,12 @@
 
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
-use rasterproof_core::triangle::{Span, WideForm, WideLine};
-use rasterproof_registry::engines::{self, WideLines};
+use rasterproof_core::triangle::{Span, ValuePlace, WideForm, WideLine};
+use rasterproof_registry::engines::{self, SampleValues, WideLines};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::area::share;
 
-use super::ask::{ANSWER_LETTERS, Answer, Asked, Question, Subject, line};
+use super::ask::{ANSWER_LETTERS, Answer, Asked, Question, SampledValues, Subject, line};
 use super::declared::Declared;
 use super::expected::Expect as _;
 use super::in_process::Inside;
@@ -77,6 +77,7 @@ fn answers_begin_with_known_letters() {
         Answer::Line(Vec::new()),
         Answer::Seen(Vec::new()),
         Answer::Area(Vec::new()),
+        Answer::SampleValues(Vec::new()),
         Answer::Polygon(Vec::new()),
         Answer::Carried(Vec::new()),
         Answer::Triangles(Vec::new()),
@@ -344,4 +345,106 @@ const AREA_FAULTS: [Fault; 8] = [
 #[test]
 fn faults_of_shares_are_found_and_explained() {
     are_found_and_explained("area", &AREA, &AREA_FAULTS);
+}
+
+/// The families whose triangles have values.
+const VALUED: [&str; 2] = ["w-4", "w-design"];
+
+/// Each engine is right by its own place and wrong by the others.
+#[test]
+fn values_of_samples_are_judged_where_they_are_declared() {
+    for own in ValuePlace::ALL {
+        let name = format!("values-at-{}s", own.name());
+        let verdict = judged(inside(&name), &options(300, &VALUED));
+        assert!(verdict.agrees(), "{name}: {:?}", verdict.failures);
+        let values: u64 = verdict.families.iter().map(|row| row.values).sum();
+        assert!(values > 1000, "{name}: {values}");
+        for other in ValuePlace::ALL.into_iter().filter(|place| *place != own) {
+            let mut engine = inside(&name);
+            let declared = format!("HELLO 2 x sample-values values-at={}", other.name());
+            let declared = Declared::parse(&declared).unwrap();
+            let answer = move |questions: &[Question], most| engine.ask(questions, most);
+            let verdict = judged(Box::new(Answering(declared, answer)), &patient(100, &VALUED));
+            assert!(!verdict.agrees(), "{name} as {}", other.name());
+            let said = causes(&verdict);
+            let wanted = match own {
+                ValuePlace::Centre => "computes the values of samples at the centre",
+                ValuePlace::Sample => "computes the values of samples at the place of each",
+                ValuePlace::Centroid => "computes the values of samples at the centroid",
+            };
+            assert!(said.contains(wanted), "{name} as {}: {said}", other.name());
+        }
+    }
+}
+
+/// The samples of a question with their values, each changed.
+fn valued(question: &Question, change: impl Fn(&Question, &mut SampledValues) -> bool) -> Answer {
+    let Asked::SampleValues(triangle) = &question.of else { return Answer::Refused(String::new()) };
+    let window = PixelRect::window(question.width, question.height);
+    let mut all = Vec::new();
+    let drawn =
+        SampleValues { at: ValuePlace::Centre }.cover(triangle, window, &mut |mask, values| {
+            let mut one = SampledValues { mask, values };
+            if change(question, &mut one) {
+                all.push(one);
+            }
+        });
+    drawn.map_or(Answer::Refused(String::new()), |()| Answer::SampleValues(all))
+}
+
+/// The attributes of the corners of a question, along an axis.
+fn attributes(question: &Question, axis: usize) -> [f64; 3] {
+    let Asked::SampleValues(triangle) = &question.of else { return [0.0; 3] };
+    triangle.vertices.map(|v| v.varying[axis])
+}
+
+const VALUE_FAULTS: [Fault; 5] = [
+    // Nothing beyond what the corners have.
+    (
+        |q| {
+            valued(q, |q, one| {
+                for axis in 0..2 {
+                    let [a, b, c] = attributes(q, axis);
+                    let v = one.values.varying[axis];
+                    one.values.varying[axis] = v.clamp(a.min(b).min(c), a.max(b).max(c));
+                }
+                let Asked::SampleValues(t) = &q.of else { return false };
+                let [a, b, c] = t.vertices.map(|v| v.depth);
+                one.values.depth = one.values.depth.clamp(a.min(b).min(c), a.max(b).max(c));
+                true
+            })
+        },
+        "clamps the values of samples to the range of the corners",
+    ),
+    // All w are 1.
+    (
+        |q| {
+            let mut flat = q.clone();
+            if let Asked::SampleValues(triangle) = &mut flat.of {
+                triangle.vertices.iter_mut().for_each(|v| v.inv_w = 1.0);
+            }
+            valued(&flat, |_, _| true)
+        },
+        "without a correction for perspective",
+    ),
+    // As many samples as the triangle touches.
+    (
+        |q| {
+            valued(q, |_, one| {
+                one.mask = 15;
+                true
+            })
+        },
+        "draws all four samples of a touched pixel",
+    ),
+    (|q| valued(q, |_, one| one.values.y_px < 2), "does not draw the values of samples"),
+    // A pixel that is covered in part alone is lost.
+    (|q| valued(q, |_, one| one.mask == 15), "where the number of covered samples of the pixel is"),
+];
+
+#[test]
+fn faults_of_values_of_samples_are_found_and_explained() {
+    let right = judged_answers("sample-values", |q| valued(q, |_, _| true), &options(50, &VALUED));
+    assert!(right.agrees(), "{:?}", right.failures);
+    are_found_and_explained("sample-values", &VALUED, &VALUE_FAULTS);
 }

@@ -78,6 +78,28 @@ pub struct Score {
     pub unscored: u64,
 }
 
+rasterproof_core::named! {
+    /// What a check is about.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Shapes {
+        Triangles = "triangles",
+        Lines = "lines",
+        WideLines = "lines with a width",
+    }
+}
+
+impl Shapes {
+    /// Those of a row with this check.
+    #[must_use]
+    pub fn of(check: Option<Check>) -> Self {
+        match check {
+            Some(Check::Line) => Self::Lines,
+            Some(Check::Wide) => Self::WideLines,
+            _ => Self::Triangles,
+        }
+    }
+}
+
 /// How much of one kind of thing is wrong; its pixels are values, samples or corners where these are what is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
@@ -91,11 +113,15 @@ pub fn per_million(wrong: u64, pixels: u64) -> f64 {
 }
 
 /// What the checks over all families say.
-const CHECKS: [(Check, &str); 7] = [
+const CHECKS: [(Check, &str); 8] = [
     (Check::Watertight, "meshes have no holes and no pixels drawn by two triangles"),
     (Check::Order, "the order of the vertices does not change the picture"),
     (Check::Values, "values lie within the tolerance of the exact ones"),
     (Check::Samples, "four samples a pixel are covered as the oracle says"),
+    (
+        Check::SampleValues,
+        "covered samples have the exact values of their place within the tolerance",
+    ),
     (Check::Carried, "corners that the near plane makes have the attributes of their place"),
     (Check::Direction, "a line drawn backwards lights the same pixels"),
     (Check::Outline, "the fill of a triangle is what its outline encloses"),
@@ -230,10 +256,23 @@ pub trait Scores {
         }
     }
 
-    /// Triangles or lines that were judged against an expected picture.
-    fn shapes(&self, lines: bool) -> u64 {
-        let is_lines = |row: &&Row| (row.check == Some(Check::Line)) == lines;
-        self.pictures().filter(is_lines).map(|row| row.shapes).sum()
+    /// Shapes of a kind that were judged against an expected picture.
+    fn shapes(&self, kind: Shapes) -> u64 {
+        let is_of_kind = |row: &&Row| Shapes::of(row.check) == kind;
+        self.pictures().filter(is_of_kind).map(|row| row.shapes).sum()
+    }
+
+    /// How many shapes were judged, such as '12 triangles and 3 lines'. Triangles and lines are named even where there are none, but
+    /// where lines with a width are.
+    fn judged_shapes(&self) -> String {
+        let counts = Shapes::ALL.map(|kind| (self.shapes(kind), kind.name()));
+        let has_width = self.shapes(Shapes::WideLines) > 0;
+        let is_said = |(count, name): &(u64, &str)| {
+            *count > 0 || (!has_width && *name != Shapes::WideLines.name())
+        };
+        let said = counts.iter().filter(|one| is_said(one));
+        let said: Vec<String> = said.map(|(count, name)| format!("{count} {name}")).collect();
+        said.join(" and ")
     }
 
     /// Rows that compare with an expected picture; not those that compare answers.
@@ -257,7 +296,7 @@ pub trait Scores {
         for row in &self.verdict().families {
             let Some(check) = row.check else { continue };
             add(check.counted(), row.tally.total(), row.pixels);
-            if check == Check::Values {
+            if matches!(check, Check::Values | Check::SampleValues) {
                 add(Counted::Values, row.wrong_values, row.values);
             }
         }
@@ -285,10 +324,10 @@ pub trait Scores {
         self.pictures().map(|row| row.unscored_wrong).sum()
     }
 
-    /// Sums over the rows, those of lines or of triangles alone where that is asked.
+    /// Sums over the rows, those of one kind of shape alone where that is asked.
     #[must_use]
-    fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
-        let is_asked = |check: Check| lines.is_none_or(|lines| (check == Check::Line) == lines);
+    fn score(&self, shapes: Option<Shapes>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
+        let is_asked = |check: Check| shapes.is_none_or(|kind| Shapes::of(Some(check)) == kind);
         // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
         let is_of_pixels = |check: Check| check.counted() == Counted::Pixels && is_asked(check);
         let rows = self.verdict().families.iter();

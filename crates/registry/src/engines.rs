@@ -1,7 +1,7 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
-pub use crate::variants::{AreaLevels, TouchedPixels, WideLines};
+pub use crate::variants::{AreaLevels, SampleValues, TouchedPixels, WideLines};
 use rasterproof_core::contract::{
     Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact, Run,
 };
@@ -15,7 +15,7 @@ use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::{
-    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying, WideForm,
+    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, ValuePlace, Varying, WideForm,
 };
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
@@ -432,6 +432,7 @@ pub enum Variant {
     WideLines(WideLines),
     /// The shares of pixels.
     Area(AreaLevels),
+    SampleValues(SampleValues),
 }
 
 const NOBODY: Entry = Entry {
@@ -508,7 +509,7 @@ pub const SPECIMENS: [Entry; 15] = entries![
 ];
 
 /// Engines of other rules, for what programs may declare.
-pub const VARIANTS: [Entry; 5] = entries![
+pub const VARIANTS: [Entry; 8] = entries![
     "touched-closed", "every pixel that a triangle touches, its border too: no line separates them",
         variant: Variant::Touched(TouchedPixels { is_closed: true });
     "touched-open", "every pixel that the inside of a triangle touches",
@@ -517,6 +518,12 @@ pub const VARIANTS: [Entry; 5] = entries![
         variant: Variant::WideLines(WideLines { form: WideForm::Rectangle });
     "wide-parallelograms", "lines with a width as parallelograms, as wide along the shorter axis",
         variant: Variant::WideLines(WideLines { form: WideForm::Parallelogram });
+    "values-at-centres", "four samples with values, computed at the centre of their pixel",
+        variant: Variant::SampleValues(SampleValues { at: ValuePlace::Centre });
+    "values-at-samples", "four samples with values, each computed at its own place",
+        variant: Variant::SampleValues(SampleValues { at: ValuePlace::Sample });
+    "values-at-centroids", "four samples with values, computed at the centroid of their pixel",
+        variant: Variant::SampleValues(SampleValues { at: ValuePlace::Centroid });
     "area", "the share of each pixel that a triangle covers, in 255 steps",
         variant: Variant::Area(AreaLevels { levels: 255 });
 ];

@@ -1,9 +1,14 @@
 //! Engines of other rules than those of the book, for what the line protocol asks of programs that declare them.
 
+use glam::DVec2;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::geometry::{edges, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Span, WideForm, WideLine};
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::triangle::{
+    Corners, Fragment, ScreenTriangle, Span, ValuePlace, WideForm, WideLine,
+};
+use rasterproof_render::pipeline::multisample::{self, SAMPLES};
 
 /// Draws every pixel that a triangle touches.
 #[derive(Clone, Copy, Debug)]
@@ -128,6 +133,68 @@ impl WideLines {
             }
         }
     }
+}
+
+/// The values of the samples of a triangle, by weights that may be below 0.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleValues {
+    /// Where they are computed.
+    pub at: ValuePlace,
+}
+
+impl SampleValues {
+    /// The covered samples of each pixel, as a mask, with the values that they have. Nothing where a corner lies within half a pixel of
+    /// the domain's end.
+    #[must_use]
+    pub fn cover(
+        self,
+        triangle: &ScreenTriangle<DVec2>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(u8, Fragment<DVec2>),
+    ) -> Option<()> {
+        let masks = multisample::masks(&EdgeFunction, triangle.corners(), bounds)?;
+        for (y_px, row) in masks.rows() {
+            for (x_px, &mask) in (bounds.x0..).zip(row).filter(|(_, mask)| **mask != 0) {
+                let at = |place| values_at(triangle, [x_px, y_px], place);
+                let first = SAMPLES[mask.trailing_zeros() as usize];
+                match self.at {
+                    ValuePlace::Centre => emit(mask, at((8, 8))),
+                    ValuePlace::Centroid if mask == 0b1111 => emit(mask, at((8, 8))),
+                    ValuePlace::Centroid => emit(mask, at(first)),
+                    ValuePlace::Sample => {
+                        for (bit, &place) in SAMPLES.iter().enumerate() {
+                            if mask >> bit & 1 == 1 {
+                                emit(1 << bit, at(place));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+/// Depth and attributes at a place of a pixel in 1/16 px, inside the triangle or not.
+fn values_at(
+    triangle: &ScreenTriangle<DVec2>,
+    pixel: [i32; 2],
+    (x, y): (i32, i32),
+) -> Fragment<DVec2> {
+    let corners = triangle.corners();
+    let at = [(pixel[0], x), (pixel[1], y)].map(|(px, part)| {
+        i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
+    });
+    let area = twice_area(&corners) as f64;
+    let (mut depth, mut over_w, mut varying) = (0.0, 0.0, DVec2::ZERO);
+    for (i, v) in triangle.vertices.iter().enumerate() {
+        // The edge that lies opposite to the corner.
+        let weight = side([corners[(i + 1) % 3], corners[(i + 2) % 3]], at) as f64 / area;
+        depth += weight * v.depth;
+        over_w += weight * v.inv_w;
+        varying += v.varying * (weight * v.inv_w);
+    }
+    Fragment { x_px: pixel[0], y_px: pixel[1], depth, varying: varying / over_w }
 }
 
 /// The shares of the pixels that a triangle covers, in steps: what the four sides of a pixel leave of the triangle is a polygon,

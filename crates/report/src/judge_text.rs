@@ -611,9 +611,8 @@ fn closing(verdict: &Verdict) -> String {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),
     };
-    let [triangles, lines] = [false, true].map(|lines| verdict.shapes(lines));
     let wrong = wrong(verdict);
-    let what = format!("{triangles} triangles and {lines} lines{wrong}{until}");
+    let what = format!("{}{wrong}{until}", verdict.judged_shapes());
     let known =
         verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
     let known = match known.count() {

@@ -6,6 +6,8 @@
 use std::path::Path;
 
 use super::judge_text;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::WideLine;
 use rasterproof_judge::ask::{Asked, Question};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::checkable::{Checkable, PlainPixel, checkable};
@@ -104,9 +106,6 @@ pub fn write(
             let plain = match checkable(question, &truth) {
                 None if is_of_pixels(question) => Err("nothing is promised of this triangle"),
                 None => Err("the corners that clipping leaves are no pixels"),
-                Some(_) if matches!(question.of, Asked::Wide(_)) => {
-                    Err("no language has a function for lines with a width yet")
-                }
                 Some(plain) if plain.expected.len() > MOST_PIXELS => Err("it has too many pixels"),
                 Some(plain) if plain.refutes(question, &exchange.heard) => Ok(plain),
                 Some(_) => Err(
@@ -139,12 +138,13 @@ pub fn write(
 fn is_of_pixels(question: &Question) -> bool {
     !matches!(
         question.of,
-        Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Area(_) | Asked::Polygon(_)
+        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_)
     )
 }
 
 /// The functions to be filled in, in the order of the file.
-const FUNCTIONS: [&str; 5] = ["triangle", "line", "values", "samples", "depth"];
+const FUNCTIONS: [&str; 7] =
+    ["triangle", "line", "values", "samples", "depth", "wide_line", "area"];
 
 /// The function that answers a question.
 fn function(question: &Question) -> &'static str {
@@ -153,6 +153,8 @@ fn function(question: &Question) -> &'static str {
         Asked::Values(_) => "values",
         Asked::Samples(_) => "samples",
         Asked::Depth(_) => "depth",
+        Asked::Wide(_) => "wide_line",
+        Asked::Area(_) => "area",
         _ => "triangle",
     }
 }
@@ -177,6 +179,7 @@ fn file_of(
     let mut text = parts.join(gap).replace("{program}", &program).replace("{file}", file);
     text = text.replace("{function}", &functions.join(", "));
     text = text.replace("{counts_hits}", counts_hits(language, !declared.mask));
+    text = text.replace("{levels}", &declared.levels.to_string());
     if functions.len() > 1 {
         for [one, more] in [
             ["the function below", "the functions below"],
@@ -217,6 +220,9 @@ fn setter(function: &str) -> String {
         "values" => return String::new(),
         "samples" => {
             "set_mask(int x, int y, int mask) {\n    if (mask != 0) set_values(x, y, mask, 0, 0);\n}"
+        }
+        "area" => {
+            "set_level(int x, int y, int level) {\n    if (level != 0) set_values(x, y, level, 0, 0);\n}"
         }
         "depth" => "set_seen(int x, int y, int t) {\n    set_values(x, y, t, 0, 0);\n}",
         _ => "set_pixel(int x, int y) {\n    set_values(x, y, 0, 0, 0);\n}",
@@ -319,14 +325,15 @@ fn test(
         ("{either}", list(language, &either)),
         ("{pixels}", list(language, &pixels)),
     ];
-    let is_samples = matches!(question.of, Asked::Samples(_));
+    // A mask or a level of 0 is that of a pixel that is not drawn.
+    let has_blank = matches!(question.of, Asked::Samples(_) | Asked::Area(_));
     let holds = |condition: &str| match condition {
         "pixels" => count > 0,
         "either" => count_of_either > 0,
         "bounds" => !plain.bounds.is_empty(),
         "order" => plain.in_order,
-        "samples" => is_samples,
-        _ => !is_samples,
+        "blank" => has_blank,
+        _ => !has_blank,
     };
     let mut code = String::new();
     for line in language.section("test").lines() {
@@ -363,6 +370,7 @@ impl Kind {
             "values" => ("set_values", "x, y, values", "x, y, values", 3),
             "samples" => ("set_mask", "x, y, mask", "x, y, [f64::from(mask)]", 1),
             "depth" => ("set_seen", "x, y, t", "x, y, [t as f64]", 1),
+            "area" => ("set_level", "x, y, level", "x, y, [f64::from(level)]", 1),
             _ => ("set_pixel", "x, y", "x, y, []", 0),
         };
         Self { function, setter, taken, given, values }
@@ -476,25 +484,32 @@ fn arguments(language: Language, question: &Question) -> String {
                 _ => all,
             }
         }
-        Asked::Coverage(corners) | Asked::Samples(corners) => {
-            let mut each = Vec::new();
-            for corner in corners {
-                let (x, y) = corner.to_px();
-                let [x, y] = [x, y].map(|v| number(language, v));
-                each.push(match language {
-                    Language::Rust => format!("({x}, {y})"),
-                    _ => format!("{x}, {y}"),
-                });
-            }
-            match language {
-                Language::Rust => format!("[{}]", each.join(", ")),
-                _ => each.join(", "),
-            }
+        Asked::Coverage(corners) | Asked::Samples(corners) | Asked::Area(corners) => {
+            points(language, corners)
         }
-        Asked::Near(_)
-        | Asked::Carried(_)
-        | Asked::Wide(_)
-        | Asked::Area(_)
-        | Asked::Polygon(_) => String::new(),
+        Asked::Wide(WideLine { ends, width }) => {
+            let width = number(language, f64::from(*width) / f64::from(SUBPIXELS));
+            format!("{}, {width}", points(language, ends))
+        }
+        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_) => {
+            String::new()
+        }
+    }
+}
+
+/// Positions in pixels, as arguments.
+fn points(language: Language, all: &[SubpixelPoint]) -> String {
+    let mut each = Vec::new();
+    for point in all {
+        let (x, y) = point.to_px();
+        let [x, y] = [x, y].map(|v| number(language, v));
+        each.push(match language {
+            Language::Rust => format!("({x}, {y})"),
+            _ => format!("{x}, {y}"),
+        });
+    }
+    match language {
+        Language::Rust => format!("[{}]", each.join(", ")),
+        _ => each.join(", "),
     }
 }

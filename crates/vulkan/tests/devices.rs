@@ -18,7 +18,7 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::ask::{Subject, runs_of};
 use rasterproof_judge::in_process::Inside;
-use rasterproof_judge::verdict::Scores as _;
+use rasterproof_judge::verdict::{Scores as _, Shapes};
 use rasterproof_judge::{Options, against};
 use rasterproof_precision::cost::ExternalChoice as _;
 use rasterproof_registry::engines;
@@ -111,7 +111,7 @@ fn every_device_is_judged() {
         let stand = judged(&engine, &options(48, &[]));
         let text = said(&stand);
         assert!(stand.agrees(), "{text}");
-        assert!(stand.verdict.shapes(false) > 1000);
+        assert!(stand.verdict.shapes(Shapes::Triangles) > 1000);
         if is_known_right(&stand.about) {
             for name in ["half-integer", "fan", "near-tie", "huge", "watertight", "samples4"] {
                 assert_eq!(class(&stand, name), Standing::Equal, "{name}: {text}");

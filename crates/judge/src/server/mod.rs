@@ -121,11 +121,12 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "A" => (declared.clip_attributes, 15),
         "W" => (declared.wide_line, 5),
         "R" => (declared.area, 6),
+        "X" => (declared.sample_values, 18),
         // As many triangles as there are.
         "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R, X",
                 printable(verb)
             )));
         }
@@ -165,6 +166,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("T", _, _, Some(engine)) => cover_exact(engine, window, &numbers),
         ("W", ..) => wide(entry, window, &numbers),
         ("R", ..) => area(entry, window, &numbers),
+        ("X", ..) => sample_values(entry, window, &numbers),
         ("S", Some(engine), ..) => samples(engine, window, &numbers),
         ("L", _, Some(engine), _) => line(engine, window, &numbers),
         ("D", Some(engine), ..) => depth(engine, window, &numbers),
@@ -285,11 +287,12 @@ fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('C', n, runs))
 }
 
+const NO_PLACE: &str =
+    "a corner lies within half a pixel of the domain's end, where samples have no place";
+
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
-    let masks = multisample::masks(&engine, corners, window).ok_or(
-        "a corner lies within half a pixel of the domain's end, where samples have no place",
-    )?;
+    let masks = multisample::masks(&engine, corners, window).ok_or(NO_PLACE)?;
     let (mut runs, mut n) = (Vec::new(), 0);
     for (y_px, row) in masks.rows() {
         for (span, mask) in runs_of(y_px, row) {
@@ -385,8 +388,8 @@ fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
 
 type Values = (ScreenTriangle<DVec2>, u64);
 
-/// The triangle of an `I` request and how many fragments it has.
-fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, String> {
+/// The triangle of an `I` or `X` request.
+fn with_values(numbers: &[f64]) -> Result<ScreenTriangle<DVec2>, String> {
     let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
         let [x, y, z, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
         for (name, value) in [("z", z), ("a", a), ("b", b)] {
@@ -394,7 +397,35 @@ fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, 
         }
         self::vertex([x, y], z, w, DVec2::new(a, b), i)
     };
-    let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
+    Ok(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] })
+}
+
+/// The samples of a triangle with their values.
+fn sample_values(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
+    let Some(Variant::SampleValues(engine)) = entry.variant else {
+        return Err("unsupported".to_owned());
+    };
+    let triangle = with_values(numbers)?;
+    if u64::from(window.width()) * u64::from(window.height()) > limits::REQUEST_FRAGMENTS {
+        return Err(format!(
+            "a window of more than {} pixels, which is the most of a request",
+            limits::REQUEST_FRAGMENTS
+        ));
+    }
+    let (mut samples, mut n) = (Vec::new(), 0);
+    let drawn = engine.cover(&triangle, window, &mut |mask, f| {
+        n += 1;
+        write_words(&mut samples, [f.x_px, f.y_px, i32::from(mask)]);
+        // Writing to a vector does not fail.
+        let _ = write!(samples, " {} {} {}", f.depth, f.varying.x, f.varying.y);
+    });
+    drawn.ok_or(NO_PLACE)?;
+    Ok(('U', n, samples))
+}
+
+/// The triangle of an `I` request and how many fragments it has.
+fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, String> {
+    let triangle = with_values(numbers)?;
     let mut n = 0;
     if matches!(engine, Engine::Oracle) {
         let most = limits::REQUEST_FRAGMENTS;

@@ -1,7 +1,7 @@
 //! The level of a pixel by the share of it that a triangle covers, computed by somebody who may be mistaken.
 
-use super::grids::{grids, rounded};
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::grids::on_grid;
+use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::pixels::painted;
@@ -23,24 +23,10 @@ composed! {
     }
 }
 
-/// The grid that corners are put on before anything is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CornerGrid(Quantum);
-
-impl Field for CornerGrid {
-    const NAME: &'static str = "corners of shares";
-
-    fn options() -> Vec<Self> {
-        let all = grids(&[Rounding::Down, Rounding::Near, Rounding::HalfEven]);
-        all.into_iter().map(Self).collect()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((
-            format!("computes {{}} of corners that are {}", rounded(self.0)),
-            "take the corners as they are asked",
-        ))
-    }
+on_grid! {
+    /// The grid that corners are put on before anything is computed.
+    pub struct CornerGrid: "corners of shares", "computes {{}} of corners that are {}",
+        "take the corners as they are asked", [Down, Near, HalfEven]
 }
 
 /// By which part of a pixel its share is measured.
@@ -127,12 +113,10 @@ impl Field for Sampling {
     }
 }
 
-rasterproof_core::named! {
+choices! {
     /// What becomes of a share before it is a level.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub enum Tone {
-        #[default]
-        Linear = "",
+    pub enum Tone: "tone of shares", "answer with the share itself; what a screen needs comes later" {
+        Linear,
         Encoded = "encodes {} as sRGB",
         Root = "takes the square root of {}",
         Square = "squares {}",
@@ -158,43 +142,13 @@ impl Tone {
     }
 }
 
-impl Field for Tone {
-    const NAME: &'static str = "tone of shares";
-
-    fn options() -> Vec<Self> {
-        Self::ALL[1..].to_vec()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((
-            self.name().to_owned(),
-            "answer with the share itself; what a screen needs comes later",
-        ))
-    }
-}
-
-rasterproof_core::named! {
-    /// How a share becomes a whole number of steps.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub enum LevelRounding {
-        /// To any number within the tolerance.
-        #[default]
-        Near = "",
-        Down = "down",
-        Up = "up",
-        Any = "to all steps where more than half a pixel is covered, and to none elsewhere",
-    }
-}
-
-impl Field for LevelRounding {
-    const NAME: &'static str = "rounding of shares";
-
-    fn options() -> Vec<Self> {
-        Self::ALL[1..].to_vec()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((format!("rounds {{}} {}", self.name()), "round the share to the nearest step"))
+choices! {
+    /// How a share becomes a whole number of steps: to any number within the tolerance, where nothing else is said.
+    pub enum LevelRounding: "rounding of shares", "round the share to the nearest step" {
+        Near,
+        Down = "rounds {} down",
+        Up = "rounds {} up",
+        Any = "rounds {} to all steps where more than half a pixel is covered, and to none elsewhere",
     }
 }
 
@@ -214,29 +168,12 @@ impl Field for Steps {
     }
 }
 
-/// Pixels that are drawn without regard to their share.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum AreaGate {
-    #[default]
-    None,
-    Never,
-    Whole,
-}
-
-impl Field for AreaGate {
-    const NAME: &'static str = "pixels of shares";
-
-    fn options() -> Vec<Self> {
-        vec![Self::Never, Self::Whole]
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        let does = if *self == Self::Whole {
-            "draws touched pixels whole, and not {}"
-        } else {
-            "does not draw {}"
-        };
-        Some((does.to_owned(), "draw each pixel by the share that is covered"))
+choices! {
+    /// Pixels that are drawn without regard to their share.
+    pub enum AreaGate: "pixels of shares", "draw each pixel by the share that is covered" {
+        None,
+        Never = "does not draw {}",
+        Whole = "draws touched pixels whole, and not {}",
     }
 }
 
@@ -318,9 +255,8 @@ impl Stage for AreaDrawn {
     }
 
     fn quantities<'a>() -> Vec<Quantity<AreaPixel<'a>>> {
-        let mut all = of_pixels();
-        let of: fn(&AreaPixel<'a>) -> f64 = |pixel| pixel.share;
-        all.push(Quantity { of, says: Says::Number("the share of the pixel that is covered") });
+        let mut all = of_pixels::<AreaPixel<'a>>();
+        all.push(Quantity::number("the share of the pixel that is covered", |pixel| pixel.share));
         all
     }
 

@@ -10,6 +10,7 @@ mod depth;
 mod grids;
 mod learn;
 mod near;
+mod sample_values;
 mod samples;
 mod search;
 #[cfg(test)]
@@ -40,6 +41,7 @@ use rasterproof_verify::mistakes::values::{self, ValueHypothesis};
 use rasterproof_verify::mistakes::{
     ENOUGH_WRONG, Explanation, Hypothesis, MistakeId, Mistakes, chosen_by, of_answers,
 };
+use sample_values::SampleShading;
 use samples::SampleMask;
 use search::{Mistake, Quantity, Says, Spot, Stage, common, of_pixels};
 use wide::WideDrawn;
@@ -104,6 +106,7 @@ fn answered(
             let is_wrong = match check {
                 // Their pixels are judged as coverage.
                 Check::Values => judged.finding.worst() > 1.0,
+                Check::SampleValues => judged.is_wrong(),
                 _ => judged.finding.tally.total() > 0,
             };
             all.push(Answered { questions, answers, is_wrong });
@@ -117,6 +120,7 @@ fn families(check: Check) -> &'static [&'static str] {
     match check {
         Check::Values => values::FAMILIES,
         Check::Samples => &["uniform", "half-integer"],
+        Check::SampleValues => &["w-4", facts::values::TOPIC.name],
         Check::Depth => &["depth-order", "depth-near-tie"],
         Check::Near | Check::Carried => &["near-plane"],
         Check::Wide => &["wide-line"],
@@ -164,6 +168,7 @@ fn known(
     match check {
         Check::Values => of_values(all, &truth.declared, programs),
         Check::Samples => of_stage::<SampleMask>(all, &truth.declared, programs),
+        Check::SampleValues => of_stage::<SampleShading>(all, &truth.declared, programs),
         Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
         Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
         Check::Wide => of_stage::<WideDrawn>(all, &truth.declared, programs),
@@ -188,6 +193,7 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
             known.filter_map(|known| MistakeId::of(&known.says.does)).collect()
         }
         Check::Samples => identified::<SampleMask>(all, &truth.declared),
+        Check::SampleValues => identified::<SampleShading>(all, &truth.declared),
         Check::Depth => identified::<DepthTest>(all, &truth.declared),
         Check::Near | Check::Carried => identified::<NearCut>(all, &truth.declared),
         Check::Wide => identified::<WideDrawn>(all, &truth.declared),

@@ -1,6 +1,6 @@
 //! What the near plane leaves of a triangle, as a clipper that may be mistaken.
 
-use super::search::{Composed as _, Field, Quantity, Says, Stage, composed};
+use super::search::{Composed as _, Field, Quantity, Says, Stage, choices, composed};
 use crate::ask::{Answer, Question};
 use crate::declared::Declared;
 use crate::near_plane::{asked, bounds, is_round};
@@ -22,31 +22,12 @@ composed! {
     }
 }
 
-/// Whether corners are divided by w, and when.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Divided {
-    #[default]
-    Not,
-    Before,
-    After,
-}
-
-impl Field for Divided {
-    const NAME: &'static str = "a division by w";
-
-    fn options() -> Vec<Self> {
-        vec![Self::Before, Self::After]
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        let does = match self {
-            Self::Not => return None,
-            Self::Before => "divides x, y, z and w of each corner by its own w before it clips",
-            Self::After => {
-                "divides x, y, z and w by w where only the clipped polygon should be divided"
-            }
-        };
-        Some((does.to_owned(), "clip in clip space, and leave the division to the stage after it"))
+choices! {
+    /// Whether corners are divided by w, and when.
+    pub enum Divided: "a division by w", "clip in clip space, and leave the division to the stage after it" {
+        Not,
+        Before = "divides x, y, z and w of each corner by its own w before it clips",
+        After = "divides x, y, z and w by w where only the clipped polygon should be divided",
     }
 }
 
@@ -220,24 +201,12 @@ impl Field for Part {
     }
 }
 
-/// From where the part is counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum EdgeStart {
-    #[default]
-    FromKept,
-    FromFirst,
-}
-
-impl Field for EdgeStart {
-    const NAME: &'static str = "the end of an edge";
-
-    fn options() -> Vec<Self> {
-        vec![Self::FromFirst]
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        (*self == Self::FromFirst)
-            .then(|| ("counts the part from the first end of the edge".to_owned(), NEW_REPAIR))
+choices! {
+    /// From where the part is counted.
+    pub enum EdgeStart: "the end of an edge",
+        "a new corner divides the edge as the distances of its ends do, in all of x, y, z, w and attributes" {
+        FromKept,
+        FromFirst = "counts the part from the first end of the edge",
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::declared::Declared;
 use std::sync::LazyLock;
 
+use super::grids::on_grid;
 use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::pixels::masks_of;
@@ -92,41 +93,11 @@ impl Field for Order {
     }
 }
 
-/// The grid of corners before samples are tested.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid(Quantum);
-
-impl Default for Grid {
-    fn default() -> Self {
-        Self(Quantum::NONE)
-    }
-}
-
-impl Field for Grid {
-    const NAME: &'static str = "corners of the samples";
-
-    fn options() -> Vec<Self> {
-        use Rounding::{Down, HalfAway, HalfEven, Near, TowardZero};
-        let steps = (1..=8).map(|bits| 1 << bits);
-        let of = |step| {
-            [Down, Near, HalfEven, HalfAway, TowardZero]
-                .map(|rounding| Self(Quantum { step, rounding }))
-        };
-        steps.flat_map(of).collect()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        let Quantum { step, rounding } = self.0;
-        let unit = match SUBPIXELS / step {
-            1 => "whole pixels".to_owned(),
-            parts => format!("1/{parts} px"),
-        };
-        let does = match rounding {
-            Rounding::Down => format!("tests {{}} of corners that are cut to {unit}"),
-            to => format!("tests {{}} of corners that are brought to {unit} ({})", to.name()),
-        };
-        Some((does, "test samples of the corners by which pixels are covered"))
-    }
+on_grid! {
+    /// The grid of corners before samples are tested.
+    pub struct Grid: "corners of the samples", "tests {{}} of corners that are {}",
+        "test samples of the corners by which pixels are covered",
+        [Down, Near, HalfEven, HalfAway, TowardZero]
 }
 
 /// The fill rules of clockwise triangles and of the others.
@@ -549,9 +520,10 @@ impl Stage for SampleMask {
     }
 
     fn quantities<'a>() -> Vec<Quantity<Masked<'a>>> {
-        let mut all = of_pixels();
-        let of: fn(&Masked<'a>) -> f64 = |pixel| pixel.right.count_ones().into();
-        all.push(Quantity { of, says: Says::Number("the number of covered samples") });
+        let mut all = of_pixels::<Masked<'a>>();
+        all.push(Quantity::number("the number of covered samples", |pixel| {
+            pixel.right.count_ones().into()
+        }));
         all
     }
 
@@ -567,13 +539,12 @@ impl Stage for SampleMask {
             |p| f64::from(u8::from(p.right & !p.drawn == 0)),
             "with samples too many, and lack none",
         ));
-        let of: fn(&Masked<'a>) -> f64 = |p| {
+        all.push(Quantity::number("the number of the wrong sample", |p| {
             (p.right ^ p.drawn)
                 .checked_ilog2()
                 .filter(|_| (p.right ^ p.drawn).is_power_of_two())
                 .map_or(f64::NAN, f64::from)
-        };
-        all.push(Quantity { of, says: Says::Number("the number of the wrong sample") });
+        }));
         all
     }
 

@@ -73,6 +73,42 @@ macro_rules! composed {
 }
 pub(super) use composed;
 
+/// A field whose wrong values are a few words, with the repair of all of them.
+macro_rules! choices {
+    (
+        $(#[$doc:meta])*
+        pub enum $name:ident: $called:literal, $repair:literal {
+            $right:ident,
+            $($(#[$of_wrong:meta])* $wrong:ident = $does:literal,)+
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub enum $name {
+            #[default]
+            $right,
+            $($(#[$of_wrong])* $wrong,)+
+        }
+
+        impl $crate::stages::search::Field for $name {
+            const NAME: &'static str = $called;
+
+            fn options() -> Vec<Self> {
+                vec![$(Self::$wrong),+]
+            }
+
+            fn says(&self) -> Option<(String, &'static str)> {
+                let does = match self {
+                    Self::$right => return None,
+                    $(Self::$wrong => $does,)+
+                };
+                Some((does.to_owned(), $repair))
+            }
+        }
+    };
+}
+pub(super) use choices;
+
 /// A stage of a pipeline as it may be mistaken.
 pub trait Stage: Composed + 'static {
     /// What is answered at once: a pixel, or a polygon. It holds the answer.
@@ -118,6 +154,12 @@ pub struct Quantity<P> {
     pub of: fn(&P) -> f64,
     /// What it is, after 'where'; or what is said of a part that has 1 and of one that has 0, which may be nothing.
     pub says: Says,
+}
+
+impl<P> Quantity<P> {
+    pub fn number(name: &'static str, of: fn(&P) -> f64) -> Self {
+        Self { of, says: Says::Number(name) }
+    }
 }
 
 #[derive(Clone, Copy)]

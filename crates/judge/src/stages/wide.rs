@@ -1,8 +1,8 @@
 //! The pixels of a line with a width, drawn by somebody who may be mistaken.
 
-use super::grids::{grids, rounded, unit};
+use super::grids::{on_grid, unit};
 use super::samples::{TIES, facing};
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -24,41 +24,26 @@ composed! {
     }
 }
 
-/// The grid that both ends are put on before anything is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EndGrid(Quantum);
-
-impl Field for EndGrid {
-    const NAME: &'static str = "ends of wide lines";
-
-    fn options() -> Vec<Self> {
-        grids(&[Rounding::Down, Rounding::Near]).into_iter().map(Self).collect()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((
-            format!("draws {{}} from ends that are {}", rounded(self.0)),
-            "take the ends as they are asked",
-        ))
-    }
+on_grid! {
+    /// The grid that both ends are put on before anything is computed.
+    pub struct EndGrid: "ends of wide lines", "draws {{}} from ends that are {}",
+        "take the ends as they are asked", [Down, Near]
 }
 
-rasterproof_core::named! {
+choices! {
     /// How wide a line is drawn.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub enum Thickness {
-        #[default]
-        Right = "",
-        Double = "twice as wide",
-        Half = "half as wide",
-        One = "1 px wide",
-        More = "1 px wider",
-        Less = "1 px narrower",
-        Down = "as wide as its width rounded down to whole pixels",
-        Near = "as wide as its width rounded to whole pixels",
-        Up = "as wide as its width rounded up to whole pixels",
-        AtLeast = "at least 1 px wide",
-        Odd = "as wide as the next odd number of pixels that is no smaller than its width rounded down",
+    pub enum Thickness: "width of wide lines", "draw a line as wide as it is asked" {
+        Right,
+        Double = "draws {} twice as wide",
+        Half = "draws {} half as wide",
+        One = "draws {} 1 px wide",
+        More = "draws {} 1 px wider",
+        Less = "draws {} 1 px narrower",
+        Down = "draws {} as wide as its width rounded down to whole pixels",
+        Near = "draws {} as wide as its width rounded to whole pixels",
+        Up = "draws {} as wide as its width rounded up to whole pixels",
+        AtLeast = "draws {} at least 1 px wide",
+        Odd = "draws {} as wide as the next odd number of pixels that is no smaller than its width rounded down",
     }
 }
 
@@ -83,45 +68,17 @@ impl Thickness {
     }
 }
 
-impl Field for Thickness {
-    const NAME: &'static str = "width of wide lines";
-
-    fn options() -> Vec<Self> {
-        Self::ALL[1..].to_vec()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((format!("draws {{}} {}", self.name()), "draw a line as wide as it is asked"))
-    }
-}
-
-rasterproof_core::named! {
+choices! {
     /// The form of a line, where it is not the declared one.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub enum Caps {
-        #[default]
-        Right = "",
-        Rectangle = "as rectangles",
-        Parallelogram = "as parallelograms, as wide along the shorter axis",
-        Square = "longer at both ends by half their width",
-        Round = "with half a disc at both ends",
-        AlongX = "as wide along x, whatever their direction",
-        AlongY = "as wide along y, whatever their direction",
-    }
-}
-
-impl Field for Caps {
-    const NAME: &'static str = "form of wide lines";
-
-    fn options() -> Vec<Self> {
-        Self::ALL[1..].to_vec()
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        Some((
-            format!("draws {{}} {}", self.name()),
-            "draw a rectangle that is cut off at right angles at both ends, or what is declared",
-        ))
+    pub enum Caps: "form of wide lines",
+        "draw a rectangle that is cut off at right angles at both ends, or what is declared" {
+        Right,
+        Rectangle = "draws {} as rectangles",
+        Parallelogram = "draws {} as parallelograms, as wide along the shorter axis",
+        Square = "draws {} longer at both ends by half their width",
+        Round = "draws {} with half a disc at both ends",
+        AlongX = "draws {} as wide along x, whatever their direction",
+        AlongY = "draws {} as wide along y, whatever their direction",
     }
 }
 
@@ -164,31 +121,13 @@ impl Field for BorderRule {
     }
 }
 
-/// Pixels that are drawn without regard to the line.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum LineGate {
-    #[default]
-    None,
-    Never,
-    Always,
-    Twice,
-}
-
-impl Field for LineGate {
-    const NAME: &'static str = "pixels of wide lines";
-
-    fn options() -> Vec<Self> {
-        vec![Self::Never, Self::Always, Self::Twice]
-    }
-
-    fn says(&self) -> Option<(String, &'static str)> {
-        let does = match self {
-            Self::None => return None,
-            Self::Never => "does not draw {}",
-            Self::Always => "draws every pixel",
-            Self::Twice => "draws {} twice",
-        };
-        Some((does.to_owned(), "draw the pixels whose samples lie in the rectangle, once each"))
+choices! {
+    /// Pixels that are drawn without regard to the line.
+    pub enum LineGate: "pixels of wide lines", "draw the pixels whose samples lie in the rectangle, once each" {
+        None,
+        Never = "does not draw {}",
+        Always = "draws every pixel",
+        Twice = "draws {} twice",
     }
 }
 
@@ -233,6 +172,11 @@ impl WidePixel<'_> {
     fn sample(&self) -> [i64; 2] {
         let of = |k: usize| i64::from(self.spot.at[k]) * i64::from(SUBPIXELS);
         [0, 1].map(|k| of(k) + i64::from(self.convention.sample[k]))
+    }
+
+    /// From the first end of its line to the second along an axis, in pixels.
+    fn by_px(&self, axis: usize) -> f64 {
+        vectors(self.line, [0; 2])[0][axis] / f64::from(SUBPIXELS)
     }
 
     /// See [`outside`].
@@ -394,19 +338,17 @@ impl Stage for WideDrawn {
     }
 
     fn quantities<'a>() -> Vec<Quantity<WidePixel<'a>>> {
-        let mut all = of_pixels();
+        let mut all = of_pixels::<WidePixel<'a>>();
         // That of windings is about triangles.
         all.remove(0);
-        let number =
-            |name, of: fn(&WidePixel<'a>) -> f64| Quantity { of, says: Says::Number(name) };
-        all.push(number("the width of the line in px", |p| {
+        all.push(Quantity::number("the width of the line in px", |p| {
             f64::from(p.line.width) / f64::from(SUBPIXELS)
         }));
-        all.push(number("the columns from the first end to the second, in px", |p| {
-            vectors(p.line, [0; 2])[0][0] / f64::from(SUBPIXELS)
+        all.push(Quantity::number("the columns from the first end to the second, in px", |p| {
+            p.by_px(0)
         }));
-        all.push(number("the rows from the first end to the second, in px", |p| {
-            vectors(p.line, [0; 2])[0][1] / f64::from(SUBPIXELS)
+        all.push(Quantity::number("the rows from the first end to the second, in px", |p| {
+            p.by_px(1)
         }));
         all
     }

@@ -294,6 +294,7 @@ fn nothing(question: &Question) -> Option<Answer> {
         | Asked::Carried(_)
         | Asked::Wide(_)
         | Asked::Area(_)
+        | Asked::SampleValues(_)
         | Asked::Polygon(_) => return None,
     })
 }

@@ -391,7 +391,7 @@ fn halves([x, y]: Point, [dx, dy]: Point) -> Point {
 /// Nearer to zero, on pixel borders, on centres.
 fn simpler_coordinates(value: i32) -> Vec<i32> {
     let border = value.div_euclid(SUBPIXELS).saturating_mul(SUBPIXELS);
-    let step = |v: i32| value - value.signum() * v.min(value.abs());
+    let step = |v: i32| value - value.signum() * v.min(value.saturating_abs());
     let mut simpler = vec![
         0,
         value / 2,
@@ -425,7 +425,7 @@ fn line_candidates(case: &Case) -> Vec<Case> {
             found.push(here(&|i, p| if i == end { point } else { p }));
         }
         for (axis, value) in ends[end].into_iter().enumerate() {
-            let step = |v: i32| value - value.signum() * v.min(value.abs());
+            let step = |v: i32| value - value.signum() * v.min(value.saturating_abs());
             let simpler = [0, value / 2, step(8), step(2), step(1)];
             found.extend(simpler.map(|value| here(&one_at(end, axis, value))));
         }

@@ -1,12 +1,10 @@
 //! Runs of pixels compared with those that are expected, and which values are compared.
 
-use glam::DVec2;
-
 use super::finding::Tally;
 use crate::promise::Expectation;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_core::triangle::Span;
 
 /// Compares runs with a picture, pixel by pixel unless they are the same runs.
 pub fn compare(
@@ -60,7 +58,7 @@ pub fn sequence(
 }
 
 /// The fragments whose values are compared: the first, the last and two between.
-pub fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
+pub fn few<T>(fragments: &[T]) -> impl Iterator<Item = &T> {
     let n = fragments.len();
     let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
     picks.dedup();

@@ -73,8 +73,8 @@ pub struct Place {
 #[derive(Clone, Debug)]
 pub struct Plan {
     passes: usize,
-    families: usize,
-    numbers: Range<u64>,
+    /// The numbers of the cases of each family.
+    numbers: Vec<Range<u64>>,
     shard: Shard,
     /// Cases of a batch, at most.
     block: u64,
@@ -91,10 +91,25 @@ impl Plan {
         block: u64,
         most: u64,
     ) -> Self {
+        Self::of(options, passes, vec![options.numbers(); families], [block, most])
+    }
+
+    /// The same where families have different numbers of cases.
+    pub fn of<F, T>(
+        options: &Options<F, T>,
+        passes: usize,
+        numbers: Vec<Range<u64>>,
+        [block, most]: [u64; 2],
+    ) -> Self {
         let least = if options.time_limit.is_some() { 1 } else { most };
-        let passes = if families > 0 { passes } else { 0 };
-        let (numbers, shard) = (options.numbers(), options.shard);
-        Self { passes, families, numbers, shard, block, least, most }
+        let passes = if numbers.is_empty() { 0 } else { passes };
+        Self { passes, numbers, shard: options.shard, block, least, most }
+    }
+
+    /// The number of the first case, and the one after the last of any family.
+    fn whole(&self) -> Range<u64> {
+        let of = |bound: fn(&Range<u64>) -> u64| self.numbers.iter().map(bound);
+        of(|r| r.start).min().unwrap_or(0)..of(|r| r.end).max().unwrap_or(0)
     }
 }
 
@@ -183,7 +198,7 @@ pub struct Judge<K: JudgeKind> {
 
 impl<K: JudgeKind> Judge<K> {
     pub fn new(plan: Plan, tally: K::Tally) -> Self {
-        let (first, round) = (plan.numbers.start, plan.least);
+        let (first, round) = (plan.whole().start, plan.least);
         Self {
             plan,
             tally,
@@ -222,8 +237,9 @@ impl<K: JudgeKind> Judge<K> {
                 continue;
             }
             self.is_begun = true;
-            let end = self.plan.numbers.end.min(self.first.saturating_add(self.round));
-            let block = self.number..end.min(self.number.saturating_add(self.plan.block));
+            let end = self.first.saturating_add(self.round);
+            let of_family = end.min(self.plan.numbers[place.family].end);
+            let block = self.number..of_family.min(self.number.saturating_add(self.plan.block));
             let most_deaths = kind.most_deaths(&self.tally, place);
             if block.is_empty() || most_deaths == 0 {
                 self.next_family(end);
@@ -244,20 +260,20 @@ impl<K: JudgeKind> Judge<K> {
     /// Goes on with the next family, and after the last one with the next round.
     fn next_family(&mut self, end: u64) {
         self.place.family += 1;
-        if self.place.family == self.plan.families {
+        if self.place.family == self.plan.numbers.len() {
             self.place.family = 0;
             self.first = end;
             self.round = self.plan.most.min(2 * self.round);
         }
         self.number = self.first;
-        if self.first >= self.plan.numbers.end {
+        if self.first >= self.plan.whole().end {
             self.begin_pass(self.place.pass + 1);
         }
     }
 
     fn begin_pass(&mut self, pass: usize) {
         self.place = Place { pass, family: 0 };
-        (self.first, self.number) = (self.plan.numbers.start, self.plan.numbers.start);
+        (self.first, self.number) = (self.plan.whole().start, self.plan.whole().start);
         self.round = self.plan.least;
     }
 

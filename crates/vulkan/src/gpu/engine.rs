@@ -148,6 +148,7 @@ impl Gpu {
             | Asked::Carried(_)
             | Asked::Wide(_)
             | Asked::Area(_)
+            | Asked::SampleValues(_)
             | Asked::Polygon(_) => {
                 return None;
             }
@@ -219,6 +220,7 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
         | Asked::Carried(_)
         | Asked::Wide(_)
         | Asked::Area(_)
+        | Asked::SampleValues(_)
         | Asked::Polygon(_) => return None,
     })
 }

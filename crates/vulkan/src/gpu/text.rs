@@ -3,7 +3,7 @@
 use super::campaign::DeviceReport;
 use super::outcome::Requirement;
 use crate::device::find::About;
-use rasterproof_judge::verdict::Scores as _;
+use rasterproof_judge::verdict::{Scores as _, Shapes};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{json, judge_text};
@@ -53,7 +53,7 @@ fn closing(stand: &DeviceReport) -> String {
     let count = |class: Standing| stand.findings.iter().filter(|f| f.class == class).count();
     let bad: Vec<_> =
         stand.findings.iter().filter(|f| !f.class.is_good()).map(|f| f.name.as_str()).collect();
-    let shapes = stand.verdict.shapes(false);
+    let shapes = stand.verdict.shapes(Shapes::Triangles);
     let first = match stand.verdict.more.found.changing.is_empty() {
         true => "",
         false => "its answers change from one time to the next; ",

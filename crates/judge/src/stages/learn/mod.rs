@@ -34,6 +34,7 @@ use rasterproof_verify::learn::trial::{
 
 use super::area::AreaDrawn;
 use super::families;
+use super::sample_values::SampleShading;
 use super::wide::WideDrawn;
 use crate::adapt_case;
 use crate::ask::{Answer, Question, Subject};
@@ -110,6 +111,9 @@ pub fn learn(
         }
         Check::Wide => {
             Learner::<pixels::Pixels<WideDrawn>>::new(program, check, truth, most).learn()
+        }
+        Check::SampleValues => {
+            Learner::<pixels::Pixels<SampleShading>>::new(program, check, truth, most).learn()
         }
         Check::Area => {
             Learner::<pixels::Pixels<AreaDrawn>>::new(program, check, truth, most).learn()

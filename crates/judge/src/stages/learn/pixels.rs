@@ -5,10 +5,11 @@ use std::marker::PhantomData;
 use super::{Learnable, LearnedCase};
 use crate::declared::Declared;
 use crate::stages::area::{AreaDrawn, AreaPixel};
+use crate::stages::sample_values::{SampleShading, ShadedPixel};
 use crate::stages::search::{Spot, Stage, singles};
 use crate::stages::wide::{WideDrawn, WidePixel};
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::cases::facts::{Topic, area, wide};
+use rasterproof_verify::cases::facts::{Topic, area, values, wide};
 use rasterproof_verify::learn::rows::{Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
@@ -95,6 +96,18 @@ impl PixelStage for AreaDrawn {
             &["the pixel is covered whole"],
             "the pixel is not covered whole",
         );
+    }
+}
+
+impl PixelStage for SampleShading {
+    const TOPIC: Topic = values::TOPIC;
+
+    fn of_pixel(pixel: &ShadedPixel<'_>, out: &mut Quantities) {
+        of_spot(&pixel.spot, out);
+        let covered = i64::from(pixel.right.count_ones());
+        out.number(Unit::Count, covered, &["the number of covered samples of the pixel"]);
+        let is_covered = pixel.is_centre_covered;
+        out.flag(is_covered, &["the centre is covered"], "the centre is not covered");
     }
 }
 

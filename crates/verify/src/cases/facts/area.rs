@@ -4,8 +4,8 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 
-use super::triangles::{self, TriangleFacts};
-use super::{Read, Test, Topic, Unit, fact, facts_of, numbers};
+use super::triangles::{self, TriangleFacts, form_facts};
+use super::{Read, Test, Topic, Unit, fact, facts_of, joined, numbers};
 use crate::cases::{Case, Limits, Shape};
 use crate::oracle::area::share;
 
@@ -22,42 +22,34 @@ pub const TOPIC: Topic = Topic {
 
 const PX: i64 = SUBPIXELS as i64;
 const EXTENT: Test = Test::Steps(&[1, PX, 8 * PX, 64 * PX]);
-const BITS: Test = Test::Steps(&[1, 2, 5]);
-const SIDES: Test = Test::Steps(&[2, 3, 9]);
-const PLACE: Test = Test::Choice(&["inside", "outside"]);
 const PIXELS: Test = Test::Steps(&[1, 2, 9]);
 const WHETHER: Test = Test::Steps(&[1]);
 const SLOPE: Test = Test::Steps(&[0, 4, 8]);
 
 /// The facts that the design covers.
-const FACTS: [Read<AreaFacts>; 21] = [
-    fact("its winding", Unit::Count, |m| m.form.turn + 1, triangles::WINDING),
-    fact("its width", Unit::Subpixels, |m| m.form.size[0], EXTENT),
-    fact("its height", Unit::Subpixels, |m| m.form.size[1], EXTENT),
-    fact("the bits of its columns below the pixel", Unit::Count, |m| m.form.bits[0], BITS),
-    fact("the bits of its rows below the pixel", Unit::Count, |m| m.form.bits[1], BITS),
-    fact("its left side", Unit::Count, |m| i64::from(m.form.beyond[0] > 0), PLACE),
-    fact("its upper side", Unit::Count, |m| i64::from(m.form.beyond[1] > 0), PLACE),
-    fact("its right side", Unit::Count, |m| i64::from(m.form.beyond[2] > 0), PLACE),
-    fact("its lower side", Unit::Count, |m| i64::from(m.form.beyond[3] > 0), PLACE),
-    fact("corners inside the window", Unit::Count, |m| m.form.inside, Test::Steps(&[1, 2, 3])),
-    fact("the width of the window", Unit::Pixels, |m| m.form.window[0], SIDES),
-    fact("the height of the window", Unit::Pixels, |m| m.form.window[1], SIDES),
-    fact("the width of the window in pixels", Unit::Count, |m| m.form.window[0], Test::Divisor),
-    fact("pixels that it covers whole", Unit::Count, |m| m.whole, PIXELS),
-    fact("pixels that it covers in part", Unit::Count, |m| m.partly, PIXELS),
-    fact("pixels of which it covers less than 1/510", Unit::Count, |m| m.hardly, WHETHER),
-    fact("pixels of which it covers all but 1/510", Unit::Count, |m| m.almost, WHETHER),
-    fact("pixels of which it covers exactly half", Unit::Count, |m| m.half, WHETHER),
-    fact(
-        "pixels of which it covers more than half and not all",
-        Unit::Count,
-        |m| m.mostly,
-        WHETHER,
-    ),
-    fact("columns to a row of the most level edge", Unit::Doublings, |m| m.form.levelest, SLOPE),
-    fact("rows to a column of the steepest edge", Unit::Doublings, |m| m.form.steepest, SLOPE),
-];
+const FACTS: [Read<AreaFacts>; 21] = joined(
+    form_facts!(AreaFacts, EXTENT),
+    [
+        fact("pixels that it covers whole", Unit::Count, |m| m.whole, PIXELS),
+        fact("pixels that it covers in part", Unit::Count, |m| m.partly, PIXELS),
+        fact("pixels of which it covers less than 1/510", Unit::Count, |m| m.hardly, WHETHER),
+        fact("pixels of which it covers all but 1/510", Unit::Count, |m| m.almost, WHETHER),
+        fact("pixels of which it covers exactly half", Unit::Count, |m| m.half, WHETHER),
+        fact(
+            "pixels of which it covers more than half and not all",
+            Unit::Count,
+            |m| m.mostly,
+            WHETHER,
+        ),
+        fact(
+            "columns to a row of the most level edge",
+            Unit::Doublings,
+            |m| m.form.levelest,
+            SLOPE,
+        ),
+        fact("rows to a column of the steepest edge", Unit::Doublings, |m| m.form.steepest, SLOPE),
+    ],
+);
 
 /// What was measured of a triangle with the shares of its pixels.
 struct AreaFacts {

@@ -103,13 +103,13 @@ impl DesignShare {
     pub fn of_families<'a>(
         families: impl IntoIterator<Item = &'a Family>,
         seed: u64,
-        numbers: &Range<u64>,
+        numbers: impl Fn(&Topic) -> Range<u64>,
         limits: &Limits,
     ) -> Vec<Self> {
         let mut shares = Vec::new();
         for topic in families.into_iter().filter_map(Family::design) {
             let question = |index| design::case(topic, seed, index, limits);
-            shares.push(Self::of(topic, numbers.clone(), limits, &question));
+            shares.push(Self::of(topic, numbers(topic), limits, &question));
         }
         shares
     }

@@ -422,11 +422,18 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
 }
 
-/// Moves the corners of a triangle onto the border of a window.
+/// Moves the corners of a triangle onto the border of a window, of which it may leave the first or the last row or column.
 fn span(rng: &mut Rng, triangle: &mut Triangle, window: PixelRect) {
-    let sides = [window.x1, window.y1].map(|side| side * SUBPIXELS);
+    let sides = [window.x1, window.y1];
+    let open = rng.int(0, 7);
+    let [mut low, mut high] = [[0; 2], sides.map(|side| side * SUBPIXELS)];
+    for axis in (0..2).filter(|axis| sides[*axis] > 1) {
+        low[axis] += SUBPIXELS * i32::from(open == axis as i64);
+        high[axis] -= SUBPIXELS * i32::from(open == axis as i64 + 2);
+    }
     let at = rng.coordinate(0, 4) * (SUBPIXELS / 4);
-    let corners = [[0, at.min(sides[1])], [sides[0], 0], [at.min(sides[0]), sides[1]]];
+    let beside = [0, 1].map(|axis| (low[axis] + at).min(high[axis]));
+    let corners = [[low[0], beside[1]], [high[0], low[1]], [beside[0], high[1]]];
     for (v, [x, y]) in triangle.vertices.iter_mut().zip(corners) {
         v.position = SubpixelPoint::new(x, y);
     }

@@ -5,8 +5,9 @@
 //! looked for that hold a class of fact k - 1. A
 //! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
 //!
-//! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. What is rare
-//! is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
+//! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. Some are drawn
+//! at random, and more are made of two cases that were chosen, each the example of a class, so that rare classes have their turn as
+//! often as frequent ones. What is rare is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
 //! data ([`impossible`]).
 
 use std::collections::VecDeque;
@@ -32,22 +33,36 @@ const MOST_TURNS: usize = 6000;
 /// Questions that are drawn until one has facts.
 const MOST_DRAWN: usize = 10_000;
 /// Cases that are remembered of each class, to look beside them.
-const REMEMBERED: usize = 6;
+const REMEMBERED: usize = 30;
+/// Changes from a chosen case to a candidate made of it and another one.
+const CHANGES: usize = 4;
 /// Blocks that are kept for whoever asks for their cases next: those of 20,000 cases of three designs.
 const KEPT: usize = 64;
+
+/// The third power of the number of classes for which one more candidate is made of two cases: 60 where there are 134 classes, and 4
+/// where there are 53.
+const CLASSES_CUBED_TO_ONE: usize = 40_000;
 
 /// How many candidates there are for each case.
 struct Effort {
     /// Those that are drawn at random.
     drawn: usize,
+    /// Those that are made of two cases that were chosen.
+    made: usize,
     /// Things that are wanted, with [`AT_ONCE`] candidates each.
     wanted: usize,
 }
 
 impl Effort {
-    /// Every pair has to be in the first block. The others add triples.
-    fn of_block(number: u64) -> Self {
-        if number == 0 { Self { drawn: 6, wanted: 8 } } else { Self { drawn: 2, wanted: 1 } }
+    /// Every pair has to be in the first block, and nearly every triple in the first two: so many classes have more or fewer of
+    /// them. The other blocks add rare triples.
+    fn of_block(number: u64, classes: usize) -> Self {
+        let made = classes.pow(3) / CLASSES_CUBED_TO_ONE;
+        match number {
+            0 => Self { drawn: 6, made, wanted: 8 },
+            1 => Self { drawn: 2, made, wanted: 1 },
+            _ => Self { drawn: 2, made: 0, wanted: 1 },
+        }
     }
 }
 
@@ -89,6 +104,10 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
         let mut best = None;
         for _ in 0..self.effort.drawn {
             let case = (self.topic.draw)(&mut self.rng);
+            self.consider(self.candidate(case), &mut best);
+        }
+        for _ in 0..self.effort.made {
+            let Some(case) = self.made_of_two() else { continue };
             self.consider(self.candidate(case), &mut best);
         }
         // The last few are the rarest.
@@ -160,6 +179,17 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
             }
         }
         false
+    }
+
+    /// A case made of two that are examples of any classes.
+    fn made_of_two(&mut self) -> Option<Q> {
+        let last = self.examples.len() as i64 - 1;
+        let classes = [(); 2].map(|()| self.rng.int(0, last) as u16);
+        let [mut case, other] = self.examples_of(&classes)?;
+        for _ in 0..CHANGES {
+            case = (self.topic.vary)(&mut self.rng, &case, &other);
+        }
+        Some(case)
     }
 
     /// Two cases that have one of some classes each; none where a class has no case.
@@ -273,7 +303,7 @@ pub(crate) fn block_without<Q: Clone, L>(
         topic,
         limits,
         rng: Rng::new(topic.name, seed, number),
-        effort: Effort::of_block(number),
+        effort: Effort::of_block(number, all),
         impossible,
         table: Table::new(all),
         examples: vec![Vec::new(); all],

@@ -252,10 +252,12 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
 }
 
 fn case_of(window: PixelRect, ends: [[i64; 2]; 2]) -> Case {
-    let end = |[x, y]: [i64; 2]| LineEnd {
+    let end = |[x, y]: [i64; 2], values: [f64; 3]| LineEnd {
         pixel: PixelPoint::new(saturated(x), saturated(y)),
-        depth: 0.0,
-        varying: DVec2::ZERO,
+        depth: values[0],
+        varying: DVec2::new(values[1], values[2]),
     };
-    Case { window, shape: Shape::Lines(vec![ScreenLine { ends: ends.map(end) }]) }
+    let [first, second] = ends;
+    let ends = [end(first, [0.25, 1.0, -1.0]), end(second, [0.75, 3.0, 1.0])];
+    Case { window, shape: Shape::Lines(vec![ScreenLine { ends }]) }
 }

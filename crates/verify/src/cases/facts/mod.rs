@@ -144,11 +144,18 @@ impl Fact {
 }
 
 /// A fact with the number, read off what was measured of a question.
-#[derive(Clone, Copy)]
 pub(crate) struct Read<M> {
     fact: Fact,
     of: fn(&M) -> i64,
 }
+
+impl<M> Clone for Read<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Read<M> {}
 
 /// Shorthand of the tables of facts.
 pub(crate) const fn fact<M>(
@@ -169,6 +176,20 @@ pub(crate) const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; 
         at += 1;
     }
     facts
+}
+
+/// A table and another one behind it.
+pub(crate) const fn joined<M, const A: usize, const B: usize, const N: usize>(
+    first: [Read<M>; A],
+    second: [Read<M>; B],
+) -> [Read<M>; N] {
+    let mut all = [first[0]; N];
+    let mut at = 0;
+    while at < N {
+        all[at] = if at < A { first[at] } else { second[at - A] };
+        at += 1;
+    }
+    all
 }
 
 /// The numbers of a table, read off what was measured.
@@ -229,6 +250,12 @@ impl<Q, L> Topic<Q, L> {
     #[must_use]
     pub fn count(&self) -> usize {
         self.facts.iter().map(|fact| fact.test.count()).sum()
+    }
+
+    /// How many blocks of cases have nearly all triples of classes: two where there are many classes.
+    #[must_use]
+    pub fn blocks(&self) -> u64 {
+        if self.count() > 100 { 2 } else { 1 }
     }
 
     /// The number of each fact of a question, within limits; nothing where the question is of another kind.

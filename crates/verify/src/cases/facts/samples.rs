@@ -4,8 +4,8 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 
-use super::triangles::{self, Point, TriangleFacts, columns_at};
-use super::{Read, Test, Topic, Unit, fact, facts_of, numbers};
+use super::triangles::{self, Point, TriangleFacts, columns_at, form_facts};
+use super::{Read, Test, Topic, Unit, fact, facts_of, joined, numbers};
 use crate::cases::{Case, Limits, Shape};
 
 /// Triangles with four samples a pixel.
@@ -23,60 +23,52 @@ pub const TOPIC: Topic = Topic {
 const SAMPLES: [Point; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
 const PX: i64 = SUBPIXELS as i64;
 const EXTENT: Test = Test::Steps(&[1, PX, 8 * PX, 64 * PX, 4096 * PX]);
-const SIDES: Test = Test::Steps(&[2, 3, 9]);
-const PLACE: Test = Test::Choice(&["inside", "outside"]);
 const PIXELS: Test = Test::Steps(&[1, 2, 9]);
 const WHICH: Test =
     Test::Choice(&["of none", "sample 0", "sample 1", "sample 2", "sample 3", "different ones"]);
 
 /// The facts that the design covers.
-const FACTS: [Read<SampleFacts>; 24] = [
-    fact("its winding", Unit::Count, |m| m.form.turn + 1, triangles::WINDING),
-    fact("its width", Unit::Subpixels, |m| m.form.size[0], EXTENT),
-    fact("its height", Unit::Subpixels, |m| m.form.size[1], EXTENT),
-    fact("the bits of its columns below the pixel", Unit::Count, |m| m.form.bits[0], BITS),
-    fact("the bits of its rows below the pixel", Unit::Count, |m| m.form.bits[1], BITS),
-    fact("its left side", Unit::Count, |m| i64::from(m.form.beyond[0] > 0), PLACE),
-    fact("its upper side", Unit::Count, |m| i64::from(m.form.beyond[1] > 0), PLACE),
-    fact("its right side", Unit::Count, |m| i64::from(m.form.beyond[2] > 0), PLACE),
-    fact("its lower side", Unit::Count, |m| i64::from(m.form.beyond[3] > 0), PLACE),
-    fact("corners inside the window", Unit::Count, |m| m.form.inside, Test::Steps(&[1, 2, 3])),
-    fact("the width of the window", Unit::Pixels, |m| m.form.window[0], SIDES),
-    fact("the height of the window", Unit::Pixels, |m| m.form.window[1], SIDES),
-    fact("the width of the window in pixels", Unit::Count, |m| m.form.window[0], Test::Divisor),
-    fact("the height of the window in pixels", Unit::Count, |m| m.form.window[1], Test::Divisor),
-    fact("pixels with all four samples in it", Unit::Count, |m| m.whole, PIXELS),
-    fact("pixels with some of their samples in it", Unit::Count, |m| m.partly, PIXELS),
-    fact("the sample that is alone in its pixel", Unit::Count, |m| m.alone, WHICH),
-    fact("the sample that is missing alone in its pixel", Unit::Count, |m| m.missing, WHICH),
-    fact("the sample that lies on an edge", Unit::Count, |m| m.on_edge, WHICH),
-    fact("the sample that is a corner", Unit::Count, |m| m.on_corner, WHICH),
-    fact(
-        "pixels with the centre in it and no sample",
-        Unit::Count,
-        |m| m.only_centre,
-        Test::Steps(&[1]),
-    ),
-    fact(
-        "pixels with a sample in it and not the centre",
-        Unit::Count,
-        |m| m.without_centre,
-        PIXELS,
-    ),
-    fact(
-        "columns to a row of the most level edge",
-        Unit::Doublings,
-        |m| m.form.levelest,
-        Test::Steps(&[0, 4, 8]),
-    ),
-    fact(
-        "rows to a column of the steepest edge",
-        Unit::Doublings,
-        |m| m.form.steepest,
-        Test::Steps(&[0, 4, 8]),
-    ),
-];
-const BITS: Test = Test::Steps(&[1, 2, 5]);
+const FACTS: [Read<SampleFacts>; 24] = joined(
+    form_facts!(SampleFacts, EXTENT),
+    [
+        fact(
+            "the height of the window in pixels",
+            Unit::Count,
+            |m| m.form.window[1],
+            Test::Divisor,
+        ),
+        fact("pixels with all four samples in it", Unit::Count, |m| m.whole, PIXELS),
+        fact("pixels with some of their samples in it", Unit::Count, |m| m.partly, PIXELS),
+        fact("the sample that is alone in its pixel", Unit::Count, |m| m.alone, WHICH),
+        fact("the sample that is missing alone in its pixel", Unit::Count, |m| m.missing, WHICH),
+        fact("the sample that lies on an edge", Unit::Count, |m| m.on_edge, WHICH),
+        fact("the sample that is a corner", Unit::Count, |m| m.on_corner, WHICH),
+        fact(
+            "pixels with the centre in it and no sample",
+            Unit::Count,
+            |m| m.only_centre,
+            Test::Steps(&[1]),
+        ),
+        fact(
+            "pixels with a sample in it and not the centre",
+            Unit::Count,
+            |m| m.without_centre,
+            PIXELS,
+        ),
+        fact(
+            "columns to a row of the most level edge",
+            Unit::Doublings,
+            |m| m.form.levelest,
+            Test::Steps(&[0, 4, 8]),
+        ),
+        fact(
+            "rows to a column of the steepest edge",
+            Unit::Doublings,
+            |m| m.form.steepest,
+            Test::Steps(&[0, 4, 8]),
+        ),
+    ],
+);
 
 /// What was measured of a triangle with its samples. What lies on its boundary counts as in it.
 struct SampleFacts {
@@ -125,7 +117,7 @@ impl SampleFacts {
                     && [x.rem_euclid(PX), y.rem_euclid(PX)] == sample
             };
             if corners.iter().any(is_on) {
-                measured.on_corner = joined(measured.on_corner, number);
+                measured.on_corner = merged(measured.on_corner, number);
             }
         }
         Some(measured)
@@ -147,7 +139,7 @@ impl SampleFacts {
                 masks[(x - x0) as usize] |= 1 << number;
             }
             if is_exact && number != CENTRE {
-                self.on_edge = joined(self.on_edge, number as i64 + 1);
+                self.on_edge = merged(self.on_edge, number as i64 + 1);
             }
         }
         for mask in masks {
@@ -158,8 +150,8 @@ impl SampleFacts {
                     self.only_centre += i64::from(has_centre);
                     continue;
                 }
-                1 => self.alone = joined(self.alone, i64::from(samples.trailing_zeros()) + 1),
-                3 => self.missing = joined(self.missing, i64::from(samples.trailing_ones()) + 1),
+                1 => self.alone = merged(self.alone, i64::from(samples.trailing_zeros()) + 1),
+                3 => self.missing = merged(self.missing, i64::from(samples.trailing_ones()) + 1),
                 _ => {}
             }
             self.whole += i64::from(samples == 0b1111);
@@ -185,7 +177,7 @@ fn row_of(points: &[Point; 3], y_px: i32, window: [i64; 2]) -> Option<([i64; 2],
 }
 
 /// The number of the only sample so far with another one.
-fn joined(old: i64, new: i64) -> i64 {
+fn merged(old: i64, new: i64) -> i64 {
     if old == 0 || old == new { new } else { 5 }
 }
 

@@ -38,6 +38,72 @@ const EXTENT: Test = Test::Steps(&[1, PX, 8 * PX, 64 * PX, 4096 * PX, PX << 17])
 const SLOPE: Test = Test::Steps(&[0, 4, 8, 12, 15]);
 const BITS: Test = Test::Steps(&[1, 2, 5]);
 
+/// The first facts of a question about a triangle in a small window, of what has a `form`: width and height are tested by `$extent`.
+macro_rules! form_facts {
+    ($measured:ty, $extent:expr) => {{
+        use $crate::cases::facts::{Test, Unit, fact, triangles};
+        const BITS: Test = Test::Steps(&[1, 2, 5]);
+        const SIDES: Test = Test::Steps(&[2, 3, 9]);
+        const PLACE: Test = Test::Choice(&["inside", "outside"]);
+        [
+            fact("its winding", Unit::Count, |m: &$measured| m.form.turn + 1, triangles::WINDING),
+            fact("its width", Unit::Subpixels, |m: &$measured| m.form.size[0], $extent),
+            fact("its height", Unit::Subpixels, |m: &$measured| m.form.size[1], $extent),
+            fact(
+                "the bits of its columns below the pixel",
+                Unit::Count,
+                |m: &$measured| m.form.bits[0],
+                BITS,
+            ),
+            fact(
+                "the bits of its rows below the pixel",
+                Unit::Count,
+                |m: &$measured| m.form.bits[1],
+                BITS,
+            ),
+            fact(
+                "its left side",
+                Unit::Count,
+                |m: &$measured| (m.form.beyond[0] > 0) as i64,
+                PLACE,
+            ),
+            fact(
+                "its upper side",
+                Unit::Count,
+                |m: &$measured| (m.form.beyond[1] > 0) as i64,
+                PLACE,
+            ),
+            fact(
+                "its right side",
+                Unit::Count,
+                |m: &$measured| (m.form.beyond[2] > 0) as i64,
+                PLACE,
+            ),
+            fact(
+                "its lower side",
+                Unit::Count,
+                |m: &$measured| (m.form.beyond[3] > 0) as i64,
+                PLACE,
+            ),
+            fact(
+                "corners inside the window",
+                Unit::Count,
+                |m: &$measured| m.form.inside,
+                Test::Steps(&[1, 2, 3]),
+            ),
+            fact("the width of the window", Unit::Pixels, |m: &$measured| m.form.window[0], SIDES),
+            fact("the height of the window", Unit::Pixels, |m: &$measured| m.form.window[1], SIDES),
+            fact(
+                "the width of the window in pixels",
+                Unit::Count,
+                |m: &$measured| m.form.window[0],
+                Test::Divisor,
+            ),
+        ]
+    }};
+}
+pub(super) use form_facts;
+
 /// The facts that the design covers.
 const FACTS: [Read<TriangleFacts>; 27] = [
     fact("its winding", Unit::Count, |m| m.turn + 1, WINDING),

@@ -170,8 +170,15 @@ fn draw_depth(rng: &mut Rng) -> [f64; 3] {
 
 fn draw_w(rng: &mut Rng) -> [f64; 3] {
     let (least, ratio) = (rng.int(-16, 16), rng.int(0, 20));
-    match rng.int(0, 4) {
+    match rng.int(0, 5) {
         0 => [power(least); 3],
+        // Two corners alike, and the third nearer to the eye by less than half.
+        5 => {
+            let far = power(least) * (1.0 + rng.unit());
+            let mut w = [far; 3];
+            w[rng.int(0, 2) as usize] = far * (0.5 + rng.unit() / 2.0);
+            w
+        }
         // One or two corners far from the eye.
         1 | 2 => [(); 3].map(|()| power(least + ratio * rng.int(0, 1))),
         _ => [(); 3].map(|()| power(least + rng.int(0, ratio)) * (1.0 + rng.unit())),

@@ -1,0 +1,115 @@
+//! Values of the samples of a pixel: at its centre, also where that is not covered, at each sample, or at the centroid.
+//!
+//! Beyond the border of a triangle values are extrapolated, and there an error grows. Depth is a sum of the depths at the corners times
+//! weights whose sum is 1. Inside, no weight is below 0. Outside, the sum of their magnitudes s is more than 1, and errors of the terms
+//! add up to s times as much. An attribute is a quotient of two such sums, of which the lower one has the terms weight / w. So its
+//! errors are greater by the sum of the magnitudes of these terms over the magnitude of their sum. Inside, both factors are 1.
+
+use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_core::triangle::{Fragment, ValuePlace};
+use rasterproof_render::pipeline::multisample::{SAMPLES, moved};
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::pixels::few;
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+use super::ask::SampledValues;
+use super::declared::Declared;
+use super::expected::{exact_values, value_bounds};
+use super::judged::CaseJudgement;
+
+/// A point of a pixel, in 1/16 px from its upper left corner.
+pub type Place = (i32, i32);
+
+/// The centre of a pixel.
+pub const CENTRE: Place = (8, 8);
+
+/// Where the value of a sample is computed, in a pixel of which these samples are covered.
+#[must_use]
+pub fn place(at: ValuePlace, covered: u8, sample: usize) -> Place {
+    match at {
+        ValuePlace::Sample => SAMPLES[sample],
+        ValuePlace::Centroid if covered != 0b1111 => SAMPLES[covered.trailing_zeros() as usize % 4],
+        ValuePlace::Centre | ValuePlace::Centroid => CENTRE,
+    }
+}
+
+/// By how much more than inside the triangle depth and attributes may be off at a point of a pixel. Nothing where the plane of 1 / w
+/// is not above 0, so that no perspective has a value there.
+#[must_use]
+pub fn factors(triangle: &Triangle, [x_px, y_px]: [i32; 2], (x, y): Place) -> Option<[f64; 2]> {
+    let corners = triangle.corners();
+    let at = [(x_px, x), (y_px, y)].map(|(px, part)| {
+        i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
+    });
+    let area = twice_area(&corners) as f64;
+    let (mut of_depth, mut sum, mut magnitudes) = (0.0, 0.0, 0.0);
+    for (i, v) in triangle.vertices.iter().enumerate() {
+        let [p, q] = [1, 2]
+            .map(|k| corners[(i + k) % 3])
+            .map(|p| [i128::from(p.x) - i128::from(at[0]), i128::from(p.y) - i128::from(at[1])]);
+        let weight = (p[0] * q[1] - p[1] * q[0]) as f64 / area;
+        of_depth += weight.abs();
+        sum += weight * v.inv_w;
+        magnitudes += weight.abs() * v.inv_w;
+    }
+    (sum > 0.0).then(|| [of_depth, magnitudes / sum])
+}
+
+/// Errors that are larger than this share of a value by the tolerance alone say nothing of it.
+const MOST_OF_A_VALUE: f64 = 0.25;
+
+/// Compares the values of some samples with exact ones, where these samples are covered.
+pub(super) fn compare(
+    judged: &mut CaseJudgement,
+    triangle: &Triangle,
+    drawn: &[SampledValues],
+    covered: &Frame<u8>,
+    declared: &Declared,
+) {
+    let mut exact: Vec<(Place, Option<ExactTriangle<2>>)> = Vec::new();
+    let compared: Vec<&SampledValues> = few(drawn).collect();
+    for SampledValues { mask, values } in compared {
+        let Some(covered) = covered.get(values.x_px, values.y_px) else { continue };
+        let both = mask & covered;
+        for sample in (0..SAMPLES.len()).filter(|sample| both >> sample & 1 == 1) {
+            let place = place(declared.values_at, covered, sample);
+            if !exact.iter().any(|(known, _)| *known == place) {
+                // A triangle that is moved so that the place comes to lie at the centre.
+                let at = moved(triangle, place).and_then(|moved| exact_values(&moved, declared));
+                exact.push((place, at));
+            }
+            let known = exact.iter().find(|(known, _)| *known == place);
+            if let Some((_, Some(exact))) = known {
+                compare_one(judged, triangle, values, (exact, place), declared.tolerance);
+            }
+        }
+    }
+}
+
+fn compare_one(
+    judged: &mut CaseJudgement,
+    triangle: &Triangle,
+    found: &Fragment<glam::DVec2>,
+    (exact, place): (&ExactTriangle<2>, Place),
+    tolerance: f64,
+) {
+    let Some([of_depth, of_attributes]) = factors(triangle, [found.x_px, found.y_px], place) else {
+        return;
+    };
+    if tolerance * of_depth.max(of_attributes) > MOST_OF_A_VALUE {
+        return;
+    }
+    let (depth, [a, b]) = exact.at(found.x_px, found.y_px);
+    let right = [&depth, &a, &b];
+    let bounds = value_bounds(triangle, tolerance);
+    let drawn = [found.depth, found.varying.x, found.varying.y];
+    let factors = [of_depth, of_attributes, of_attributes];
+    let off = [0, 1, 2].map(|i| {
+        // Of the largest magnitude of all, the extrapolated one among them.
+        let bound = bounds[i].max(tolerance * right[i].to_f64().abs()) * factors[i];
+        right[i].distance(drawn[i]) / bound
+    });
+    judged.off(found, off);
+}
