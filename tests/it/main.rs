@@ -20,6 +20,7 @@ mod diagrams;
 mod exact;
 mod exhaust;
 mod figures;
+mod formulas;
 mod fixtures;
 mod hostile_files;
 mod hostile_models;

@@ -10,9 +10,9 @@ const WIDE_IN_STARTERS: [(&str, &str, &str, &str); 3] = [
     (
         "py",
         "python3",
-        "values = samples = depth = clip = clip_attributes = wide_line = area = None",
+        "values = samples = depth = clip = clip_attributes = wide_line = area = formula = None",
         "
-values = samples = depth = clip = clip_attributes = area = None
+values = samples = depth = clip = clip_attributes = area = formula = None
 def wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel):
     dx, dy = x1 - x0, y1 - y0
     for y in range(height):

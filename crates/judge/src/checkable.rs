@@ -89,7 +89,11 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             let of = |([x, y], triangle): ([i32; 2], usize)| pixel(x, y, vec![triangle as f64]);
             out.expected = seen.into_iter().map(of).collect();
         }
-        Asked::Area(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+        Asked::Area(_)
+        | Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => return None,
     }
     Some(out)
 }
@@ -173,6 +177,7 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
         Answer::Polygon(_)
         | Answer::Carried(_)
         | Answer::Triangles(_)
+        | Answer::Numbers(_)
         | Answer::Refused(_)
         | Answer::Two(_)
         | Answer::Died(_) => return None,

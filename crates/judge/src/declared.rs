@@ -63,6 +63,8 @@ pub struct Declared {
     pub tolerance: f64,
     /// Its near plane is z = 0, as Direct3D, Vulkan, Metal and WebGPU have it, and not z = -w, as OpenGL has it.
     pub near_is_zero: bool,
+    /// Answers Q: computes the formulas of the pipeline.
+    pub formulas: bool,
     /// Answers Y.
     pub partition: bool,
     /// What it promises of the triangles of a polygon.
@@ -109,7 +111,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 15] = [
+const FLAGS: [&str; 16] = [
     "coverage",
     "line",
     "attributes",
@@ -119,6 +121,7 @@ const FLAGS: [&str; 15] = [
     "clip-attributes",
     "wide-line",
     "area",
+    "formulas",
     "partition",
     "t-junctions",
     "degenerate",
@@ -239,6 +242,7 @@ impl Default for Declared {
             line_set: false,
             tolerance: DEFAULT_TOLERANCE,
             near_is_zero: false,
+            formulas: false,
             partition: false,
             tessellation: Tessellation::default(),
             reach: None,
@@ -308,6 +312,7 @@ impl Declared {
             ("wide", Some(v)) => {
                 self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
             }
+            ("formulas", None) => self.formulas = true,
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
@@ -373,6 +378,7 @@ impl Declared {
             wide_line: self.wide_line && other.wide_line,
             area: self.area && other.area && self.levels == other.levels,
             area_tolerance: self.area_tolerance.max(other.area_tolerance),
+            formulas: self.formulas && other.formulas,
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -426,6 +432,7 @@ impl Declared {
             ("clip-attributes", self.clip_attributes),
             ("wide-line", self.wide_line),
             ("area", self.area),
+            ("formulas", self.formulas),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()

@@ -4,7 +4,7 @@ use super::ask::{Answer, Breach, Question, Subject};
 use super::declared::{Declared, MOST_IN_FLIGHT, Shape};
 use super::server;
 use super::text::Words;
-use rasterproof_registry::engines::{Entry, Specimen, TouchedPixels, Variant, WideLines};
+use rasterproof_registry::engines::{Engine, Entry, Specimen, TouchedPixels, Variant, WideLines};
 use rasterproof_verify::comparison::{Watch, caught};
 
 /// The values of both engines lie within u (15 D + 2 M) of the exact ones (`verify::tolerance`),
@@ -45,6 +45,7 @@ impl From<&Entry> for Declared {
             depth: is_engine,
             clip: is_engine,
             clip_attributes: is_engine,
+            formulas: matches!(entry.engine, Some(Engine::Oracle)),
             batch: MOST_IN_FLIGHT / 4,
             tolerance: if is_engine { OWN_TOLERANCE } else { Self::default().tolerance },
             ..Self::default()

@@ -278,6 +278,7 @@ pub fn mistakes(
                     Check::Depth => "depths",
                     Check::Wide => "lines with a width",
                     Check::Area => "shares of pixels",
+                    Check::Formula => "formulas",
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };

@@ -139,7 +139,12 @@ pub fn write(
 fn is_of_pixels(question: &Question) -> bool {
     !matches!(
         question.of,
-        Asked::Near(_) | Asked::Carried(_) | Asked::Wide(_) | Asked::Area(_) | Asked::Polygon(_)
+        Asked::Near(_)
+            | Asked::Carried(_)
+            | Asked::Wide(_)
+            | Asked::Area(_)
+            | Asked::Polygon(_)
+            | Asked::Formula(..)
     )
 }
 
@@ -495,6 +500,7 @@ fn arguments(language: Language, question: &Question) -> String {
         | Asked::Carried(_)
         | Asked::Wide(_)
         | Asked::Area(_)
-        | Asked::Polygon(_) => String::new(),
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => String::new(),
     }
 }

@@ -9,7 +9,8 @@ use std::vec;
 use num_traits::Float as _;
 
 use super::named::{plain_line, plain_triangle};
-use super::{Case, Shape};
+use super::{Case, Shape, formulas};
+use crate::oracle::formula::Formula;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
@@ -157,7 +158,7 @@ fn points(case: &Case) -> Vec<Point> {
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).map(|end| [end.pixel.x, end.pixel.y]).collect()
         }
-        Shape::Unsnapped { .. } => Vec::new(),
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => Vec::new(),
     }
 }
 
@@ -166,7 +167,7 @@ fn around(case: &Case) -> Option<Case> {
     let points = points(case);
     let px = |v: i32| match case.shape {
         Shape::Triangles { .. } => i64::from(v.div_euclid(SUBPIXELS)),
-        Shape::Lines(_) | Shape::Unsnapped { .. } => i64::from(v),
+        _ => i64::from(v),
     };
     let range = |axis: usize| {
         let along = || points.iter().map(|p| px(p[axis]));
@@ -188,7 +189,7 @@ fn plain(case: &Case) -> Case {
             let ends = lines.iter().map(|line| line.ends.map_array(|end| end.pixel));
             Shape::Lines(ends.map(|[a, b]| plain_line(a, b)).collect())
         }
-        free @ Shape::Unsnapped { .. } => free.clone(),
+        free @ (Shape::Unsnapped { .. } | Shape::Numbers { .. }) => free.clone(),
     };
     Case { window: case.window, shape }
 }
@@ -225,6 +226,20 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
             let values = || list.iter().flat_map(|t| t.px()).flatten();
             let bits = values().map(mantissa_bits).sum();
             (list.len(), own, 0, 0, bits, values().map(|v| v.abs() as u64).sum(), window)
+        }
+        Shape::Numbers { numbers, .. } => {
+            let bits = numbers.iter().map(|number| mantissa_bits(*number)).sum();
+            // Of whole numbers with as many bits the smaller ones, and what is negative last.
+            let far = numbers.iter().map(|v| 2 * v.abs() as u64 + u64::from(*v < 0.0)).sum();
+            (
+                1,
+                own,
+                numbers.len(),
+                numbers.iter().filter(|v| **v != 0.0).count() as u64,
+                bits,
+                far,
+                window,
+            )
         }
     }
 }
@@ -264,8 +279,28 @@ fn candidates(case: &Case) -> Vec<Case> {
             let simpler = list.first().map(free_candidates).unwrap_or_default();
             simpler.into_iter().map(|t| Case::unsnapped(case.window, vec![t])).collect()
         }
+        Shape::Numbers { formula, numbers } => simpler_numbers(*formula, numbers),
     };
     std::iter::once(plain(case)).chain(shapes).collect()
+}
+
+/// The numbers of a formula with one of them simpler, as far as it can be asked of these.
+fn simpler_numbers(formula: Formula, numbers: &[f64]) -> Vec<Case> {
+    let mut found = Vec::new();
+    for (i, &number) in numbers.iter().enumerate() {
+        let halves = (2.0 * number).trunc() / 2.0;
+        for simpler in [0.0, 1.0, -1.0, number.trunc(), halves, number - number.signum()] {
+            let mut with = numbers.to_vec();
+            with[i] = simpler;
+            found.push(with);
+        }
+    }
+    // A shorter row of texels.
+    if formula == Formula::Texel {
+        found.extend((1..numbers.len()).map(|i| [&numbers[..i], &numbers[i + 1..]].concat()));
+    }
+    let can_be_asked = |numbers: &Vec<f64>| formula.of(numbers).is_some();
+    found.into_iter().filter(can_be_asked).map(|numbers| formulas::case(formula, numbers)).collect()
 }
 
 /// The one shape of a case in this window, each corner or end moved.
@@ -285,7 +320,7 @@ fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> 
                 end.pixel = PixelPoint::new(x, y);
             }
         }
-        Shape::Unsnapped { .. } => {}
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
     }
     Case { window, shape }
 }
@@ -470,6 +505,9 @@ pub fn describe(case: &Case) -> String {
         Shape::Unsnapped { list, .. } => {
             let px = |[x, y]: [f64; 2]| format!("{x:?},{y:?}");
             list.iter().map(|t| t.px().map_array(px).join(" ")).collect()
+        }
+        Shape::Numbers { formula, numbers } => {
+            vec![numbers.iter().fold(formula.name().to_owned(), |text, n| format!("{text} {n}"))]
         }
     };
     shapes.join("; ")

@@ -148,7 +148,8 @@ impl Gpu {
             | Asked::Carried(_)
             | Asked::Wide(_)
             | Asked::Area(_)
-            | Asked::Polygon(_) => {
+            | Asked::Polygon(_)
+            | Asked::Formula(..) => {
                 return None;
             }
         })
@@ -219,7 +220,8 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
         | Asked::Carried(_)
         | Asked::Wide(_)
         | Asked::Area(_)
-        | Asked::Polygon(_) => return None,
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => return None,
     })
 }
 
