@@ -55,9 +55,9 @@ use rasterproof_registry::engines;
 use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
+use rasterproof_teaching::course::misconceptions;
 use rasterproof_verify::cases;
 use rasterproof_verify::cases::facts::{self, design};
-use rasterproof_teaching::course::misconceptions;
 use rasterproof_verify::mistakes::{self, Explanation};
 use rasterproof_verify::partition;
 

@@ -168,11 +168,7 @@ impl Check {
                 (extra, "of a level that is too large"),
                 (twice, "twice"),
             ],
-            Self::Formula => vec![
-                (missing, "numbers missing"),
-                (extra, "numbers too many"),
-                (order, "wrong numbers"),
-            ],
+            Self::Formula => vec![(missing, "missing"), (extra, "too many"), (order, "wrong")],
             Self::Near => vec![
                 (missing, "corners missing"),
                 (extra, "corners that are not there"),

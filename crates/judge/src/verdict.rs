@@ -232,8 +232,17 @@ pub trait Scores {
 
     /// Triangles or lines that were judged against an expected picture.
     fn shapes(&self, lines: bool) -> u64 {
-        let is_lines = |row: &&Row| (row.check == Some(Check::Line)) == lines;
-        self.pictures().filter(is_lines).map(|row| row.shapes).sum()
+        let is_of = |row: &&Row| match row.check {
+            Some(Check::Formula) => false,
+            check => matches!(check, Some(Check::Line | Check::Wide)) == lines,
+        };
+        self.pictures().filter(is_of).map(|row| row.shapes).sum()
+    }
+
+    /// Formulas that were judged against exact numbers.
+    fn formulas(&self) -> u64 {
+        let is_formula = |row: &&Row| row.check == Some(Check::Formula);
+        self.pictures().filter(is_formula).map(|row| row.shapes).sum()
     }
 
     /// Rows that compare with an expected picture; not those that compare answers.

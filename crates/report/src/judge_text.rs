@@ -613,7 +613,13 @@ fn closing(verdict: &Verdict) -> String {
     };
     let [triangles, lines] = [false, true].map(|lines| verdict.shapes(lines));
     let wrong = wrong(verdict);
-    let what = format!("{triangles} triangles and {lines} lines{wrong}{until}");
+    let what = match (triangles + lines, verdict.formulas()) {
+        (0, formulas @ 1..) => format!("{formulas} formulas{wrong}{until}"),
+        (_, 0) => format!("{triangles} triangles and {lines} lines{wrong}{until}"),
+        (_, formulas) => {
+            format!("{triangles} triangles, {lines} lines and {formulas} formulas{wrong}{until}")
+        }
+    };
     let known =
         verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
     let known = match known.count() {

@@ -563,7 +563,7 @@ pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
     report
 }
 
-/// Points along the edges of a cube of side 2 around (0, 0, 4).
+/// Points along the edges of a cube of side 2, about 4 before the eye.
 fn cube_edges() -> Vec<[f64; 3]> {
     let mut points = Vec::new();
     for axis in 0..3 {
@@ -573,7 +573,8 @@ fn cube_edges() -> Vec<[f64; 3]> {
                 point[axis] = f64::from(along) / 20.0;
                 point[(axis + 1) % 3] = f64::from(corner % 2 * 2 - 1);
                 point[(axis + 2) % 3] = f64::from(corner / 2 * 2 - 1);
-                points.push([point[0], point[1], point[2] + 4.0]);
+                // No corner lies on the border of two pixels.
+                points.push([point[0] + 0.013, point[1] + 0.007, point[2] + 4.0]);
             }
         }
     }

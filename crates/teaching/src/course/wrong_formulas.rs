@@ -217,10 +217,8 @@ pub(super) const LEVEL_IN_WINDOW: [Wrong; 1] = [|numbers| {
     [4, 9, 14].iter().for_each(|w| flat[*w] = 1.0);
     right(Formula::Level, &flat)
 }];
-pub(super) const ONE_DIRECTION: [Wrong; 2] = [
-    |numbers| level_of(steps(numbers)?[0]),
-    |numbers| level_of(steps(numbers)?[1]),
-];
+pub(super) const ONE_DIRECTION: [Wrong; 2] =
+    [|numbers| level_of(steps(numbers)?[0]), |numbers| level_of(steps(numbers)?[1])];
 pub(super) const SHORTER_DIRECTION: [Wrong; 2] = [
     |numbers| level_of(steps(numbers)?.into_iter().fold(f64::INFINITY, f64::min)),
     |numbers| level_of(steps(numbers)?.iter().sum()),

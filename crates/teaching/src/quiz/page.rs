@@ -31,7 +31,11 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         }
     };
     let shows_grids = spine::number(&chapter.page).is_some();
-    let axes = if shows_grids && solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
+    let axes = if shows_grids && solutions.iter().any(|s| legend(s, language).is_some()) {
+        axes
+    } else {
+        ""
+    };
     let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
     out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
     // In a text editor an answer is not hidden, so all questions come before the first of them.
@@ -63,11 +67,14 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
 
 /// All answers in one line that has to be opened, and where their reasons are.
 fn answers_alone(word: &str, solutions: &[Solution], language: Language) -> String {
-    let answers = (1..).zip(solutions).map(|(number, s)| format!("{number}: **{}**", s.answer.text()));
+    let answers =
+        (1..).zip(solutions).map(|(number, s)| format!("{number}: **{}**", s.answer.text()));
     let answers = answers.collect::<Vec<_>>().join(" · ");
     let (summary, reasons) = match language {
         Language::English => ("Answers", format!("`cargo run -- quiz {word}` gives the reasons.")),
-        Language::Chinese => ("答案", format!("`cargo run -- quiz {word} --language zh` 给出理由。")),
+        Language::Chinese => {
+            ("答案", format!("`cargo run -- quiz {word} --language zh` 给出理由。"))
+        }
     };
     format!("\n<details><summary>{summary}</summary>\n\n{answers}\n\n{reasons}\n\n</details>\n")
 }

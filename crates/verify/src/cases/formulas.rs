@@ -15,7 +15,7 @@ pub const FAMILIES: &[Family] = &[
     }),
     family(
         "formula-winding",
-        "triangles of both windings, thin ones and some without area",
+        "triangles of both windings, thin and small ones, and some without area",
         |rng| drawn(Formula::Winding, rng, winding),
     ),
     family("formula-turn", "turns about each axis, through any centre", |rng| {
@@ -71,8 +71,13 @@ fn window(rng: &mut Rng) -> Vec<f64> {
 }
 
 fn winding(rng: &mut Rng) -> Vec<f64> {
-    match rng.int(0, 2) {
+    match rng.int(0, 3) {
         0 => (0..6).map(|_| quarters(rng, 0, 16)).collect(),
+        // Small ones, of some subpixels: what has an area has a sign, however little it is.
+        1 => {
+            let middle = rng.int(0, 16) as f64;
+            (0..6).map(|_| middle + rng.int(-100, 100) as f64 / 4096.0).collect()
+        }
         // Thin triangles, in parts of a subpixel: snapping may turn them round.
         _ => {
             let [x, y] = [(); 2].map(|()| rng.int(0, 16) as f64);
