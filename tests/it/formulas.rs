@@ -1,4 +1,4 @@
-//! The formulas of verb Q: what the pipeline computes where it uses them is what the oracle says, and what a program is told.
+//! The formulas of verb Q: the pipeline computes the same where it uses them, and a request that has no answer gets a reason.
 
 use glam::{DMat3, DMat4, DVec2, DVec3};
 use rasterproof_core::angle::{turn_x, turn_y, turn_z};

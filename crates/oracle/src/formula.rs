@@ -42,7 +42,7 @@ pub struct Given {
 const MOST: f64 = 1e6;
 /// Directions of length 1 are given in decimals.
 const UNIT: f64 = 1e-9;
-/// The most texels of a row.
+/// The most texels that a row has, so that a request is a short line.
 const MOST_TEXELS: usize = 16;
 
 impl Formula {
@@ -134,7 +134,7 @@ fn turn(numbers: &[f64]) -> Option<Vec<Given>> {
 fn normal(numbers: &[f64]) -> Option<Vec<Given>> {
     let numbers: Vec<Exact> = numbers.iter().map(|number| Exact::from(*number)).collect();
     let (matrix, n) = numbers.split_at_checked(9)?;
-    let &[ref x, ref y, ref z] = n else { return None };
+    let [x, y, z] = n else { return None };
     // The inverse, transposed, has at each place the cofactor of that place, divided by the determinant.
     let cofactor = |row: usize, column: usize| {
         let at = |i: usize, j: usize| &matrix[3 * ((row + i) % 3) + (column + j) % 3];

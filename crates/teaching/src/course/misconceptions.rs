@@ -41,7 +41,7 @@ struct KnownMisconception {
     predict: &'static [Predict],
     /// The mistakes that the judge finds in whoever does this, of [`stages`].
     does: &'static [MistakeId],
-    /// What it makes of a formula.
+    /// The formula that it concerns, and what somebody computes there who believes this.
     of_formula: Option<(Formula, &'static [Wrong])>,
 }
 

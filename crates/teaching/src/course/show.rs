@@ -161,8 +161,7 @@ impl Studio<'_> {
         image
     }
 
-    /// A pixel for each point of the edges of a cube, at the place that its numbers become. The last number may be a depth from 0 to
-    /// 1, which makes it darker.
+    /// A pixel for each point of the edges of a cube, at the place that its numbers become, and the darker the larger the depth.
     fn wireframe(
         &mut self,
         formula: Formula,

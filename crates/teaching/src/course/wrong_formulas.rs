@@ -134,7 +134,7 @@ fn turned(numbers: &[f64], sine: fn(f64) -> f64, centre: f64) -> Option<Vec<f64>
 
 type Rows = [[f64; 3]; 3];
 
-pub(super) const NORMAL_AS_POINT: [Wrong; 1] = [|numbers| moved(numbers, |rows| Some(rows))];
+pub(super) const NORMAL_AS_POINT: [Wrong; 1] = [|numbers| moved(numbers, Some)];
 pub(super) const TRANSPOSED_ALONE: [Wrong; 1] =
     [|numbers| moved(numbers, |rows| Some(transposed(rows)))];
 pub(super) const INVERTED_ALONE: [Wrong; 1] =

@@ -5,7 +5,7 @@ use crate::oracle::formula::Formula;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 
-/// A family for each formula.
+/// A family for each formula, in their order.
 pub const FAMILIES: &[Family] = &[
     family("formula-project", "points before a film, near and far", |rng| {
         drawn(Formula::Project, rng, project)
@@ -51,7 +51,7 @@ fn drawn(formula: Formula, rng: &mut Rng, draw: fn(&mut Rng) -> Vec<f64>) -> Cas
     }
 }
 
-/// A multiple of 1/4.
+/// A multiple of 1/4 between two whole numbers.
 fn quarters(rng: &mut Rng, low: i64, high: i64) -> f64 {
     rng.int(4 * low, 4 * high) as f64 / 4.0
 }

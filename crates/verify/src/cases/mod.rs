@@ -62,9 +62,9 @@ pub enum Shape {
     /// Numbers for a formula of the pipeline, in which the window has no part.
     #[doc(hidden)]
     Numbers {
-        /// The formula.
+        /// Which formula is asked.
         formula: Formula,
-        /// What it is given.
+        /// The numbers that it is given, in the order of the request.
         numbers: Vec<f64>,
     },
 }

@@ -320,7 +320,7 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
             }
             Shape::Lines(_) => findings(&LineComparer::new(&self.lines)),
             Shape::Unsnapped { .. } => findings(&UnsnappedComparer::new(&self.unsnapped)),
-            // Programs alone are asked these.
+            // Only programs answer these.
             Shape::Numbers { .. } => Vec::new(),
         }
     }
