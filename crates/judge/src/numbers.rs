@@ -2,10 +2,10 @@
 
 use super::judged::CaseJudgement;
 use rasterproof_verify::comparison::pixels::mix;
-use rasterproof_verify::oracle::formula::Given;
+use rasterproof_verify::oracle::formula::ExactNumber;
 
 /// How far a number may be off. Where its scale is zero it must be zero, and the smallest number keeps that so.
-fn bound(given: &Given, tolerance: f64) -> f64 {
+fn bound(given: &ExactNumber, tolerance: f64) -> f64 {
     (tolerance * given.scale).max(f64::MIN_POSITIVE)
 }
 
@@ -13,7 +13,7 @@ fn bound(given: &Given, tolerance: f64) -> f64 {
 pub(super) fn compare(
     judged: &mut CaseJudgement,
     numbers: &[f64],
-    exact: &[Given],
+    exact: &[ExactNumber],
     tolerance: f64,
 ) {
     judged.shapes += 1;
@@ -30,7 +30,7 @@ pub(super) fn compare(
 pub(super) fn difference(
     judged: &mut CaseJudgement,
     [first, second]: [&[f64]; 2],
-    exact: &[Given],
+    exact: &[ExactNumber],
     tolerance: f64,
 ) {
     count(judged, first.len(), second.len());

@@ -7,7 +7,7 @@ use rasterproof_registry::engines::{self, WideLines};
 use rasterproof_verify::cases::formulas;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::area::share;
-use rasterproof_verify::oracle::formula::Given;
+use rasterproof_verify::oracle::formula::ExactNumber;
 
 use super::ask::{ANSWER_LETTERS, Answer, Asked, Question, Subject, line};
 use super::declared::{DEFAULT_TOLERANCE, Declared};
@@ -355,7 +355,7 @@ fn computed(question: &Question, off: f64) -> Answer {
         return Answer::Refused(String::new());
     };
     let given = formula.of(numbers).unwrap();
-    let number = |given: &Given| given.exact.to_f64() + off * DEFAULT_TOLERANCE * given.scale;
+    let number = |given: &ExactNumber| given.exact.to_f64() + off * DEFAULT_TOLERANCE * given.scale;
     Answer::Numbers(given.iter().map(number).collect())
 }
 

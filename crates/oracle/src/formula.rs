@@ -32,7 +32,7 @@ rasterproof_core::named! {
 
 /// A number that a formula gives.
 #[derive(Clone, Debug)]
-pub struct Given {
+pub struct ExactNumber {
     pub exact: Exact,
     /// What a tolerance is a part of.
     pub scale: f64,
@@ -48,7 +48,7 @@ const MOST_TEXELS: usize = 16;
 impl Formula {
     /// What the formula gives; nothing where these are no numbers to ask it.
     #[must_use]
-    pub fn of(self, numbers: &[f64]) -> Option<Vec<Given>> {
+    pub fn of(self, numbers: &[f64]) -> Option<Vec<ExactNumber>> {
         if !numbers.iter().all(|number| number.abs() <= MOST) {
             return None;
         }
@@ -70,13 +70,13 @@ fn largest(numbers: &[f64]) -> f64 {
 }
 
 /// Numbers that may be off by a part of the largest of them, or of `least` where that is more.
-fn alike(exact: Vec<Exact>, least: f64) -> Vec<Given> {
+fn alike(exact: Vec<Exact>, least: f64) -> Vec<ExactNumber> {
     let floats: Vec<f64> = exact.iter().map(Exact::to_f64).collect();
     let scale = largest(&floats).max(least);
-    exact.into_iter().map(|exact| Given { exact, scale }).collect()
+    exact.into_iter().map(|exact| ExactNumber { exact, scale }).collect()
 }
 
-fn project(numbers: &[f64]) -> Option<Vec<Given>> {
+fn project(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[n, .., z] = numbers else { return None };
     let [film, x, y, w] = <[f64; 4]>::try_from(numbers).ok()?.map(Exact::from);
     if n <= 0.0 || z <= 0.0 {
@@ -87,7 +87,7 @@ fn project(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(given)
 }
 
-fn window(numbers: &[f64]) -> Option<Vec<Given>> {
+fn window(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[width_px, height_px, n, f, _, _, distance] = numbers else { return None };
     let [width, height, near, far, x, y, z] = <[f64; 7]>::try_from(numbers).ok()?.map(Exact::from);
     if width_px <= 0.0 || height_px <= 0.0 || n <= 0.0 || f <= n || distance <= 0.0 {
@@ -104,7 +104,7 @@ fn window(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(given)
 }
 
-fn winding(numbers: &[f64]) -> Option<Vec<Given>> {
+fn winding(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let sub = <[f64; 6]>::try_from(numbers).ok()?.map(|px| px * 256.0);
     // What lies halfway between two places of the grid may be snapped to either.
     if sub.iter().any(|sub| (sub - sub.floor()) == 0.5) {
@@ -115,7 +115,7 @@ fn winding(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(alike(vec![Exact::from(twice_area.signum() as f64)], 1.0))
 }
 
-fn turn(numbers: &[f64]) -> Option<Vec<Given>> {
+fn turn(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[axis, cos, sin, ..] = numbers else { return None };
     let [_, c, s, centre @ .., x, y, z] = <[f64; 9]>::try_from(numbers).ok()?.map(Exact::from);
     let axis = [0.0, 1.0, 2.0].iter().position(|known| *known == axis)?;
@@ -131,7 +131,7 @@ fn turn(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(alike(point.to_vec(), largest(&numbers[3..])))
 }
 
-fn normal(numbers: &[f64]) -> Option<Vec<Given>> {
+fn normal(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let numbers: Vec<Exact> = numbers.iter().map(|number| Exact::from(*number)).collect();
     let (matrix, n) = numbers.split_at_checked(9)?;
     let [x, y, z] = n else { return None };
@@ -149,7 +149,7 @@ fn normal(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(alike(vec![row(0), row(1), row(2)], 0.0))
 }
 
-fn light(numbers: &[f64]) -> Option<Vec<Given>> {
+fn light(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[_, _, _, lx, ly, lz, a, k] = numbers else { return None };
     let [n0, n1, n2, l0, l1, l2, ambient, diffuse] =
         <[f64; 8]>::try_from(numbers).ok()?.map(Exact::from);
@@ -163,7 +163,7 @@ fn light(numbers: &[f64]) -> Option<Vec<Given>> {
     Some(alike(vec![brightness], a + k))
 }
 
-fn texel(numbers: &[f64]) -> Option<Vec<Given>> {
+fn texel(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let (u, texels) = numbers.split_first()?;
     let count = texels.len();
     let place = u * count as f64;
@@ -179,13 +179,13 @@ fn texel(numbers: &[f64]) -> Option<Vec<Given>> {
     let share = Exact::from(from_centre - from_centre.floor());
     let mixed = at(left) + (at(left + 1) - at(left)) * share;
     let scale = largest(texels);
-    Some(vec![Given { exact: nearest, scale }, Given { exact: mixed, scale }])
+    Some(vec![ExactNumber { exact: nearest, scale }, ExactNumber { exact: mixed, scale }])
 }
 
 /// A corner of a triangle with a texture: x, y, w, u, v.
 type TexturedCorner = [Exact; 5];
 
-fn level(numbers: &[f64]) -> Option<Vec<Given>> {
+fn level(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[width, height, ref corners @ .., _, _] = numbers else { return None };
     let numbers: Vec<Exact> = numbers.iter().map(|number| Exact::from(*number)).collect();
     let ws = corners.chunks_exact(5).map(|corner| corner[2]);

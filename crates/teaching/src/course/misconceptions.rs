@@ -18,7 +18,7 @@ use rasterproof_verify::convention::{
     Shape, Ties, TriangleConvention, Windings,
 };
 use rasterproof_verify::mistakes::MistakeId;
-use rasterproof_verify::oracle::formula::{Formula, Given};
+use rasterproof_verify::oracle::formula::{ExactNumber, Formula};
 
 use super::wrong_formulas::{self, Wrong};
 
@@ -417,7 +417,7 @@ fn computed(question: &Question, formula: Formula, wrong: Wrong) -> Option<Answe
 fn are_near(question: &Question, a: &[f64], b: &[f64]) -> bool {
     let Asked::Formula(formula, numbers) = &question.of else { return false };
     let Some(exact) = formula.of(numbers) else { return false };
-    let near = |((a, b), given): ((&f64, &f64), &Given)| {
+    let near = |((a, b), given): ((&f64, &f64), &ExactNumber)| {
         (a - b).abs() <= DEFAULT_TOLERANCE * given.scale.max(a.abs())
     };
     a.len() == b.len() && a.iter().zip(b).zip(&exact).all(near)

@@ -9,8 +9,7 @@ use std::vec;
 use num_traits::Float as _;
 
 use super::named::{plain_line, plain_triangle};
-use super::{Case, Shape, formulas};
-use crate::oracle::formula::Formula;
+use super::{Case, Shape};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
@@ -227,20 +226,7 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
             let bits = values().map(mantissa_bits).sum();
             (list.len(), own, 0, 0, bits, values().map(|v| v.abs() as u64).sum(), window)
         }
-        Shape::Numbers { numbers, .. } => {
-            let bits = numbers.iter().map(|number| mantissa_bits(*number)).sum();
-            // Of whole numbers with as many bits the smaller ones, and what is negative last.
-            let far = numbers.iter().map(|v| 2 * v.abs() as u64 + u64::from(*v < 0.0)).sum();
-            (
-                1,
-                own,
-                numbers.len(),
-                numbers.iter().filter(|v| **v != 0.0).count() as u64,
-                bits,
-                far,
-                window,
-            )
-        }
+        Shape::Numbers { .. } => (1, own, 0, 0, 0, 0, window),
     }
 }
 
@@ -279,28 +265,10 @@ fn candidates(case: &Case) -> Vec<Case> {
             let simpler = list.first().map(free_candidates).unwrap_or_default();
             simpler.into_iter().map(|t| Case::unsnapped(case.window, vec![t])).collect()
         }
-        Shape::Numbers { formula, numbers } => simpler_numbers(*formula, numbers),
+        // What only programs are asked, the judge makes smaller.
+        Shape::Numbers { .. } => Vec::new(),
     };
     std::iter::once(plain(case)).chain(shapes).collect()
-}
-
-/// The numbers of a formula with one of them simpler, as far as it can be asked of these.
-fn simpler_numbers(formula: Formula, numbers: &[f64]) -> Vec<Case> {
-    let mut found = Vec::new();
-    for (i, &number) in numbers.iter().enumerate() {
-        let halves = (2.0 * number).trunc() / 2.0;
-        for simpler in [0.0, 1.0, -1.0, number.trunc(), halves, number - number.signum()] {
-            let mut with = numbers.to_vec();
-            with[i] = simpler;
-            found.push(with);
-        }
-    }
-    // A shorter row of texels.
-    if formula == Formula::Texel {
-        found.extend((1..numbers.len()).map(|i| [&numbers[..i], &numbers[i + 1..]].concat()));
-    }
-    let can_be_asked = |numbers: &Vec<f64>| formula.of(numbers).is_some();
-    found.into_iter().filter(can_be_asked).map(|numbers| formulas::case(formula, numbers)).collect()
 }
 
 /// The one shape of a case in this window, each corner or end moved.
