@@ -69,6 +69,9 @@ typedef void (*rasterproof_clip_attributes)(const struct rasterproof_carried_cor
 typedef void (*rasterproof_wide_line)(double x0, double y0, double x1, double y1, double line_width,
                                       int width, int height, rasterproof_set_pixel set_pixel);
 
+/* What a formula of the pipeline gives: its numbers, 16 at most, go to `answer`. Returns how many there are. */
+typedef int (*rasterproof_formula)(const char *name, const double *numbers, int count, double *answer);
+
 /* What the program draws; what is NULL it has not got. */
 struct rasterproof_drawers {
     rasterproof_triangle triangle;
@@ -82,6 +85,7 @@ struct rasterproof_drawers {
     /* The share of each pixel that is covered: the mask is a level, and 255 a pixel that is covered whole. */
     rasterproof_samples area;
     rasterproof_sample_values sample_values;
+    rasterproof_formula formula;
 };
 
 enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
@@ -312,6 +316,22 @@ static const char *rasterproof_cut(char **words, int count, const struct rasterp
     return rasterproof_polygon.count > 64 ? "more than 64 corners" : NULL;
 }
 
+/* Reads the name of a formula and its numbers, and writes what it gives. What is wrong with the request, or NULL. */
+static const char *rasterproof_compute(char **words, int count, FILE *out, rasterproof_formula formula) {
+    double v[RASTERPROOF_MOST_WORDS], answer[16];
+    int i, given;
+    if (count < 3) return "Q takes id, a name and numbers";
+    for (i = 3; i < count; i++) {
+        char *end;
+        v[i - 3] = strtod(words[i], &end);
+        if (*end || !(fabs(v[i - 3]) <= 1.7976931348623157e308)) return "a value is not a number";
+    }
+    given = formula(words[2], v, count - 3, answer);
+    fprintf(out, "O %s %d", words[1], given);
+    for (i = 0; i < given; i++) fprintf(out, " %.17g", answer[i]);
+    return NULL;
+}
+
 static void rasterproof_answer(char **words, int count, FILE *out, const char *name, const char *declares,
                                const struct rasterproof_drawers *drawers) {
     const char *verb = words[0], *id = count > 1 ? words[1] : "-", *wrong = "unsupported";
@@ -319,7 +339,8 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
                                 (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
                                 (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip) ||
                                 (verb[0] == 'A' && drawers->clip_attributes) || (verb[0] == 'W' && drawers->wide_line) ||
-                                (verb[0] == 'R' && drawers->area) || (verb[0] == 'X' && drawers->sample_values));
+                                (verb[0] == 'R' && drawers->area) || (verb[0] == 'X' && drawers->sample_values) ||
+                                (verb[0] == 'Q' && drawers->formula));
     if (strcmp(verb, "HELLO") == 0) {
         char known[120] = "";
         if (drawers->triangle) strcat(known, " coverage");
@@ -332,6 +353,7 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         if (drawers->wide_line) strcat(known, " wide-line");
         if (drawers->area) strcat(known, " area");
         if (drawers->sample_values) strcat(known, " sample-values");
+        if (drawers->formula) strcat(known, " formulas");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -339,9 +361,11 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         else fputs("E - say HELLO 1 or HELLO 2", out);
         return;
     }
-    if (is_known && (verb[0] == 'N' || verb[0] == 'A')) wrong = rasterproof_cut(words, count, drawers);
+    if (is_known && verb[0] == 'Q') wrong = rasterproof_compute(words, count, out, drawers->formula);
+    else if (is_known && (verb[0] == 'N' || verb[0] == 'A')) wrong = rasterproof_cut(words, count, drawers);
     else if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
+    else if (verb[0] == 'Q') return;
     else if (verb[0] == 'T' || verb[0] == 'W') rasterproof_write_runs(out, id);
     else if (verb[0] == 'I' || verb[0] == 'X') rasterproof_write_values(out, verb[0] == 'I' ? 'F' : 'U', id);
     else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);

@@ -53,10 +53,13 @@ static const rasterproof_clip_attributes clip_attributes = nullptr;
 static const rasterproof_wide_line wide_line = nullptr;
 static const rasterproof_samples area = nullptr;
 static const rasterproof_sample_values sample_values = nullptr;
+// And verb Q: the formulas of the pipeline.
+static const rasterproof_formula formula = nullptr;
 
 // ---- the line protocol ----
 
 int main() {
     return rasterproof_serve_all("mine", "batch=64",
-                                 {triangle, line, values, samples, depth, clip, clip_attributes, wide_line, area, sample_values});
+                                 {triangle, line, values, samples, depth, clip, clip_attributes, wide_line, area, sample_values,
+                                  formula});
 }

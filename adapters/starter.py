@@ -48,7 +48,8 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
 # wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel), set_pixel(x, y) for every pixel of a line with a width. And verb R:
 # area, as triangle, with set_pixel(x, y, level), where 255 is a pixel that is covered whole. And verb X: sample_values, as values,
 # with set_samples(x, y, mask, z, a, b) for covered samples that have the same values (say where in DECLARES: "values-at=sample").
-values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = None
+# And verb Q: formula(name, numbers).
+values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = formula = None
 
 
 # ---- the line protocol: nothing to change from here on ----
@@ -97,11 +98,12 @@ def number(word, is_coordinate=True):
 
 def answer(words):
     verb, id = words[0], words[1] if len(words) > 1 else "-"
-    wide, shares, sampled = (globals().get(name) for name in ("wide_line", "area", "sample_values"))
+    wide, shares, sampled, formulas = (globals().get(name) for name in ("wide_line", "area", "sample_values", "formula"))
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
         more = {"attributes": values, "samples4": samples, "depth": depth, "clip": clip}
-        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares, "sample-values": sampled})
+        more.update({"clip-attributes": clip_attributes, "wide-line": wide, "area": shares})
+        more.update({"sample-values": sampled, "formulas": formulas})
         known += "".join(f" {word}" for word, has in more.items() if has is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
@@ -111,13 +113,17 @@ def answer(words):
     verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
     verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G"), "A": (clip_attributes, 15, "B")})
     verbs.update({"W": (wide, 5, "C"), "R": (shares, 6, "K"), "X": (sampled, 18, "U")})
+    verbs["Q"] = (formulas, max(0, len(words) - 3), "O")
     draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
     try:
-        first = 2 if verb in "NA" else 4  # the near plane has no window
+        first = 2 if verb in "NA" else 3 if verb == "Q" else 4  # the near plane and formulas have no window
         if len(words) != count + first:
-            raise Refused(f"{verb} takes id {'width height ' * (first == 4)}and {count} numbers")
+            raise Refused(f"{verb} takes id {'name ' * (verb == 'Q')}{'width height ' * (first == 4)}and {count} numbers")
+        if verb == "Q":
+            given = [float(n) for n in draw(words[2], [number(word, False) for word in words[3:]])]
+            return " ".join([letter, id, str(len(given))] + [str(n) for n in given])
         sides = [int(word) if word.isdecimal() and len(word) < 9 else 0 for word in words[2:first]]
         if not all(1 <= side <= MOST_SIDE for side in sides):
             raise Refused(f"the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}")

@@ -71,6 +71,8 @@ const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
 /// And verb X, as I, with values for each covered sample: see SampleValues.
 const SAMPLE_VALUES: Option<SampleValues> = None;
+/// And verb Q: the formulas of the pipeline.
+const FORMULA: Option<Formula> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -100,6 +102,8 @@ type Depth = fn(
 );
 /// Three corners x, y, z, w of clip space, and with `N` of 5 an attribute; the corners of what z >= -w leaves of them.
 type Clip<const N: usize> = fn(corners: [[f64; N]; 3]) -> Vec<[f64; N]>;
+/// What the formula of this name gives for these numbers.
+type Formula = fn(name: &str, numbers: &[f64]) -> Vec<f64>;
 /// Both ends and the width of a line in pixels; set_pixel(x, y) for every pixel drawn.
 type WideLine =
     fn(ends: [(f64, f64); 2], line_width: f64, width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32));
@@ -168,6 +172,12 @@ fn draw(words: &[&str]) -> Result<String, String> {
     }
     if let ("A", Some(clip)) = (verb, CLIP_ATTRIBUTES) {
         return clipped(words, "B", clip);
+    }
+    if let ("Q", Some(formula)) = (verb, FORMULA) {
+        let [_, id, name, numbers @ ..] = words else { return Err("Q takes id, a name and numbers".into()) };
+        let v = numbers.iter().map(|word| value(word)).collect::<Result<Vec<_>, _>>()?;
+        let given = std::panic::catch_unwind(|| formula(name, &v)).map_err(|_| "raised a panic")?;
+        return Ok(reply("O", id, &given.iter().map(|n| vec![*n]).collect::<Vec<_>>()));
     }
     let count = match verb {
         "L" => 4,
@@ -275,6 +285,7 @@ fn answer(words: &[&str]) -> String {
     let [values, samples, depth, clip] = more;
     let (carries, wide, area) = (CLIP_ATTRIBUTES.is_some(), WIDE_LINE.is_some(), AREA.is_some());
     let sampled = SAMPLE_VALUES.is_some();
+    let formulas = FORMULA.is_some();
     let has = [
         (HAS_LINES, " line"),
         (values, " attributes"),
@@ -285,6 +296,7 @@ fn answer(words: &[&str]) -> String {
         (wide, " wide-line"),
         (area, " area"),
         (sampled, " sample-values"),
+        (formulas, " formulas"),
     ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
@@ -297,7 +309,7 @@ fn answer(words: &[&str]) -> String {
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         [verb, ..]
-            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area), ("X", sampled)]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries), ("W", wide), ("R", area), ("X", sampled), ("Q", formulas)]
                 .contains(&(*verb, true)) =>
         {
             draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))

@@ -1,6 +1,6 @@
 // The course. Write the function of your step, then: rasterproof course check
 
-// ---- YOUR PLACE: six functions, empty as they stand ----
+// ---- YOUR PLACE: seven functions, empty as they stand ----
 
 // Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a).
 static void line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set_pixel) {
@@ -33,6 +33,12 @@ static void depth(const rasterproof_point (*triangles)[3], int count, int width,
 // Corners x, y, z, w of clip space; add_corner for each corner of what z >= -w leaves of them (step 7).
 static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner) {
     (void)corners, (void)add_corner;
+}
+
+// What the formula "project", "window" and so on gives for these numbers, 16 at most, and how many they are (steps 4, 8 to 11 and 13).
+static int formula(const char *name, const double *numbers, int count, double *answer) {
+    (void)name, (void)numbers, (void)count, (void)answer;
+    return 0;
 }
 
 // To be judged with attributes, too, let it be a function of rasterproof_carried_corner (step 7).

@@ -1,7 +1,7 @@
 # The course. Write the function of your step, then: rasterproof course check
 
 
-# ---- YOUR PLACE: six functions, empty as they stand ----
+# ---- YOUR PLACE: seven functions, empty as they stand ----
 
 # To be judged with attributes, too, let it be clip, of corners (x, y, z, w, a) then (step 7).
 clip_attributes = None
@@ -29,5 +29,10 @@ def depth(triangles, width, height, set_pixel):
 
 def clip(corners):
     """Three corners (x, y, z, w) of clip space; the corners of what z >= -w leaves of them (step 7)."""
+    return []
+
+
+def formula(name, numbers):
+    """What the formula "project", "window" and so on gives for these numbers, as a list (steps 4, 8 to 11 and 13)."""
     return []
 

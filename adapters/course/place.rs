@@ -1,6 +1,6 @@
 // The course. Write the function of your step, then: rasterproof course check
 
-// ---- YOUR PLACE: six functions, empty as they stand ----
+// ---- YOUR PLACE: seven functions, empty as they stand ----
 const VALUES: Option<Values> = Some(values);
 const SAMPLES: Option<Samples> = Some(samples);
 const DEPTH: Option<Depth> = Some(depth);
@@ -10,6 +10,7 @@ const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
 const SAMPLE_VALUES: Option<SampleValues> = None;
+const FORMULA: Option<Formula> = Some(formula);
 
 /// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a).
 fn line(
@@ -59,5 +60,10 @@ fn depth(
 
 /// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them (step 7).
 fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+    Vec::new()
+}
+
+/// What the formula "project", "window" and so on gives for these numbers (steps 4, 8 to 11 and 13).
+fn formula(name: &str, numbers: &[f64]) -> Vec<f64> {
     Vec::new()
 }

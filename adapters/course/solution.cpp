@@ -1,6 +1,7 @@
 // The course, solved: written from the pages of the steps alone (docs/steps.md).
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 typedef __int128 wide;
@@ -137,5 +138,98 @@ static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corne
     for (int i = 0; i < 3; i++) carried[i] = {corners[i].x, corners[i].y, corners[i].z, corners[i].w, 0};
     add_without = add_corner;
     clip_attributes(carried, [](double x, double y, double z, double w, double) { add_without(x, y, z, w); });
+}
+
+static int project(double n, double x, double y, double z, double *answer) {
+    answer[0] = n * x / z, answer[1] = n * y / z, answer[2] = z;
+    return 3;
+}
+
+static int window(const double v[7], double *answer) {
+    const double n = v[2], f = v[3], z = v[6], depth = ((f + n) * z - 2 * n * f) / (f - n) / z;
+    answer[0] = (n * v[4] / z + 1) / 2 * v[0], answer[1] = (1 - n * v[5] / z) / 2 * v[1], answer[2] = (depth + 1) / 2;
+    return 3;
+}
+
+static int winding(const double v[6], double *answer) {
+    const wide area = edge(grid(v[0], v[1]), grid(v[2], v[3]), grid(v[4], v[5]));
+    answer[0] = (area > 0) - (area < 0);
+    return 1;
+}
+
+static int turn(const double v[9], double *answer) {
+    const double cos = v[1], sin = v[2], *centre = v + 3, *point = v + 6;
+    const int axis = int(v[0]), i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const double a = point[i] - centre[i], b = point[j] - centre[j];
+    answer[axis] = point[axis], answer[i] = centre[i] + cos * a - sin * b, answer[j] = centre[j] + sin * a + cos * b;
+    return 3;
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static int normal(const double v[12], double *answer) {
+    double determinant = 0;
+    for (int i = 0; i < 3; i++) {
+        // Row i of the inverse, transposed, times the determinant: the cross product of the two other rows.
+        const double *a = v + 3 * ((i + 1) % 3), *b = v + 3 * ((i + 2) % 3);
+        const double row[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        if (i == 0) determinant = dot(v, row);
+        answer[i] = dot(row, v + 9) / determinant;
+    }
+    return 3;
+}
+
+static int light(const double v[8], double *answer) {
+    const double length = std::sqrt(dot(v, v)), cosine = length > 0 ? dot(v, v + 3) / length : 0;
+    answer[0] = v[6] + v[7] * std::max(cosine, 0.0);
+    return 1;
+}
+
+static int texel(double u, const double *texels, int count, double *answer) {
+    // A texel of a row that repeats.
+    const auto at = [&](double i) { return texels[int(i - count * std::floor(i / count))]; };
+    const double place = u * count, left = std::floor(place - 0.5), share = place - 0.5 - left;
+    answer[0] = at(std::floor(place)), answer[1] = at(left) + (at(left + 1) - at(left)) * share;
+    return 2;
+}
+
+// Of the plane through three values at the corners x, y, w, u, v: its value at a place, and how much it grows to the right and down.
+struct Plane { double here, slope[2]; };
+
+static Plane plane(const double *corners, const double values[3], const double place[2]) {
+    const double *a = corners, dx1 = a[5] - a[0], dy1 = a[6] - a[1], dx2 = a[10] - a[0], dy2 = a[11] - a[1];
+    const double df1 = values[1] - values[0], df2 = values[2] - values[0], area = dx1 * dy2 - dx2 * dy1;
+    const double right = (df1 * dy2 - df2 * dy1) / area, down = (df2 * dx1 - df1 * dx2) / area;
+    return {values[0] + right * (place[0] - a[0]) + down * (place[1] - a[1]), {right, down}};
+}
+
+static int level(const double v[19], double *answer) {
+    double inverse[3], u_over_w[3], v_over_w[3], longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *corner = v + 2 + 5 * i;
+        inverse[i] = 1 / corner[2], u_over_w[i] = corner[3] / corner[2], v_over_w[i] = corner[4] / corner[2];
+    }
+    const Plane q = plane(v + 2, inverse, v + 17);
+    const Plane over_w[2] = {plane(v + 2, u_over_w, v + 17), plane(v + 2, v_over_w, v + 17)};
+    for (int way = 0; way < 2; way++) {
+        double step[2];
+        for (int k = 0; k < 2; k++)
+            step[k] = (over_w[k].slope[way] - over_w[k].here / q.here * q.slope[way]) / q.here * v[k];
+        longest = std::max(longest, std::hypot(step[0], step[1]));
+    }
+    answer[0] = std::log2(longest);
+    return 1;
+}
+
+static int formula(const char *name, const double *v, int count, double *answer) {
+    const auto is = [&](const char *known) { return std::strcmp(name, known) == 0; };
+    if (is("project")) return project(v[0], v[1], v[2], v[3], answer);
+    if (is("window")) return window(v, answer);
+    if (is("winding")) return winding(v, answer);
+    if (is("turn")) return turn(v, answer);
+    if (is("normal")) return normal(v, answer);
+    if (is("light")) return light(v, answer);
+    if (is("texel")) return texel(v[0], v + 1, count - 1, answer);
+    return is("level") ? level(v, answer) : 0;
 }
 

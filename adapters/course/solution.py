@@ -108,3 +108,80 @@ def clip(corners):
 
 clip_attributes = clip
 
+
+def project(n, x, y, z):
+    return n * x / z, n * y / z, z
+
+
+def window(width, height, n, f, x, y, z):
+    depth = ((f + n) * z - 2 * n * f) / (f - n) / z
+    return (n * x / z + 1) / 2 * width, (1 - n * y / z) / 2 * height, (depth + 1) / 2
+
+
+def winding(*numbers):
+    area = edge(*(grid(numbers[i : i + 2]) for i in (0, 2, 4)))
+    return [(area > 0) - (area < 0)]
+
+
+def turn(axis, cos, sin, *numbers):
+    centre, point = numbers[:3], list(numbers[3:])
+    i, j = int(axis + 1) % 3, int(axis + 2) % 3
+    u, v = point[i] - centre[i], point[j] - centre[j]
+    point[i], point[j] = centre[i] + cos * u - sin * v, centre[j] + sin * u + cos * v
+    return point
+
+
+def dot(a, b):
+    return sum(p * q for p, q in zip(a, b))
+
+
+def cross(a, b):
+    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+
+
+def normal(*numbers):
+    a, b, c, n = (numbers[i : i + 3] for i in (0, 3, 6, 9))
+    # The rows of the inverse, transposed, times the determinant.
+    rows = cross(b, c), cross(c, a), cross(a, b)
+    return [dot(row, n) / dot(a, rows[0]) for row in rows]
+
+
+def light(*numbers):
+    n, towards, (ambient, diffuse) = numbers[:3], numbers[3:6], numbers[6:]
+    length = math.sqrt(dot(n, n))
+    cosine = dot(n, towards) / length if length > 0 else 0.0
+    return [ambient + diffuse * max(cosine, 0.0)]
+
+
+def texel(u, *texels):
+    place = u * len(texels)
+    left = math.floor(place - 0.5)
+    share = place - 0.5 - left
+    a, b = (texels[i % len(texels)] for i in (left, left + 1))
+    return texels[math.floor(place) % len(texels)], a + (b - a) * share
+
+
+def slopes(corners, values):
+    """Of the plane through three values at the corners: how much it grows to the right, and downwards."""
+    a, b, c = corners
+    df1, df2 = values[1] - values[0], values[2] - values[0]
+    area = edge(a, b, c)
+    return (df1 * (c[1] - a[1]) - df2 * (b[1] - a[1])) / area, (df2 * (b[0] - a[0]) - df1 * (c[0] - a[0])) / area
+
+
+def level(width, height, *numbers):
+    corners = [numbers[i : i + 5] for i in (0, 5, 10)]
+    planes = []
+    for values in [1 / c[2] for c in corners], [c[3] / c[2] for c in corners], [c[4] / c[2] for c in corners]:
+        right, down = slopes(corners, values)
+        here = values[0] + right * (numbers[15] - corners[0][0]) + down * (numbers[16] - corners[0][1])
+        planes.append((here, right, down))
+    q, u, v = planes
+    derivative = lambda plane, way: (plane[way] - plane[0] / q[0] * q[way]) / q[0]
+    steps = [math.hypot(derivative(u, way) * width, derivative(v, way) * height) for way in (1, 2)]
+    return [math.log2(max(steps))]
+
+
+def formula(name, numbers):
+    known = {f.__name__: f for f in (project, window, winding, turn, normal, light, texel, level)}
+    return known[name](*numbers)

@@ -80,6 +80,7 @@ const CLIP_ATTRIBUTES: Option<Clip<5>> = Some(clip);
 const WIDE_LINE: Option<WideLine> = None;
 const AREA: Option<Samples> = None;
 const SAMPLE_VALUES: Option<SampleValues> = None;
+const FORMULA: Option<Formula> = Some(formula);
 
 fn line(
     from: (i32, i32),
@@ -193,4 +194,97 @@ fn clip<const N: usize>(corners: [[f64; N]; 3]) -> Vec<[f64; N]> {
         }
     }
     left
+}
+
+fn project([n, x, y, z]: [f64; 4]) -> Vec<f64> {
+    vec![n * x / z, n * y / z, z]
+}
+
+fn window([width, height, n, f, x, y, z]: [f64; 7]) -> Vec<f64> {
+    let depth = ((f + n) * z - 2.0 * n * f) / (f - n) / z;
+    let place = [(n * x / z + 1.0) / 2.0 * width, (1.0 - n * y / z) / 2.0 * height];
+    vec![place[0], place[1], (depth + 1.0) / 2.0]
+}
+
+fn winding([ax, ay, bx, by, cx, cy]: [f64; 6]) -> Vec<f64> {
+    let [a, b, c] = [[ax, ay], [bx, by], [cx, cy]].map(snap);
+    vec![edge(a, b, c).signum() as f64]
+}
+
+fn turn([axis, cos, sin, cx, cy, cz, x, y, z]: [f64; 9]) -> Vec<f64> {
+    let (centre, mut point) = ([cx, cy, cz], vec![x, y, z]);
+    let [i, j] = [1, 2].map(|next| (axis as usize + next) % 3);
+    let (u, v) = (point[i] - centre[i], point[j] - centre[j]);
+    point[i] = centre[i] + cos * u - sin * v;
+    point[j] = centre[j] + sin * u + cos * v;
+    point
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn normal(numbers: [f64; 12]) -> Vec<f64> {
+    let [a, b, c, n] = [0, 3, 6, 9].map(|i| [numbers[i], numbers[i + 1], numbers[i + 2]]);
+    // The rows of the inverse, transposed, times the determinant.
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    rows.map(|row| dot(row, n) / dot(a, rows[0])).to_vec()
+}
+
+fn light([n0, n1, n2, l0, l1, l2, ambient, diffuse]: [f64; 8]) -> Vec<f64> {
+    let normal = [n0, n1, n2];
+    let length = dot(normal, normal).sqrt();
+    let cosine = if length > 0.0 { dot(normal, [l0, l1, l2]) / length } else { 0.0 };
+    vec![ambient + diffuse * cosine.max(0.0)]
+}
+
+fn texel(u: f64, texels: &[f64]) -> Vec<f64> {
+    let at = |i: f64| texels[i.rem_euclid(texels.len() as f64) as usize];
+    let place = u * texels.len() as f64;
+    let left = (place - 0.5).floor();
+    let share = place - 0.5 - left;
+    vec![at(place.floor()), at(left) + (at(left + 1.0) - at(left)) * share]
+}
+
+/// Of the plane through three values at the corners: how much it grows to the right, and downwards.
+fn slopes([a, b, c]: [[f64; 5]; 3], values: [f64; 3]) -> [f64; 2] {
+    let [dx1, dy1, dx2, dy2] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]];
+    let (df1, df2) = (values[1] - values[0], values[2] - values[0]);
+    let area = dx1 * dy2 - dx2 * dy1;
+    [(df1 * dy2 - df2 * dy1) / area, (df2 * dx1 - df1 * dx2) / area]
+}
+
+fn level(numbers: [f64; 19]) -> Vec<f64> {
+    let corners = [2, 7, 12].map(|i: usize| std::array::from_fn(|k| numbers[i + k]));
+    let (width, height, x, y) = (numbers[0], numbers[1], numbers[17], numbers[18]);
+    let plane = |of: fn([f64; 5]) -> f64| {
+        let values = corners.map(|corner: [f64; 5]| of(corner) / corner[2]);
+        let [right, down] = slopes(corners, values);
+        [values[0] + right * (x - corners[0][0]) + down * (y - corners[0][1]), right, down]
+    };
+    let (q, u, v) = (plane(|_| 1.0), plane(|corner| corner[3]), plane(|corner| corner[4]));
+    let derivative = |over_w: [f64; 3], way: usize| (over_w[way] - over_w[0] / q[0] * q[way]) / q[0];
+    let steps = [1, 2].map(|way| (derivative(u, way) * width).hypot(derivative(v, way) * height));
+    vec![steps[0].max(steps[1]).log2()]
+}
+
+fn formula(name: &str, numbers: &[f64]) -> Vec<f64> {
+    fn list<const N: usize>(numbers: &[f64]) -> [f64; N] {
+        numbers.try_into().expect("as many numbers as the formula takes")
+    }
+    match name {
+        "project" => project(list(numbers)),
+        "window" => window(list(numbers)),
+        "winding" => winding(list(numbers)),
+        "turn" => turn(list(numbers)),
+        "normal" => normal(list(numbers)),
+        "light" => light(list(numbers)),
+        "texel" => texel(numbers[0], &numbers[1..]),
+        "level" => level(list(numbers)),
+        _ => Vec::new(),
+    }
 }

@@ -1,4 +1,4 @@
-//! `rasterproof course`: twelve steps for a student, points for a teacher.
+//! `rasterproof course`: eighteen steps for a student, points for a teacher.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

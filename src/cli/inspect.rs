@@ -333,6 +333,7 @@ fn box_of(case: &Case) -> PixelRect {
             let corners = list.iter().flat_map(|t| t.px());
             all_around(corners.map(|p| p.map(|px| px.floor() as i32)))
         }
+        Shape::Numbers { .. } => case.window,
     }
 }
 

@@ -79,7 +79,9 @@ pub(super) fn off_lattice(found: InspectedCase) -> Result<InspectedCase, InputEr
                 Ok(plain(title, Case::unsnapped(case.window, triangles)))
             }
             Shape::Lines(_) => Err(usage("lines join whole pixels: leave out --exact")),
-            Shape::Unsnapped { .. } => Ok(InspectedCase::Case { title, case, expected, typed }),
+            Shape::Unsnapped { .. } | Shape::Numbers { .. } => {
+                Ok(InspectedCase::Case { title, case, expected, typed })
+            }
         },
         found @ InspectedCase::Refused { .. } => Ok(found),
     }

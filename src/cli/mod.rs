@@ -55,6 +55,7 @@ use rasterproof_registry::engines;
 use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
+use rasterproof_teaching::course::misconceptions;
 use rasterproof_verify::cases;
 use rasterproof_verify::cases::facts::{self, design};
 use rasterproof_verify::mistakes::{self, Explanation};
@@ -108,7 +109,7 @@ enum Command {
     /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
     #[command(after_help = help!("judge"))]
     Judge(Box<judge::JudgeArguments>),
-    /// Twelve steps from a pixel to four samples, for students; points, for teachers
+    /// Eighteen steps from a pixel to the levels of a texture, for students; points, for teachers
     #[command(after_help = help!("course"))]
     Course(course::CourseArguments),
     /// Show the published algorithms, how often they fail, and a picture of each fault
@@ -153,7 +154,7 @@ enum Command {
         /// List the facts of questions instead, of which the families of designs have every two together
         #[arg(long)]
         facts: bool,
-        /// List the mistakes that the judge knows instead, each with what repairs it and what would refute it
+        /// List the mistakes that the judge and the course know instead
         #[arg(long, conflicts_with = "facts")]
         mistakes: bool,
     },
@@ -468,14 +469,18 @@ fn list_facts(streams: &mut Streams<'_>) -> Status {
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 
-/// The mistakes in fills and in lines, each with its first parameter.
+/// The mistakes in fills and in lines, each with its first parameter, and those of students.
 fn list_mistakes(streams: &mut Streams<'_>) -> Status {
     let about = |m: Explanation| {
         let Explanation { name, does, repair, refuted, .. } = m;
         (name, format!("for example, it {does}. Repair: {repair}. Refuted by: {refuted}"))
     };
     let known = mistakes::table().into_iter().map(about);
-    let tables = vec![listed("Mistakes that the judge knows", known)];
+    let students = misconceptions::all().map(|is| (is.name, is.says));
+    let tables = vec![
+        listed("Mistakes that the judge knows", known),
+        listed("Mistakes that the course knows", students),
+    ];
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 

@@ -371,6 +371,7 @@ impl Run<'_> {
             Shape::Triangles { list, .. } => (list.len(), ""),
             Shape::Lines(list) => (list.len(), "--line "),
             Shape::Unsnapped { list, .. } => (list.len(), "--exact "),
+            Shape::Numbers { .. } => (0, ""),
         };
         let points = comparison::shrink::describe(&failure.case);
         let comparison::Failure { family, index, seed, .. } = failure;

@@ -20,6 +20,7 @@ mod exact;
 mod exhaust;
 mod figures;
 mod fixtures;
+mod formulas;
 mod hostile_files;
 mod hostile_models;
 mod hostile_submissions;

@@ -42,16 +42,19 @@ stages! {
     stage5: "05-perspective.rs",
     stage6: "06-depth.rs",
     stage7: "07-clipping.rs",
+    stage8: "08-window.rs",
     stage9: "09-pipeline.rs",
     stage10: "10-matrices.rs",
     stage11: "11-light.rs",
+    stage12: "12-samples.rs",
+    stage13: "13-levels.rs",
 }
 
 type DrawStage = fn() -> RgbImage;
 
 #[test]
 fn own_stages_draw_their_pictures() {
-    let stages: [(&str, DrawStage); 12] = [
+    let stages: [(&str, DrawStage); 15] = [
         ("1", stage1::stage1),
         ("2a", stage2a::stage2a),
         ("2b", stage2b::stage2b),
@@ -62,20 +65,26 @@ fn own_stages_draw_their_pictures() {
         ("5", stage5::stage5),
         ("6", stage6::stage6),
         ("7", stage7::stage7),
+        ("8", stage8::stage8),
         ("9", stage9::stage9),
         ("10", stage10::stage10),
         ("11", stage11::stage11),
+        ("12", stage12::stage12),
+        ("13", stage13::stage13),
     ];
     each(stages, |(number, draw)| check_picture(&format!("own-{number}"), &draw()));
 }
 
 /// The stages that have files in Python and C++, too: their numbers, files and pictures. The course examines the others.
-const IN_OTHER_LANGUAGES: [(&str, &str, DrawStage); 5] = [
+const IN_OTHER_LANGUAGES: [(&str, &str, DrawStage); 8] = [
     ("1", "01-pixels", stage1::stage1),
     ("4", "04-space", stage4::stage4),
+    ("8", "08-window", stage8::stage8),
     ("9", "09-pipeline", stage9::stage9),
     ("10", "10-matrices", stage10::stage10),
     ("11", "11-light", stage11::stage11),
+    ("12", "12-samples", stage12::stage12),
+    ("13", "13-levels", stage13::stage13),
 ];
 
 /// A program of the files of stages, put together as the page says: stage 1, the solution of the course, the other stages.

@@ -30,9 +30,9 @@ const WIDE_LINES: Verb = Verb {
         Written {
             ending: "py",
             tool: "python3",
-            place: "values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = None",
+            place: "values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = formula = None",
             body: "
-values = samples = depth = clip = clip_attributes = area = sample_values = None
+values = samples = depth = clip = clip_attributes = area = sample_values = formula = None
 def wide_line(x0, y0, x1, y1, line_width, width, height, set_pixel):
     dx, dy = x1 - x0, y1 - y0
     for y in range(height):
@@ -90,9 +90,9 @@ const SAMPLE_VALUES: Verb = Verb {
         Written {
             ending: "py",
             tool: "python3",
-            place: "values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = None",
+            place: "values = samples = depth = clip = clip_attributes = wide_line = area = sample_values = formula = None",
             body: "
-values = samples = depth = clip = clip_attributes = wide_line = area = None
+values = samples = depth = clip = clip_attributes = wide_line = area = formula = None
 def sample_values(corners, width, height, set_samples):
     def side(a, b, x, y):
         return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])

@@ -68,6 +68,7 @@ fn fold(case: &Case) -> u64 {
         Shape::Unsnapped { list, .. } => {
             words.extend(list.iter().flat_map(|t| t.px()).flatten().map(f64::to_bits));
         }
+        Shape::Numbers { numbers, .. } => words.extend(numbers.iter().map(|n| n.to_bits())),
     }
     words.iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)

@@ -31,6 +31,7 @@ const FIRST: [&str; 8] = [
 pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     let mut chosen: Vec<&Family> = cases::families()
         .chain(cases::near_plane::FAMILIES)
+        .chain(cases::formulas::FAMILIES)
         .filter(|f| f.name != "far" && (wanted.is_empty() || wanted.iter().any(|w| w == f.name)))
         .collect();
     let rank = |f: &Family| FIRST.iter().position(|name| *name == f.name).unwrap_or(FIRST.len());
@@ -107,6 +108,7 @@ pub fn holds(case: &Case, declared: &Declared) -> bool {
         Shape::Triangles { list, .. } => limits(declared).takes(list),
         Shape::Lines(_) => put(case.clone(), declared) == *case,
         Shape::Unsnapped { .. } => false,
+        Shape::Numbers { .. } => true,
     }
 }
 
@@ -122,7 +124,7 @@ pub fn leaves_window(case: &Case) -> bool {
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).any(|e| !w.contains(e.pixel.x, e.pixel.y))
         }
-        Shape::Unsnapped { .. } => false,
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => false,
     }
 }
 

@@ -16,6 +16,7 @@ use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span, WideLine};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
+use rasterproof_verify::oracle::formula::Formula;
 use rasterproof_verify::partition::{self, Polygon};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +55,8 @@ pub enum Asked {
     SampleValues(Triangle),
     /// Y: the triangles of a polygon; the window has no part in it.
     Polygon(Polygon),
+    /// Q: what a formula gives for these numbers; the window has no part in it.
+    Formula(Formula, Vec<f64>),
 }
 
 impl Asked {
@@ -71,12 +74,13 @@ impl Asked {
             Self::Area(_) => b"RK",
             Self::SampleValues(_) => b"XU",
             Self::Polygon(_) => b"YZ",
+            Self::Formula(..) => b"QO",
         }
     }
 }
 
 /// The letters that answers begin with, of every verb.
-pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKUGBZE";
+pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKUGBZOE";
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
@@ -100,6 +104,8 @@ pub enum Answer {
     Carried(Vec<ClipCorner>),
     /// Z: triangles that make up a polygon.
     Triangles(Vec<partition::Triangle>),
+    /// O: what a formula gives.
+    Numbers(Vec<f64>),
     /// E: the reason, printable.
     Refused(String),
     /// What each of two programs answers that are compared.
@@ -148,6 +154,7 @@ impl Answer {
             Self::Line(pixels) => pixels.is_empty(),
             Self::Polygon(corners) | Self::Carried(corners) => corners.is_empty(),
             Self::Triangles(triangles) => triangles.is_empty(),
+            Self::Numbers(numbers) => numbers.is_empty(),
             Self::Two(both) => both.iter().all(Self::is_blank),
             Self::Refused(_) | Self::Died(_) => true,
         }
@@ -295,9 +302,11 @@ impl Question {
     pub fn write(&self, id: u64, out: &mut Vec<u8>) {
         // Writing to a vector does not fail.
         let _ = write!(out, "{} {id}", char::from(self.of.letters()[0]));
-        if !matches!(self.of, Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_)) {
-            let _ = write!(out, " {} {}", self.width, self.height);
-        }
+        let _ = match &self.of {
+            Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => Ok(()),
+            Asked::Formula(formula, _) => write!(out, " {}", formula.name()),
+            _ => write!(out, " {} {}", self.width, self.height),
+        };
         // Rust prints the shortest decimal that reads back as the same number.
         let mut add = |numbers: &[f64]| {
             numbers.iter().for_each(|number| drop(write!(out, " {number}")));
@@ -340,6 +349,7 @@ impl Question {
                     add(contour.as_flattened());
                 }
             }
+            Asked::Formula(_, numbers) => add(numbers),
         }
         out.push(b'\n');
     }
@@ -387,6 +397,7 @@ impl Question {
             Asked::Carried(_) => Answer::Carried(each(n, words, |w| {
                 Some([w.float()?, w.float()?, w.float()?, w.float()?, w.float()?])
             })?),
+            Asked::Formula(..) => Answer::Numbers(each(n, words, |w| w.float())?),
             Asked::Polygon(_) => Answer::Triangles(each(n, words, |w| {
                 let mut corner = || Some([w.float()?, w.float()?]);
                 Some([corner()?, corner()?, corner()?])
@@ -477,6 +488,7 @@ pub fn line(answer: &Answer, id: u64) -> String {
         Answer::Triangles(triangles) => {
             list('Z', triangles.iter().map(|[a, b, c]| format!("{a:?} {b:?} {c:?}")).collect())
         }
+        Answer::Numbers(numbers) => list('O', numbers.iter().map(f64::to_string).collect()),
         Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
         Answer::Values(fragments) => {
             let one = |f: &Fragment<DVec2>| {

@@ -201,6 +201,7 @@ fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
             Some(Check::Wide) => "lines with a width",
             Some(Check::Area) => "shares of pixels",
             Some(Check::SampleValues) => "values of samples",
+            Some(Check::Formula) => "results of formulas",
             Some(Check::Carried) => "attributes at the near plane",
             // What is wrong between answers, and with the pixels of values, comes of wrong pixels, where there are any.
             Some(Check::Values) if !is_explained => "pixels of values",

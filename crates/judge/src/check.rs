@@ -12,7 +12,7 @@ use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
 use super::judged::{CaseJudgement, push};
 use super::pixels::{length, mesh_of, painted, picture_of, pixel_of};
-use super::{adapt_case, difference, mesh, near_plane, outline, sample_values};
+use super::{adapt_case, difference, mesh, near_plane, numbers, outline, sample_values};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
@@ -50,6 +50,8 @@ pub enum Check {
     Wide,
     /// The share of each pixel that a triangle covers, against the exact one.
     Area,
+    /// What a formula gives, against exact numbers.
+    Formula,
     /// A triangle with its vertices in another order against itself.
     Order,
     /// A mesh has no holes and no doubles.
@@ -96,6 +98,7 @@ rasterproof_core::named! {
         /// Of several triangles.
         Seen = "pixels that show the wrong triangle",
         Corners = "wrong corners",
+        Numbers = "wrong numbers",
         /// Between answers of the same program, as the rest.
         Changes = "pixels that differ",
         Meshes = "holes and doubles of meshes",
@@ -135,6 +138,7 @@ impl Check {
             Self::Samples | Self::SampleValues => Counted::Samples,
             Self::Depth => Counted::Seen,
             Self::Near | Self::Carried => Counted::Corners,
+            Self::Formula => Counted::Numbers,
             Self::Order | Self::Direction => Counted::Changes,
             Self::Watertight => Counted::Meshes,
             Self::Outline => Counted::Outlines,
@@ -166,6 +170,7 @@ impl Check {
                 (extra, "of a level that is too large"),
                 (twice, "twice"),
             ],
+            Self::Formula => vec![(missing, "missing"), (extra, "too many"), (order, "wrong")],
             Self::Near => vec![
                 (missing, "corners missing"),
                 (extra, "corners that are not there"),
@@ -224,16 +229,15 @@ impl Check {
 
     /// Whether each answer is compared with an expected one, not with others.
     pub(super) fn is_one_by_one(self) -> bool {
-        use Check::{Area, Carried, Coverage, Depth, Line, Near, Values, Wide};
-        matches!(self, Coverage | Line | Values | Depth | Near | Carried | Wide | Area)
+        use Check::{Area, Carried, Coverage, Depth, Formula, Line, Near, Values, Wide};
+        matches!(self, Coverage | Line | Values | Depth | Near | Carried | Wide | Area | Formula)
     }
 
     /// Its name as a property: of checks that a family is made for, the name of that family.
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
-            Self::Coverage | Self::Line | Self::Depth | Self::Near | Self::Wide | Self::Area => {
-                family
-            }
+            Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
+            Self::Wide | Self::Area | Self::Formula => family,
             Self::Values => "values",
             Self::Carried => "clip-attributes",
             Self::Samples => "samples4",
@@ -262,6 +266,7 @@ impl Check {
             _ if ["near-plane", facts::near::TOPIC.name].contains(&family) => {
                 vec![(Self::Near, declared.clip), (Self::Carried, declared.clip_attributes)]
             }
+            _ if family.starts_with("formula-") => vec![(Self::Formula, declared.formulas)],
             _ if family.starts_with("area") => vec![(Self::Area, declared.area && is_sampled)],
             _ if family.starts_with("wide-line") => {
                 vec![(Self::Wide, declared.wide_line && is_sampled)]
@@ -311,7 +316,7 @@ impl Check {
         let mut checks = Vec::new();
         match &case.shape {
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
-            Shape::Lines(_) | Shape::Unsnapped { .. } => {}
+            Shape::Lines(_) | Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
             Shape::Triangles { list, disjoint } => {
                 let is_perspective = family.starts_with("w-");
                 if declared.attributes && (is_perspective || index % 8 == 3) {
@@ -403,6 +408,9 @@ impl Check {
                     }
                 }
             }
+            (Shape::Numbers { formula, numbers }, _) => {
+                out.push(ask(Asked::Formula(*formula, numbers.clone())));
+            }
             (Shape::Unsnapped { .. }, _) => {}
         }
     }
@@ -488,6 +496,12 @@ impl Check {
                     one_line(&mut judged, line, answer, case.window, truth);
                 }
             }
+            (Shape::Numbers { formula, numbers }, _) => {
+                let exact = formula.of(numbers);
+                if let (Some(exact), Some(Answer::Numbers(given))) = (exact, answers.first()) {
+                    numbers::compare(&mut judged, given, &exact, truth.declared.tolerance);
+                }
+            }
             (Shape::Unsnapped { .. }, _) => {}
         }
         judged
@@ -518,6 +532,15 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
             Shape::Triangles { list, .. } => list.get(at),
             _ => None,
         };
+        if let (
+            Shape::Numbers { formula, numbers },
+            [Answer::Numbers(first), Answer::Numbers(second)],
+        ) = (&case.shape, [first, second])
+        {
+            let exact = formula.of(numbers).unwrap_or_default();
+            numbers::difference(&mut judged, [first, second], &exact, declared.tolerance);
+            continue;
+        }
         difference::difference(&mut judged, [first, second], triangle, case.window, declared);
     }
     judged
@@ -776,6 +799,10 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
                 }
             }
             Some(Answer::Area(runs))
+        }
+        Asked::Formula(formula, numbers) => {
+            let given = formula.of(numbers)?;
+            Some(Answer::Numbers(given.iter().map(|given| given.exact.to_f64()).collect()))
         }
         Asked::Samples(_) | Asked::SampleValues(_) | Asked::Polygon(_) => None,
     }

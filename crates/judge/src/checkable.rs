@@ -104,9 +104,11 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             }
             out.bounds = vec![bound];
         }
-        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_) => {
-            return None;
-        }
+        Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::SampleValues(_)
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => return None,
     }
     Some(out)
 }
@@ -195,6 +197,7 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
         | Answer::Polygon(_)
         | Answer::Carried(_)
         | Answer::Triangles(_)
+        | Answer::Numbers(_)
         | Answer::Refused(_)
         | Answer::Two(_)
         | Answer::Died(_) => return None,

@@ -67,6 +67,8 @@ pub struct Declared {
     pub tolerance: f64,
     /// Its near plane is z = 0, as Direct3D, Vulkan, Metal and WebGPU have it, and not z = -w, as OpenGL has it.
     pub near_is_zero: bool,
+    /// Answers Q: computes the formulas of the pipeline.
+    pub formulas: bool,
     /// Answers Y.
     pub partition: bool,
     /// What it promises of the triangles of a polygon.
@@ -113,7 +115,7 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
 ];
 
 /// Words without a value.
-const FLAGS: [&str; 16] = [
+const FLAGS: [&str; 17] = [
     "coverage",
     "line",
     "attributes",
@@ -124,6 +126,7 @@ const FLAGS: [&str; 16] = [
     "wide-line",
     "area",
     "sample-values",
+    "formulas",
     "partition",
     "t-junctions",
     "degenerate",
@@ -247,6 +250,7 @@ impl Default for Declared {
             line_set: false,
             tolerance: DEFAULT_TOLERANCE,
             near_is_zero: false,
+            formulas: false,
             partition: false,
             tessellation: Tessellation::default(),
             reach: None,
@@ -320,6 +324,7 @@ impl Declared {
             ("wide", Some(v)) => {
                 self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
             }
+            ("formulas", None) => self.formulas = true,
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
@@ -388,6 +393,7 @@ impl Declared {
             sample_values: self.sample_values
                 && other.sample_values
                 && self.values_at == other.values_at,
+            formulas: self.formulas && other.formulas,
             partition: self.partition && other.partition,
             convention: self
                 .convention
@@ -452,6 +458,7 @@ impl Declared {
             ("wide-line", self.wide_line),
             ("area", self.area),
             ("sample-values", self.sample_values),
+            ("formulas", self.formulas),
             ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()

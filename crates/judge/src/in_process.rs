@@ -5,7 +5,7 @@ use super::declared::{Declared, MOST_IN_FLIGHT, Shape};
 use super::server;
 use super::text::Words;
 use rasterproof_registry::engines::{
-    Entry, SampleValues, Specimen, TouchedPixels, Variant, WideLines,
+    Engine, Entry, SampleValues, Specimen, TouchedPixels, Variant, WideLines,
 };
 use rasterproof_verify::comparison::{Watch, caught};
 
@@ -53,6 +53,7 @@ impl From<&Entry> for Declared {
             depth: is_engine,
             clip: is_engine,
             clip_attributes: is_engine,
+            formulas: matches!(entry.engine, Some(Engine::Oracle)),
             batch: MOST_IN_FLIGHT / 4,
             tolerance: if is_engine { OWN_TOLERANCE } else { Self::default().tolerance },
             ..Self::default()

@@ -30,6 +30,7 @@ pub mod league;
 mod leaving;
 pub mod mesh;
 pub mod near_plane;
+mod numbers;
 mod outline;
 pub mod pictured;
 pub mod pixels;

@@ -34,6 +34,7 @@ pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
         Answer::Polygon(_)
         | Answer::Carried(_)
         | Answer::Triangles(_)
+        | Answer::Numbers(_)
         | Answer::Refused(_)
         | Answer::Two(_)
         | Answer::Died(_) => return None,

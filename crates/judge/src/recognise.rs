@@ -279,6 +279,7 @@ pub fn mistakes(
                     Check::Wide => "lines with a width",
                     Check::Area => "shares of pixels",
                     Check::SampleValues => "values of samples",
+                    Check::Formula => "formulas",
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };

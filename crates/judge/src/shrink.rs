@@ -10,7 +10,7 @@ use super::check::Check;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::shrink::{CaseSteps, Steps, smallest};
-use rasterproof_verify::cases::{Case, Shape, Triangle};
+use rasterproof_verify::cases::{Case, Shape, Triangle, formulas};
 
 /// The steps of cases that a program is asked.
 pub struct ProgramSteps<'a> {
@@ -35,6 +35,7 @@ impl Steps for ProgramSteps<'_> {
     fn candidates(&self, stage: usize, case: &Case) -> Vec<Case> {
         match stage {
             0..CaseSteps::STAGES => CaseSteps.candidates(stage, case),
+            _ if self.check == Check::Formula => simpler_formulas(case),
             _ if !has_depth(self.check) && triangles(case).len() < 2 => Vec::new(),
             _ => candidates(case, self.check),
         }
@@ -67,10 +68,19 @@ fn triangles(case: &Case) -> &[Triangle] {
     if let Shape::Triangles { list, .. } = &case.shape { list } else { &[] }
 }
 
-/// Triangles, then the bits of all numbers, then how large these are, then the window.
+/// Triangles or the numbers of a formula, then the bits of all numbers, then how large these are, then the window.
 fn size(case: &Case) -> (usize, u32, u64, u64) {
-    let list = triangles(case);
     let (mut bits, mut sum) = (0, 0);
+    if let Shape::Numbers { numbers, .. } = &case.shape {
+        for number in numbers {
+            let fine = (number * f64::from(SUBPIXELS)) as i64;
+            // Of two numbers with one magnitude the positive one is smaller.
+            bits += fine.unsigned_abs().count_ones() + u32::from(fine < 0);
+            sum += fine.unsigned_abs();
+        }
+        return (numbers.len(), bits, sum, 0);
+    }
+    let list = triangles(case);
     for v in list.iter().flat_map(|t| &t.vertices) {
         let fine = [v.depth, v.varying.x].map(|number| (number * f64::from(SUBPIXELS)) as i64);
         for number in [i64::from(v.position.x), i64::from(v.position.y), fine[0], fine[1]] {
@@ -155,6 +165,24 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
         }
     }
     found
+}
+
+/// The numbers of a formula with one of them simpler, or a texel fewer, as far as the formula can be asked of these.
+fn simpler_formulas(case: &Case) -> Vec<Case> {
+    let Shape::Numbers { formula, numbers } = &case.shape else { return Vec::new() };
+    let mut found = Vec::new();
+    for (i, &number) in numbers.iter().enumerate() {
+        for simpler in simpler_number(number) {
+            let mut with = numbers.clone();
+            with[i] = simpler;
+            found.push(with);
+        }
+        let mut without = numbers.clone();
+        without.remove(i);
+        found.push(without);
+    }
+    found.retain(|numbers| formula.of(numbers).is_some());
+    found.into_iter().map(|numbers| formulas::case(*formula, numbers)).collect()
 }
 
 /// Simpler coordinates, the simplest first.

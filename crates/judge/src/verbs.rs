@@ -4,14 +4,16 @@ use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Span, ValuePlace, WideForm, WideLine};
 use rasterproof_registry::engines::{self, SampleValues, WideLines};
+use rasterproof_verify::cases::formulas;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::area::share;
+use rasterproof_verify::oracle::formula::ExactNumber;
 
 use super::ask::{ANSWER_LETTERS, Answer, Asked, Question, SampledValues, Subject, line};
-use super::declared::Declared;
+use super::declared::{DEFAULT_TOLERANCE, Declared};
 use super::expected::Expect as _;
 use super::in_process::Inside;
-use super::verdict::{Scores as _, Verdict};
+use super::verdict::{Scores as _, Shapes, Verdict};
 use super::{Asking, Options, judge};
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -81,6 +83,7 @@ fn answers_begin_with_known_letters() {
         Answer::Polygon(Vec::new()),
         Answer::Carried(Vec::new()),
         Answer::Triangles(Vec::new()),
+        Answer::Numbers(Vec::new()),
         Answer::Refused("no".to_owned()),
     ];
     let begun: BTreeSet<u8> = answers.iter().map(|answer| line(answer, 1).as_bytes()[0]).collect();
@@ -447,4 +450,41 @@ fn faults_of_values_of_samples_are_found_and_explained() {
     let right = judged_answers("sample-values", |q| valued(q, |_, _| true), &options(50, &VALUED));
     assert!(right.agrees(), "{:?}", right.failures);
     are_found_and_explained("sample-values", &VALUED, &VALUE_FAULTS);
+}
+
+/// The numbers of a formula, each off by so many tolerances.
+fn computed(question: &Question, off: f64) -> Answer {
+    let Asked::Formula(formula, numbers) = &question.of else {
+        return Answer::Refused(String::new());
+    };
+    let given = formula.of(numbers).unwrap();
+    let number = |given: &ExactNumber| given.exact.to_f64() + off * DEFAULT_TOLERANCE * given.scale;
+    Answer::Numbers(given.iter().map(number).collect())
+}
+
+#[test]
+fn formulas_are_judged_within_the_tolerance() {
+    let families: Vec<_> = formulas::FAMILIES.iter().map(|family| family.name).collect();
+    let options = options(50, &families);
+    let oracle = judged(inside("oracle"), &options);
+    assert!(oracle.agrees() && oracle.shapes(Shapes::Formulas) == 400, "{:?}", oracle.failures);
+    for (off, agrees) in [(0.9, true), (-0.9, true), (1.1, false), (f64::NAN, false)] {
+        let verdict = judged_answers("formulas", move |q| computed(q, off), &options);
+        let wrong = verdict.families.iter().filter(|row| row.wrong_cases > 0).count();
+        assert_eq!((verdict.agrees(), wrong), (agrees, if agrees { 0 } else { 8 }), "{off}");
+    }
+    // A number is missing, or one is too many.
+    for count in [0, 4] {
+        let cut = move |q: &Question| match computed(q, 0.0) {
+            Answer::Numbers(mut numbers) => {
+                numbers.resize(count, 0.0);
+                Answer::Numbers(numbers)
+            }
+            other => other,
+        };
+        let verdict = judged_answers("formulas", cut, &options);
+        assert!(verdict.families.iter().all(|row| row.wrong_cases == 50), "{count}");
+    }
+    // Who does not declare them is not asked.
+    assert!(judged(inside("scanline"), &options).families.is_empty());
 }

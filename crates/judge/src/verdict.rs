@@ -85,6 +85,7 @@ rasterproof_core::named! {
         Triangles = "triangles",
         Lines = "lines",
         WideLines = "lines with a width",
+        Formulas = "formulas",
     }
 }
 
@@ -95,6 +96,7 @@ impl Shapes {
         match check {
             Some(Check::Line) => Self::Lines,
             Some(Check::Wide) => Self::WideLines,
+            Some(Check::Formula) => Self::Formulas,
             _ => Self::Triangles,
         }
     }
@@ -263,15 +265,17 @@ pub trait Scores {
     }
 
     /// How many shapes were judged, such as '12 triangles and 3 lines'. Triangles and lines are named even where there are none, but
-    /// where lines with a width are.
+    /// where something else was judged.
     fn judged_shapes(&self) -> String {
-        let counts = Shapes::ALL.map(|kind| (self.shapes(kind), kind.name()));
-        let has_width = self.shapes(Shapes::WideLines) > 0;
-        let is_said = |(count, name): &(u64, &str)| {
-            *count > 0 || (!has_width && *name != Shapes::WideLines.name())
-        };
-        let said = counts.iter().filter(|one| is_said(one));
-        let said: Vec<String> = said.map(|(count, name)| format!("{count} {name}")).collect();
+        let counts = Shapes::ALL.map(|kind| (kind, self.shapes(kind)));
+        let is_usual = |kind: Shapes| matches!(kind, Shapes::Triangles | Shapes::Lines);
+        let has_others = counts.iter().any(|(kind, count)| *count > 0 && !is_usual(*kind));
+        let mut said = Vec::new();
+        for (kind, count) in counts {
+            if count > 0 || is_usual(kind) && !has_others {
+                said.push(format!("{count} {}", kind.name()));
+            }
+        }
         said.join(" and ")
     }
 

@@ -8,6 +8,7 @@
 //! - [`clipped`] says which pixels the near and the far plane leave, by signs of integers.
 //! - [`area`] is the share of a pixel that a triangle covers.
 //! - [`wide`] says of a sample whether a line with a width covers it, by squares of integers.
+//! - [`formula`] is what the formulas of the pipeline give where no pixel has a part.
 //! - [`segments`] is what interfaces promise of lines, by integers too.
 //! - [`double_double`] says without big integers what a difference from such a value does not exceed.
 //!
@@ -20,6 +21,8 @@ pub mod clipped;
 pub mod coverage;
 #[doc(hidden)]
 pub mod double_double;
+#[doc(hidden)]
+pub mod formula;
 pub mod pixels;
 pub mod rational;
 #[doc(hidden)]

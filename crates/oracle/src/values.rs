@@ -5,7 +5,9 @@
 //! Cramer's rule gives the plane through three vertices without any rounding. The engines use
 //! weights (barycentric or along edges) and never planes.
 
+use std::borrow::Borrow;
 use std::cmp::Ordering;
+use std::ops;
 
 use num_bigint::{BigInt, Sign};
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -118,7 +120,54 @@ impl PartialOrd for Exact {
     }
 }
 
+/// Arithmetic without rounding, between numbers and references to them.
+macro_rules! operator {
+    ($operator:ident, $method:ident, |$a:ident, $b:ident| $result:expr) => {
+        impl<R: Borrow<Exact>> ops::$operator<R> for &Exact {
+            type Output = Exact;
+
+            fn $method(self, other: R) -> Exact {
+                let ($a, $b) = (self, other.borrow());
+                $result
+            }
+        }
+
+        impl<R: Borrow<Exact>> ops::$operator<R> for Exact {
+            type Output = Exact;
+
+            fn $method(self, other: R) -> Exact {
+                ops::$operator::$method(&self, other)
+            }
+        }
+    };
+}
+
+operator!(Add, add, |a, b| {
+    let numerator = &a.numerator * &b.denominator + &b.numerator * &a.denominator;
+    Exact { numerator, denominator: &a.denominator * &b.denominator }
+});
+operator!(Sub, sub, |a, b| {
+    let numerator = &a.numerator * &b.denominator - &b.numerator * &a.denominator;
+    Exact { numerator, denominator: &a.denominator * &b.denominator }
+});
+operator!(Mul, mul, |a, b| {
+    let numerator = &a.numerator * &b.numerator;
+    Exact { numerator, denominator: &a.denominator * &b.denominator }
+});
+// The divisor is not zero.
+operator!(Div, div, |a, b| {
+    Exact::new(&a.numerator * &b.denominator, &a.denominator * &b.numerator, 0)
+});
+
 impl Exact {
+    /// The square root of what is not negative, less than 2^-100 too small.
+    #[must_use]
+    pub(super) fn root(&self) -> Self {
+        // The root of a / b is that of a b, divided by b.
+        let numerator: BigInt = (&self.numerator * &self.denominator) << 200u32;
+        Self { numerator: numerator.sqrt(), denominator: &self.denominator << 100u32 }
+    }
+
     /// numerator / denominator times 2^exponent; the denominator is not zero.
     fn new(numerator: BigInt, denominator: BigInt, exponent: i32) -> Self {
         let (numerator, denominator) = if denominator.is_negative() {

@@ -544,7 +544,7 @@ fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
                 _ => first.to_vec(),
             }
         }
-        Shape::Unsnapped { .. } => return None,
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => return None,
     };
     Some(Drawing { kind, window: [window.width(), window.height()], points })
 }

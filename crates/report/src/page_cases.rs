@@ -278,6 +278,7 @@ pub fn of_case(
             ShapeView::Lines(ends.collect())
         }
         Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),
+        Shape::Numbers { .. } => ShapeView::Free(Vec::new()),
     };
     let mut layers: Vec<Layer> = Vec::new();
     for (name, role, hits) in drawn {

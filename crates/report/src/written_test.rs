@@ -138,7 +138,11 @@ pub fn write(
 fn is_of_pixels(question: &Question) -> bool {
     !matches!(
         question.of,
-        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_)
+        Asked::Near(_)
+            | Asked::Carried(_)
+            | Asked::SampleValues(_)
+            | Asked::Polygon(_)
+            | Asked::Formula(..)
     )
 }
 
@@ -491,9 +495,11 @@ fn arguments(language: Language, question: &Question) -> String {
             let width = number(language, f64::from(*width) / f64::from(SUBPIXELS));
             format!("{}, {width}", points(language, ends))
         }
-        Asked::Near(_) | Asked::Carried(_) | Asked::SampleValues(_) | Asked::Polygon(_) => {
-            String::new()
-        }
+        Asked::Near(_)
+        | Asked::Carried(_)
+        | Asked::SampleValues(_)
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => String::new(),
     }
 }
 

@@ -157,5 +157,6 @@ pub fn facts(case: &Case) -> Vec<String> {
             lines.iter().map(of_line).collect()
         }
         Shape::Unsnapped { .. } => vec![format!("triangles {}", shrink::describe(case))],
+        Shape::Numbers { .. } => vec![shrink::describe(case)],
     }
 }

@@ -38,6 +38,7 @@ pub fn pixel(case: &Case, at: PixelPoint) -> String {
             list.iter().take(MOST).for_each(|t| free_triangle(&mut out, t, case.window, at));
             list.len()
         }
+        Shape::Numbers { .. } => 0,
     };
     if let Some(rest @ 1..) = count.checked_sub(MOST) {
         let _ = writeln!(out, "and {rest} more");

@@ -27,6 +27,7 @@ use rasterproof_core::triangle::{
 };
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Variant};
 use rasterproof_render::pipeline::multisample;
+use rasterproof_verify::oracle::formula::Formula;
 
 const READ_BYTES: usize = 1 << 16;
 /// Triangles of a request for depth order.
@@ -112,6 +113,14 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     let id = rest.first().copied().unwrap_or("-");
     let refused = |reason: String| Stop::Refused(format!("{id} {reason}"));
     let declared = Declared::from(entry);
+    if verb == "Q" {
+        let numbers = formula(&declared, rest).map_err(refused)?;
+        write!(out, "O {id} {}", numbers.len())?;
+        for number in numbers {
+            write!(out, " {number}")?;
+        }
+        return Ok(writeln!(out)?);
+    }
     let (speaks, count) = match verb {
         "T" => (declared.coverage, 6),
         "S" => (declared.samples4, 6),
@@ -126,7 +135,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R, X",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A, W, R, X, Q",
                 printable(verb)
             )));
         }
@@ -151,15 +160,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         1 => PixelRect::window(1, 1),
         _ => window(rest[1], rest[2]).map_err(refused)?,
     };
-    let numbers: Vec<f64> = rest[first..]
-        .iter()
-        .enumerate()
-        .map(|(i, word)| {
-            number(word)
-                .ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
-        })
-        .collect::<Result<_, _>>()
-        .map_err(refused)?;
+    let numbers = read_numbers(&rest[first..]).map_err(refused)?;
     let reply = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
         ("T", Some(engine), ..) => cover(engine, window, &numbers),
         ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
@@ -183,12 +184,25 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     Ok(out.write_all(b"\n")?)
 }
 
+fn read_numbers(words: &[&str]) -> Result<Vec<f64>, String> {
+    let read = |(i, word): (usize, &&str)| {
+        number(word).ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
+    };
+    words.iter().enumerate().map(read).collect()
+}
+
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
     let declared = Declared::from(entry);
     match rest {
         ["1"] => {
             // Version 1 knows no words for what came later.
-            let old = Declared { depth: false, clip: false, clip_attributes: false, ..declared };
+            let old = Declared {
+                depth: false,
+                clip: false,
+                clip_attributes: false,
+                formulas: false,
+                ..declared
+            };
             writeln!(out, "HELLO 1 {} {}", entry.name, old.capabilities().join(" "))?;
         }
         ["2"] => writeln!(out, "HELLO 2 {} {declared}", entry.name)?,
@@ -198,6 +212,23 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
         }
     }
     Ok(())
+}
+
+/// What a formula gives, rounded once.
+fn formula(declared: &Declared, rest: &[&str]) -> Result<Vec<f64>, String> {
+    if !declared.formulas {
+        return Err("unsupported".to_owned());
+    }
+    let [_, name, words @ ..] = rest else {
+        return Err("Q takes an id, a name and numbers".to_owned());
+    };
+    let Some(formula) = Formula::ALL.into_iter().find(|formula| formula.name() == *name) else {
+        let known = Formula::ALL.map(Formula::name).join(", ");
+        return Err(format!("no formula is called '{}'; expected one of {known}", printable(name)));
+    };
+    let numbers = read_numbers(words)?;
+    let given = formula.of(&numbers).ok_or_else(|| format!("these are no numbers for {name}"))?;
+    Ok(given.iter().map(|given| given.exact.to_f64()).collect())
 }
 
 /// A word of the request, short and without control characters, to quote in an answer.

@@ -186,7 +186,10 @@ pub fn read(json: &[u8]) -> Option<Grade> {
 
 /// A row of the table of submissions by steps, as it is printed when it is known.
 pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
-    let columns = format!("~name 28{} | >~points 7", " | >~step 4".repeat(STEPS.len()));
+    // A column is as wide as the number of its step, and holds two digits.
+    let width = |step| super::number(step).len().max(2);
+    let of_steps: String = STEPS.iter().map(|step| format!(" | >~step {}", width(step))).collect();
+    let columns = format!("~name 26{of_steps} | >~points 6");
     let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
     let mut cells: Vec<&dyn Display> = vec![&name];
     cells.extend(steps.iter().map(|step| step as &dyn Display));

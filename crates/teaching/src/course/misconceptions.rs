@@ -2,7 +2,7 @@
 //!
 //! A misconception is named where all answers of a step that it speaks about are the ones that it predicts, and some of
 //! them are wrong. Predictions are computed from the request alone: by [`rasterproof_verify::convention`] where a convention is
-//! mistaken, by [`stages`] where values, depths, samples or the near plane are, and here for the rest. A program with two mistakes at once
+//! mistaken, by [`stages`] where values, depths, samples or the near plane are, by [`wrong_formulas`] of formulas, and here for the rest. A program with two mistakes at once
 //! follows none of them, and nothing is named.
 
 use rasterproof_core::geometry::twice_area;
@@ -10,6 +10,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Span;
 use rasterproof_judge::ask::{Answer, Asked, Question};
 use rasterproof_judge::check::{Check, Truth, expected_answer};
+use rasterproof_judge::declared::DEFAULT_TOLERANCE;
 use rasterproof_judge::pixels::picture_of;
 use rasterproof_judge::stages::{self, Answered};
 use rasterproof_verify::convention::{
@@ -17,6 +18,9 @@ use rasterproof_verify::convention::{
     Shape, Ties, TriangleConvention, Windings,
 };
 use rasterproof_verify::mistakes::MistakeId;
+use rasterproof_verify::oracle::formula::{ExactNumber, Formula};
+
+use super::wrong_formulas::{self, Wrong};
 
 /// What a program was found to believe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,15 +41,23 @@ struct KnownMisconception {
     predict: &'static [Predict],
     /// The mistakes that the judge finds in whoever does this, of [`stages`].
     does: &'static [MistakeId],
+    /// The formula that it concerns, and what somebody computes there who believes this.
+    of_formula: Option<(Formula, &'static [Wrong])>,
 }
 
 macro_rules! known {
-    ($($name:literal, $says:literal, $ask:literal, [$($predict:expr),* $(,)?] $([$($does:ident),+])?;)*) => {
+    ($($name:literal, $says:literal, $ask:literal, [$($predict:expr),* $(,)?]
+        $([$($does:ident),+])? $({$formula:ident: $wrong:ident})?;)*) => {
         &[$(KnownMisconception {
             is: Misconception { name: $name, says: $says, ask: $ask },
             predict: &[$($predict),*],
             does: &[$($(MistakeId::$does),+)?],
+            of_formula: known!(@formula $($formula $wrong)?),
         }),*]
+    };
+    (@formula) => { None };
+    (@formula $formula:ident $wrong:ident) => {
+        Some((Formula::$formula, &wrong_formulas::$wrong))
     };
 }
 
@@ -215,6 +227,142 @@ const KNOWN: &[KnownMisconception] = known![
     "reversed-bits", "you count the bits of the mask from the other end",
     "Which number has bit 0 set and no other bit?",
     [] [SamplesBackwards];
+
+    "no-number", "you return no number",
+    "The answer of a formula is a list of numbers. Which is the first one for the request above?",
+    [|q, _| matches!(q.of, Asked::Formula(..)).then(|| Answer::Numbers(Vec::new()))];
+
+    "undivided", "you do not divide by z",
+    "Two poles stand one behind the other, at z = 2 and z = 4. At which two places of the film do you draw them?",
+    [] {Project: UNDIVIDED};
+
+    "film-forgotten", "you divide by z and leave out the distance of the film",
+    "The film moves away, from distance 1 to distance 2. What becomes of the size of the picture?",
+    [] {Project: FILM_FORGOTTEN};
+
+    "by-distance", "you divide by the way from the eye to the point, not by its distance along z",
+    "A straight fence stands parallel to the film. Does your picture of it have the same height everywhere?",
+    [] {Project: BY_DISTANCE};
+
+    "w-lost", "your w is 1, as if the point had been divided already",
+    "Which number does the perspective of step 5 need that x/z and y/z no longer have?",
+    [] {Project: W_LOST};
+
+    "size-less-1", "you multiply by the size of the window less 1",
+    "A window is 5 pixels wide. At which x does its right border lie?",
+    [] {Window: SIZE_LESS_1};
+
+    "y-not-turned", "your y counts from the bottom of the window",
+    "A point is above the middle of the film. Is its row less or more than half of the height?",
+    [] {Window: Y_NOT_TURNED};
+
+    "depth-not-halved", "your depth runs from -1 to 1",
+    "z'/w' is -1 at the near plane. Which depth should be stored there?",
+    [] {Window: DEPTH_NOT_HALVED};
+
+    "linear-depth", "your depth is linear in z",
+    "What has to be linear so that step 6 can interpolate it in the window: z, or a + b/z?",
+    [] {Window: LINEAR_DEPTH};
+
+    "film-at-1", "you forget that the film stands at the near plane",
+    "The film from -1 to 1 stands at the distance n. Where on it does a point at x = n, z = n lie?",
+    [] {Window: FILM_AT_1};
+
+    "unsnapped", "you decide by the corners before they are snapped",
+    "Which triangle is drawn: the one that is asked for, or the one on the grid? Which of the two has to be a front?",
+    [] {Winding: UNSNAPPED};
+
+    "winding-y-up", "your signs are those of a y axis that points up",
+    "Draw (1, 1), (4, 1), (1, 4) with y down. Which way do they run?",
+    [] {Winding: WINDING_Y_UP};
+
+    "area-threshold", "you count triangles of a small area as having none",
+    "A sliver is 100 px long and 1/256 px high. May a sample lie in it, and what is its area?",
+    [] {Winding: AREA_THRESHOLD};
+
+    "area-returned", "you return the area and not its sign",
+    "The answer is 1, -1 or 0. Which of them is an area of 9?",
+    [] {Winding: AREA_RETURNED};
+
+    "turned-back", "you turn the other way: your matrices are transposed",
+    "A quarter turn about z takes the x axis to the y axis. Where does yours take (1, 0, 0)?",
+    [] {Turn: TURNED_BACK};
+
+    "about-y-back", "your turn about y goes from x to z; the others are right",
+    "In the ring x, y, z, x: which axis comes after z? So where does a turn about y take z?",
+    [] {Turn: ABOUT_Y_BACK};
+
+    "about-origin", "you turn about the origin: the centre has no part in it",
+    "What should become of the centre itself, and what becomes of it with you?",
+    [] {Turn: ABOUT_ORIGIN};
+
+    "centre-back", "you move by the centre where you should move by its opposite, and back",
+    "In the product of three matrices, which one acts first: the left or the right one?",
+    [] {Turn: CENTRE_BACK};
+
+    "not-moved-back", "you turn about the centre and do not move back",
+    "After the first move the centre lies in the origin. Where does it lie in the end?",
+    [] {Turn: NOT_MOVED_BACK};
+
+    "normal-as-point", "you multiply normals with the matrix, as if they were points",
+    "A surface is stretched along x. Does it lean more or less, and what becomes of your normal?",
+    [] {Normal: NORMAL_AS_POINT};
+
+    "transposed-alone", "you transpose the matrix for normals and do not invert it",
+    "The matrix scales by 2. By what should it divide the normal?",
+    [] {Normal: TRANSPOSED_ALONE};
+
+    "inverted-alone", "you invert the matrix for normals and do not transpose it",
+    "The inverse of a turn is its transpose. Which matrix do normals get under a turn?",
+    [] {Normal: INVERTED_ALONE};
+
+    "dark-light", "what faces away from the light loses light",
+    "The cosine is -0.5 and the ambient light 0.2. How bright is the surface?",
+    [] {Light: DARK_LIGHT};
+
+    "lit-behind", "what faces away from the light is lit, too",
+    "Which sign has the cosine where the light comes from behind the surface?",
+    [] {Light: LIT_BEHIND};
+
+    "long-normal", "you do not divide by the length of the normal",
+    "Two normals at a right angle are interpolated. How long is the one in the middle?",
+    [] {Light: LONG_NORMAL};
+
+    "texel-corners", "your texels have their values at their left borders",
+    "Where in a texel does the bilinear look-up read exactly its value?",
+    [] {Texel: TEXEL_CORNERS};
+
+    "clamped-texels", "the borders of your texture go on; it should begin again",
+    "Which texel lies to the left of the first one of a floor that repeats?",
+    [] {Texel: CLAMPED};
+
+    "texels-less-1", "you multiply u by the number of texels less 1",
+    "A texture has 4 texels. How many texels from its left border is u = 1?",
+    [] {Texel: TEXELS_LESS_1};
+
+    "level-in-window", "your u and v change evenly in the window",
+    "Which of u, u/w and 1/w are linear in the window?",
+    [] {Level: LEVEL_IN_WINDOW};
+
+    "one-direction", "you look at the step to the next pixel in one direction alone",
+    "A floor seen from low above: in which direction do the texels of two neighbours lie far apart?",
+    [] {Level: ONE_DIRECTION};
+
+    "shorter-direction", "you take the shorter of both steps, or their sum",
+    "A pixel meets a strip of 2 by 16 texels. At which level does a read no longer skip any of them?",
+    [] {Level: SHORTER_DIRECTION};
+
+    "other-logarithm", "you take another logarithm than that to the base 2, or none",
+    "How much longer is a texel of the next level?",
+    [] {Level: OTHER_LOGARITHM};
+
+    "size-forgotten", "you count in parts of the texture, not in texels",
+    "u grows by 1/64 from pixel to pixel, in a texture of 256 texels. How many texels is that?",
+    [] {Level: SIZE_FORGOTTEN};
+
+    "whole-level", "you round the level, or hold it at 0",
+    "Which level lies halfway between 1 and 2, and what does a program read there?",
+    [] {Level: WHOLE_LEVEL};
 ];
 
 /// The names of all, for those who list them.
@@ -227,7 +375,7 @@ pub fn find(check: Check, asked: &[Answered], truth: &Truth) -> Option<&'static 
     if !asked.iter().any(|case| case.is_wrong) {
         return None;
     }
-    let explains = |predict: &Predict| {
+    let explains = |predict: &dyn Fn(&Question, &Truth) -> Option<Answer>| {
         let mut wrong = 0;
         for case in asked {
             for (question, answer) in case.questions.iter().zip(&case.answers) {
@@ -248,15 +396,38 @@ pub fn find(check: Check, asked: &[Answered], truth: &Truth) -> Option<&'static 
     };
     let is_done = |known: &MistakeId| does.contains(known);
     let is_it = |known: &&KnownMisconception| {
-        known.predict.iter().any(explains) || known.does.iter().any(is_done)
+        known.predict.iter().any(|predict| explains(predict))
+            || known.does.iter().any(is_done)
+            || known.of_formula.is_some_and(|(formula, wrong)| {
+                wrong.iter().any(|wrong| explains(&|q, _| computed(q, formula, *wrong)))
+            })
     };
     KNOWN.iter().find(is_it).map(|known| &known.is)
+}
+
+/// What somebody answers who computes a formula in this way.
+fn computed(question: &Question, formula: Formula, wrong: Wrong) -> Option<Answer> {
+    match &question.of {
+        Asked::Formula(asked, numbers) if *asked == formula => wrong(numbers).map(Answer::Numbers),
+        _ => None,
+    }
+}
+
+/// Whether two lists of numbers are the same within the tolerance of a formula, or of what they are themselves.
+fn are_near(question: &Question, a: &[f64], b: &[f64]) -> bool {
+    let Asked::Formula(formula, numbers) = &question.of else { return false };
+    let Some(exact) = formula.of(numbers) else { return false };
+    let near = |((a, b), given): ((&f64, &f64), &ExactNumber)| {
+        (a - b).abs() <= DEFAULT_TOLERANCE * given.scale.max(a.abs())
+    };
+    a.len() == b.len() && a.iter().zip(b).zip(&exact).all(near)
 }
 
 fn is_same(question: &Question, a: &Answer, b: &Answer) -> bool {
     let window = PixelRect::window(question.width, question.height);
     match (a, b) {
         (Answer::Line(a), Answer::Line(b)) => a == b,
+        (Answer::Numbers(a), Answer::Numbers(b)) => are_near(question, a, b),
         (Answer::Coverage(_), Answer::Coverage(_)) => {
             picture_of(a, window) == picture_of(b, window)
         }
@@ -295,7 +466,8 @@ fn nothing(question: &Question) -> Option<Answer> {
         | Asked::Wide(_)
         | Asked::Area(_)
         | Asked::SampleValues(_)
-        | Asked::Polygon(_) => return None,
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => return None,
     })
 }
 

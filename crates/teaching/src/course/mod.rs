@@ -1,4 +1,4 @@
-//! The course: twelve steps from a pixel to four samples, each judged by cases of the families.
+//! The course: eighteen steps from a pixel to the levels of a texture, each judged by cases of the families.
 //!
 //! [`STEPS`] has the cases of each step, the page that explains it, and three hints. [`examine`] sends the cases to a
 //! program, [`misconceptions`] says what its answers have in common, [`sandbox`] limits how that program runs, and [`verdict`] says how
@@ -11,6 +11,7 @@ pub mod progress;
 pub mod sandbox;
 pub mod show;
 pub mod verdict;
+mod wrong_formulas;
 
 use std::sync::LazyLock;
 
@@ -170,16 +171,16 @@ pub fn listed(progress: Option<&Progress>) -> Report {
     };
     Report {
         about: format!(
-            "Twelve steps to a rasterizer of your own{marks}; next: rasterproof course {next}\n\
+            "Eighteen steps to a rasterizer of your own{marks}; next: rasterproof course {next}\n\
              Each is judged by requests that your program answers: L lines, T triangles, I values in them, D depths, N the \
-             near plane, S four samples; see docs/protocol.md"
+             near plane, S four samples, Q formulas; see docs/protocol.md"
         ),
         tables: vec![Table::new("", columns, STEPS.iter().map(row).collect())],
         ..Report::default()
     }
 }
 
-/// The twelve steps, in order, from `steps.toml`, which the tests read too.
+/// The eighteen steps, in order, from `steps.toml`, which the tests read too.
 pub static STEPS: LazyLock<Vec<Step>> = LazyLock::new(|| {
     #[derive(Deserialize)]
     struct Steps {
@@ -220,8 +221,8 @@ mod tests {
             (Some("pixel"), Some("bresenham"), Some("scanline"))
         );
         assert_eq!((of("5"), of("samples")), (Some("perspective"), Some("samples")));
-        // A chapter of several steps, chapters of none, and what is no number.
-        assert!(["2", "2a", "2b.4", "4", "9", "0", ""].iter().all(|word| find(word).is_none()));
+        // A chapter of several steps, and what is no number.
+        assert!(["2", "2a", "2b.4", "14", "0", ""].iter().all(|word| find(word).is_none()));
     }
 
     /// The steps come in the order of the chapters, and no two have one number.
@@ -232,7 +233,10 @@ mod tests {
         };
         assert!(STEPS.is_sorted_by_key(place));
         let numbers: Vec<_> = STEPS.iter().map(number).collect();
-        let right = ["1", "2a.1", "2a.2", "2b.1", "2b.2", "2b.3", "2c", "3", "5", "6", "7", "12"];
+        let right = [
+            "1", "2a.1", "2a.2", "2b.1", "2b.2", "2b.3", "2c", "3", "4", "5", "6", "7", "8", "9",
+            "10", "11", "12", "13",
+        ];
         assert_eq!(numbers, right);
     }
 }

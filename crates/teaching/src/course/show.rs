@@ -23,6 +23,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::{panels, picture, words};
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::oracle::formula::Formula;
 
 use super::Step;
 
@@ -51,6 +52,7 @@ const HEIGHT: u32 = 120;
 struct Right {
     lines: Inside,
     triangles: Inside,
+    formulas: Inside,
 }
 
 impl Right {
@@ -59,7 +61,8 @@ impl Right {
             let entry = ENTRIES.iter().find(|entry| entry.name == name);
             Inside::new(entry.expect("the engine has an entry"))
         };
-        Self { lines: inside("bresenham"), triangles: inside("edge-function") }
+        let [lines, triangles, formulas] = ["bresenham", "edge-function", "oracle"].map(inside);
+        Self { lines, triangles, formulas }
     }
 }
 
@@ -71,6 +74,7 @@ impl Subject for Right {
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let one = |question: &Question| match question.of {
             Asked::Line { .. } => self.lines.ask(std::slice::from_ref(question), most_deaths),
+            Asked::Formula(..) => self.formulas.ask(std::slice::from_ref(question), most_deaths),
             _ => self.triangles.ask(std::slice::from_ref(question), most_deaths),
         };
         questions.iter().flat_map(one).collect()
@@ -153,6 +157,49 @@ impl Studio<'_> {
             for f in fragments {
                 put(&mut image, f.x_px, f.y_px, rgb(shade(&f)));
             }
+        }
+        image
+    }
+
+    /// A pixel for each point of the edges of a cube, at the place that its numbers become, and the darker the larger the depth.
+    fn wireframe(
+        &mut self,
+        formula: Formula,
+        numbers: impl Fn([f64; 3]) -> Vec<f64>,
+        place: impl Fn(&[f64]) -> Option<[f64; 3]>,
+    ) -> RgbImage {
+        let asked = cube_edges().into_iter().map(|point| Asked::Formula(formula, numbers(point)));
+        let answers = self.ask(WIDTH, HEIGHT, asked.collect());
+        let mut image = picture::plain(WIDTH, HEIGHT, BACKGROUND);
+        for answer in answers {
+            let Some(Answer::Numbers(numbers)) = answer else { continue };
+            let Some([x, y, depth]) = place(&numbers) else { continue };
+            let colour = DVec3::new(1.0, 0.85, 0.4) * (1.0 - depth.clamp(0.0, 1.0));
+            put(&mut image, x.floor() as i32, y.floor() as i32, rgb(colour));
+        }
+        image
+    }
+
+    /// A window in which each pixel asks a formula, and shows the first number as a colour.
+    fn shaded(
+        &mut self,
+        formula: Formula,
+        numbers: impl Fn([f64; 2]) -> Option<Vec<f64>>,
+        shade: impl Fn(f64) -> DVec3,
+    ) -> RgbImage {
+        let (width, height) = (WIDTH / 2, HEIGHT / 2);
+        let (mut places, mut asked) = (Vec::new(), Vec::new());
+        for (x, y) in (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| (x, y))) {
+            let Some(numbers) = numbers([f64::from(x) + 0.5, f64::from(y) + 0.5]) else { continue };
+            places.push((x, y));
+            asked.push(Asked::Formula(formula, numbers));
+        }
+        let answers = self.ask(width, height, asked);
+        let mut image = picture::plain(width, height, BACKGROUND);
+        for ((x, y), answer) in places.into_iter().zip(answers) {
+            let Some(Answer::Numbers(numbers)) = answer else { continue };
+            let Some(number) = numbers.first() else { continue };
+            put(&mut image, x, y, rgb(shade(*number)));
         }
         image
     }
@@ -346,6 +393,56 @@ pub fn step(program: &mut dyn Subject, step: &Step) -> Vec<ProgramPicture> {
             }),
         ],
         "clipping" => &[("a floor that begins behind the eye", |s| s.cut_floor())],
+        "projection" => &[("the edges of a cube on the film", |s| {
+            let numbers = |[x, y, z]: [f64; 3]| vec![2.0, x, y, z];
+            s.wireframe(Formula::Project, numbers, |film| match *film {
+                [x, y, _] => Some([80.0 + 40.0 * x, 60.0 - 40.0 * y, 0.0]),
+                _ => None,
+            })
+        })],
+        "window" => &[("the same edges in the window, darker with the depth", |s| {
+            let [width, height] = [WIDTH, HEIGHT].map(f64::from);
+            let numbers = |[x, y, z]: [f64; 3]| vec![width, height, 1.5, 8.0, x, y, z];
+            s.wireframe(Formula::Window, numbers, |place| <[f64; 3]>::try_from(place).ok())
+        })],
+        "culling" => &[("triangles to each pixel: clockwise ones are light", |s| {
+            let corners = |[x, y]: [f64; 2]| Some(vec![x, y, 20.0, 10.0, 60.0, 45.0]);
+            s.shaded(Formula::Winding, corners, |sign| DVec3::splat(0.5 + 0.4 * sign))
+        })],
+        "matrices" => &[("the edges of a cube, turned about its centre", |s| {
+            let numbers = |[x, y, z]: [f64; 3]| vec![1.0, 0.8, 0.6, 0.0, 0.0, 4.0, x, y, z];
+            s.wireframe(Formula::Turn, numbers, |point| match *point {
+                [x, y, z] if z > 0.0 => {
+                    Some([80.0 + 80.0 * x / z, 60.0 - 80.0 * y / z, (z - 2.0) / 6.0])
+                }
+                _ => None,
+            })
+        })],
+        "light" => &[
+            ("a ball in the light", |s| {
+                let numbers = |[x, y]: [f64; 2]| {
+                    let [x, y] = [(x - 40.0) / 25.0, (30.0 - y) / 25.0];
+                    let square = 1.0 - x * x - y * y;
+                    let normal = [x, y, -square.max(0.0).sqrt()];
+                    let light = [0.48, 0.6, -0.64, 0.2, 0.8];
+                    (square > 0.0).then(|| [&normal[..], &light].concat())
+                };
+                s.shaded(Formula::Light, numbers, DVec3::splat)
+            }),
+            ("a row of texels: nearest", |s| {
+                let numbers =
+                    |[x, _]: [f64; 2]| Some(vec![(x - 8.5) / 64.0, 10.0, 30.0, 20.0, 40.0]);
+                s.shaded(Formula::Texel, numbers, |value| DVec3::splat(value / 50.0))
+            }),
+        ],
+        "levels" => &[("levels of a floor, darker from level to level", |s| {
+            let numbers = |[x, y]: [f64; 2]| {
+                let corner = |x: f64, s: f64| [40.0 + x, s, 100.0 / s, x / s, 16.0 / s];
+                let corners = [corner(-40.0, 6.0), corner(40.0, 6.0), corner(0.0, 60.0)];
+                (y > 6.0).then(|| [&[64.0, 64.0][..], corners.as_flattened(), &[x, y]].concat())
+            };
+            s.shaded(Formula::Level, numbers, |level| DVec3::splat(1.0 - level / 8.0))
+        })],
         _ => &[("edges as bright as the share of their samples", |s| s.smooth())],
     };
     pictures.iter().map(|(title, draw)| both(program, title, &mut |studio| draw(studio))).collect()
@@ -463,6 +560,24 @@ pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
         },
     });
     report
+}
+
+/// Points along the edges of a cube of side 2, about 4 before the eye.
+fn cube_edges() -> Vec<[f64; 3]> {
+    let mut points = Vec::new();
+    for axis in 0..3 {
+        for corner in 0..4 {
+            for along in -20..=20 {
+                let mut point = [0.0; 3];
+                point[axis] = f64::from(along) / 20.0;
+                point[(axis + 1) % 3] = f64::from(corner % 2 * 2 - 1);
+                point[(axis + 2) % 3] = f64::from(corner / 2 * 2 - 1);
+                // No corner lies on the border of two pixels.
+                points.push([point[0] + 0.013, point[1] + 0.007, point[2] + 4.0]);
+            }
+        }
+    }
+    points
 }
 
 fn put(image: &mut RgbImage, x: i32, y: i32, colour: Rgb<u8>) {

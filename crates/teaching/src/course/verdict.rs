@@ -54,7 +54,7 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
 /// The step that follows one that was passed.
 pub fn next(progress: &Progress) -> String {
     if STEPS.iter().all(|step| progress.has_passed(step)) {
-        return "all twelve steps are passed; next: rasterproof judge -- CMD".to_owned();
+        return "all eighteen steps are passed; next: rasterproof judge -- CMD".to_owned();
     }
     let next = progress.current();
     format!("next: step {}, {} ({}): {}", number(next), next.title, next.page, next.judged)

@@ -2,6 +2,7 @@
 
 use super::answer::letter;
 use super::{Chapter, Exercise, Language, Solution};
+use crate::spine;
 use rasterproof_verify::judge::ascii;
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
@@ -10,7 +11,8 @@ const TERMINAL_COLUMNS: usize = 96;
 
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
 
-/// The section of a chapter's page, from its heading to the page's end.
+/// The section of a chapter's page, from its heading to the page's end. A lesson gives the reasons of its answers, another page
+/// the answers alone.
 pub fn section(chapter: &Chapter, language: Language) -> String {
     let word = chapter.word();
     let (ask, extra) = match language {
@@ -28,7 +30,12 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
             "网格里列向右、行向下，都从 0 数起；`#` 画了，`.` 没画，`-` 缺失，`+` 多余，`2` 画了两次。"
         }
     };
-    let axes = if solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
+    let shows_grids = spine::number(&chapter.page).is_some();
+    let axes = if shows_grids && solutions.iter().any(|s| legend(s, language).is_some()) {
+        axes
+    } else {
+        ""
+    };
     let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
     out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
     // In a text editor an answer is not hidden, so all questions come before the first of them.
@@ -39,6 +46,9 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
             out += &format!("\n\n{}", wrapped(&choices(exercise, language).join(" · "), language));
         }
         out += "\n";
+    }
+    if spine::number(&chapter.page).is_none() {
+        return out + &answers_alone(word, &solutions, language);
     }
     for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(&solutions) {
         let word = ["Answer", "答案"][language as usize];
@@ -53,6 +63,20 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         out += "\n\n</details>\n";
     }
     out
+}
+
+/// All answers in one line that has to be opened, and where their reasons are.
+fn answers_alone(word: &str, solutions: &[Solution], language: Language) -> String {
+    let answers =
+        (1..).zip(solutions).map(|(number, s)| format!("{number}: **{}**", s.answer.text()));
+    let answers = answers.collect::<Vec<_>>().join(" · ");
+    let (summary, reasons) = match language {
+        Language::English => ("Answers", format!("`cargo run -- quiz {word}` gives the reasons.")),
+        Language::Chinese => {
+            ("答案", format!("`cargo run -- quiz {word} --language zh` 给出理由。"))
+        }
+    };
+    format!("\n<details><summary>{summary}</summary>\n\n{answers}\n\n{reasons}\n\n</details>\n")
 }
 
 fn wrapped(text: &str, language: Language) -> String {

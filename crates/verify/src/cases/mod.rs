@@ -8,6 +8,8 @@
 mod clip;
 #[doc(hidden)]
 pub mod facts;
+#[doc(hidden)]
+pub mod formulas;
 pub mod lines;
 pub mod named;
 #[doc(hidden)]
@@ -30,6 +32,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SubpixelPoint};
 pub use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{FreeCorners, PixelPoint, ScreenLine, ScreenTriangle};
 
+use crate::oracle::formula::Formula;
 use facts::{Topic, design};
 
 /// A triangle as the harness draws it: two attributes besides depth.
@@ -55,6 +58,14 @@ pub enum Shape {
         list: Vec<FreeCorners>,
         /// Whether they tile a region around the window, so that every pixel of it must be hit exactly once.
         is_tiling: bool,
+    },
+    /// Numbers for a formula of the pipeline, in which the window has no part.
+    #[doc(hidden)]
+    Numbers {
+        /// Which formula is asked.
+        formula: Formula,
+        /// The numbers that it is given, in the order of the request.
+        numbers: Vec<f64>,
     },
 }
 
@@ -221,7 +232,7 @@ impl Limits {
                     end.pixel = PixelPoint::new(x, y);
                 }
             }
-            Shape::Unsnapped { .. } => {}
+            Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
         }
         case
     }

@@ -157,7 +157,7 @@ fn points(case: &Case) -> Vec<Point> {
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).map(|end| [end.pixel.x, end.pixel.y]).collect()
         }
-        Shape::Unsnapped { .. } => Vec::new(),
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => Vec::new(),
     }
 }
 
@@ -166,7 +166,7 @@ fn around(case: &Case) -> Option<Case> {
     let points = points(case);
     let px = |v: i32| match case.shape {
         Shape::Triangles { .. } => i64::from(v.div_euclid(SUBPIXELS)),
-        Shape::Lines(_) | Shape::Unsnapped { .. } => i64::from(v),
+        _ => i64::from(v),
     };
     let range = |axis: usize| {
         let along = || points.iter().map(|p| px(p[axis]));
@@ -188,7 +188,7 @@ fn plain(case: &Case) -> Case {
             let ends = lines.iter().map(|line| line.ends.map_array(|end| end.pixel));
             Shape::Lines(ends.map(|[a, b]| plain_line(a, b)).collect())
         }
-        free @ Shape::Unsnapped { .. } => free.clone(),
+        free @ (Shape::Unsnapped { .. } | Shape::Numbers { .. }) => free.clone(),
     };
     Case { window: case.window, shape }
 }
@@ -226,6 +226,7 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
             let bits = values().map(mantissa_bits).sum();
             (list.len(), own, 0, 0, bits, values().map(|v| v.abs() as u64).sum(), window)
         }
+        Shape::Numbers { .. } => (1, own, 0, 0, 0, 0, window),
     }
 }
 
@@ -264,6 +265,8 @@ fn candidates(case: &Case) -> Vec<Case> {
             let simpler = list.first().map(free_candidates).unwrap_or_default();
             simpler.into_iter().map(|t| Case::unsnapped(case.window, vec![t])).collect()
         }
+        // What only programs are asked, the judge makes smaller.
+        Shape::Numbers { .. } => Vec::new(),
     };
     std::iter::once(plain(case)).chain(shapes).collect()
 }
@@ -285,7 +288,7 @@ fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> 
                 end.pixel = PixelPoint::new(x, y);
             }
         }
-        Shape::Unsnapped { .. } => {}
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
     }
     Case { window, shape }
 }
@@ -470,6 +473,9 @@ pub fn describe(case: &Case) -> String {
         Shape::Unsnapped { list, .. } => {
             let px = |[x, y]: [f64; 2]| format!("{x:?},{y:?}");
             list.iter().map(|t| t.px().map_array(px).join(" ")).collect()
+        }
+        Shape::Numbers { formula, numbers } => {
+            vec![numbers.iter().fold(formula.name().to_owned(), |text, n| format!("{text} {n}"))]
         }
     };
     shapes.join("; ")

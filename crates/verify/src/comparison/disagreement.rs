@@ -146,6 +146,7 @@ impl fmt::Display for Disagreement {
                 Shape::Triangles { list, .. } => list.len(),
                 Shape::Lines(lines) => lines.len(),
                 Shape::Unsnapped { list, .. } => list.len(),
+                Shape::Numbers { .. } => 0,
             };
             let described = match shapes {
                 few if few <= MOST_SHAPES => format!("{kind} {}", shrink::describe(case)),

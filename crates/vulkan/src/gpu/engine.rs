@@ -149,7 +149,8 @@ impl Gpu {
             | Asked::Wide(_)
             | Asked::Area(_)
             | Asked::SampleValues(_)
-            | Asked::Polygon(_) => {
+            | Asked::Polygon(_)
+            | Asked::Formula(..) => {
                 return None;
             }
         })
@@ -221,7 +222,8 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
         | Asked::Wide(_)
         | Asked::Area(_)
         | Asked::SampleValues(_)
-        | Asked::Polygon(_) => return None,
+        | Asked::Polygon(_)
+        | Asked::Formula(..) => return None,
     })
 }
 
