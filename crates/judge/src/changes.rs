@@ -354,9 +354,13 @@ fn edges_at(corners: &Corners, at: [i32; 2]) -> [bool; 4] {
 /// The first and last pixel whose sample lies between two coordinates, the second one excluded, within the window.
 fn between(least: i32, most: i32, sample: i32, side: u32) -> [i32; 2] {
     let first_at_or_after = |v: i32| {
-        (v - sample).div_euclid(SUBPIXELS) + i32::from((v - sample).rem_euclid(SUBPIXELS) > 0)
+        // Corners may lie at the ends of their range.
+        let (way, step) = (i64::from(v) - i64::from(sample), i64::from(SUBPIXELS));
+        way.div_euclid(step) + i64::from(way.rem_euclid(step) > 0)
     };
-    [first_at_or_after(least).max(0), (first_at_or_after(most) - 1).min(side as i32 - 1)]
+    let last = (first_at_or_after(most) - 1).min(i64::from(side) - 1);
+    // Both lie in the window or just before it, or the first lies behind the last.
+    [first_at_or_after(least).max(0), last].map(|v| v.clamp(-1, i64::from(side)) as i32)
 }
 
 /// For each place how many pixels there are and how many are wrong; and each wrong pixel with its places, as bits. Pixels that should
@@ -553,7 +557,7 @@ mod tests {
             ("dda", &[]),
             (
                 "exclusive-edges",
-                &["ties on left edges", "ties on top edges", "which triangle is seen", "samples"],
+                &["ties on top edges", "ties on left edges", "which triangle is seen", "samples"],
             ),
             ("drops-first-row", &["the first row of shapes", "which triangle is seen", "samples"]),
             ("swapped-weights", &["values"]),

@@ -106,11 +106,43 @@ pub(super) struct Gather {
     pub(super) how: GatherHow,
 }
 
+/// How many places a row has in a memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RowLength {
+    /// As many as the window has columns.
+    Width,
+    OneLess,
+    OneMore,
+    /// The same, rounded down to a multiple of so many.
+    DownTo(i32),
+}
+
+impl RowLength {
+    fn of(self, width: i32) -> i32 {
+        match self {
+            Self::Width => width,
+            Self::OneLess => width - 1,
+            Self::OneMore => width + 1,
+            Self::DownTo(multiple) => width / multiple * multiple,
+        }
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Width => String::new(),
+            Self::OneLess => ", whose rows are one place too short".to_owned(),
+            Self::OneMore => ", whose rows are one place too long".to_owned(),
+            Self::DownTo(multiple) => format!(
+                ", whose rows have the width of the window, rounded down to a multiple of {multiple}"
+            ),
+        }
+    }
+}
+
 /// Where pixels are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Memory {
-    /// Places of a row: the width of the window, rounded to a multiple of the first number, and so many more.
-    pub(super) length: (i32, Toward, i32),
+    pub(super) row: RowLength,
     /// Whether pixels beside the window are left out.
     pub(super) checks: bool,
 }
@@ -452,11 +484,6 @@ fn whole(q: &AnyQuestion, rule: Rule, drawer: &dyn Drawer) -> Option<Vec<[i32; 2
 }
 
 impl Memory {
-    fn row_length(self, side: [i32; 2]) -> i32 {
-        let (of, toward, more) = self.length;
-        border::round(side[0].into(), of.into(), toward) as i32 * of + more
-    }
-
     /// What the places of the window's pixels hold; nothing where the shape goes too far beyond it.
     fn apply(
         self,
@@ -465,8 +492,8 @@ impl Memory {
         rule: Rule,
         drawer: &dyn Drawer,
     ) -> Option<Picture> {
-        let length = self.row_length(q.side);
         let [width, height] = q.side;
+        let length = self.row.of(width);
         let mut kept = vec![0; (length.max(0) * height + width).max(0) as usize];
         let mut keep = |[x, y]: [i32; 2], hits: u8| {
             let place = usize::try_from(y * length + x).ok();
@@ -493,17 +520,8 @@ impl Memory {
 
     /// How pixels are kept, after 'as if'.
     pub(super) fn words(self) -> String {
-        let (of, toward, more) = self.length;
         let mut said = String::from("pixels were kept in one memory, row by row");
-        if of > 1 {
-            said += &format!(
-                ", whose rows have the width of the window, rounded {} to a multiple of {of}",
-                toward.words()
-            );
-        }
-        if more != 0 {
-            said += &format!(", whose rows have {more:+} places than the window has columns");
-        }
+        said += &self.row.words();
         if !self.checks {
             said += ", and a column beyond the window were not left out";
         }
@@ -648,13 +666,13 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
             }
         }
     }
-    let down_to = [2, 4, 8, 16].map(|of| (of, Toward::Down, 0));
-    let lengths = [(1, Toward::Down, 0), (1, Toward::Down, -1), (1, Toward::Down, 1)];
-    for length in lengths.into_iter().chain(down_to) {
+    let down_to = [2, 4, 8, 16].map(RowLength::DownTo);
+    let lengths = [RowLength::Width, RowLength::OneLess, RowLength::OneMore];
+    for row in lengths.into_iter().chain(down_to) {
         // Rows as wide as the window, and a look at the column, are right.
-        let is_right = length == lengths[0];
+        let is_right = row == RowLength::Width;
         for checks in [true, false].into_iter().filter(|checks| !(is_right && *checks)) {
-            let change = Change::Memory(Memory { length, checks });
+            let change = Change::Memory(Memory { row, checks });
             bases.push(Base { changes: vec![change], rule: Rule::RIGHT });
         }
     }

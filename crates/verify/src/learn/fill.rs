@@ -257,7 +257,7 @@ pub(super) fn redrawn(
 ) -> Picture {
     let is_line = q.is_line();
     if let Some(crossed) = rows.crossed.filter(|_| !is_line) {
-        return of_all_edges(q, sample, (rows, crossed), moved);
+        return of_all_edges(q, sample, rows, crossed, moved);
     }
     let has_halves = rows.halves != Halves::default() && !is_line;
     let all = match has_halves {
@@ -307,7 +307,8 @@ pub(super) fn redrawn(
 fn of_all_edges(
     q: &AnyQuestion,
     sample: [i64; 2],
-    (rows, crossed): (RowRule, Crossed),
+    rows: RowRule,
+    crossed: Crossed,
     moved: &dyn Fn(&Site, i64) -> Option<i64>,
 ) -> Picture {
     let mut picture = Picture::new(q.side);

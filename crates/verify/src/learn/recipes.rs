@@ -227,9 +227,10 @@ fn explained(
     (learned, words)
 }
 
-/// RECIPES=20 of each field; PAIRS=1 for two changes at once.
+/// Of four recipes of each field eight of ten explain themselves. What does not is printed: RECIPES=20 takes more of each, PAIRS=1
+/// two changes at once, of which the shares are printed and not held to anything yet.
 #[test]
-#[ignore = "slow: some seconds a recipe"]
+#[ignore = "takes minutes; .ci/run --all runs it"]
 fn recipes_explain_themselves() {
     let number = |name: &str, default: usize| {
         std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
@@ -274,4 +275,8 @@ fn recipes_explain_themselves() {
         }
     }
     println!("=== all: {} of {}", all[0], all[1]);
+    // Measured with four of each field: 53 of 60 with one change.
+    if !is_pair {
+        assert!(10 * all[0] >= 8 * all[1], "{} of {}", all[0], all[1]);
+    }
 }

@@ -415,7 +415,7 @@ impl Tiles {
         let from = if self.from_box { ", from the box of the corners on," } else { "" };
         let tiles = match self.size {
             Some(size) => format!("tiles of {size} x {size} px{from}"),
-            None => "the smallest square of a power of two that holds the window".to_owned(),
+            None => "tiles of the least power of two that holds the window".to_owned(),
         };
         let point = if self.are_corners { "corners" } else { "corner pixels" };
         let names = ["upper left", "upper right", "lower left", "lower right"];
