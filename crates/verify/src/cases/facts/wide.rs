@@ -240,6 +240,15 @@ fn adjust(rng: &mut Rng, line: &mut WideLine, window: PixelRect) {
             line.ends[1] = SubpixelPoint::new(a.x.saturating_add(dx), a.y.saturating_add(dy));
             line.width = dx.abs().max(dy.abs()).max(1);
         }
+        // Both extents are long, and one is many times the other.
+        _ if rng.chance(4) => {
+            let short = rng.int(1 << 12, 1 << 13) * PX;
+            let long = short * rng.int(1 << 8, 1 << 9);
+            let [dx, dy] = if rng.chance(2) { [short, long] } else { [long, short] };
+            let [x, y] = [either(rng, dx), either(rng, dy)];
+            line.ends[1].x = saturated(i64::from(a.x) + x);
+            line.ends[1].y = saturated(i64::from(a.y) + y);
+        }
         _ => {}
     }
 }
