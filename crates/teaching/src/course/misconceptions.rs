@@ -2,7 +2,7 @@
 //!
 //! A misconception is named where all answers of a step that it speaks about are the ones that it predicts, and some of
 //! them are wrong. Predictions are computed from the request alone: by [`rasterproof_verify::convention`] where a convention is
-//! mistaken, by [`stages`] where values, depths, samples or the near plane are, by [`wrong_formulas`] of formulas, and here for the rest. A program with two mistakes at once
+//! mistaken, by [`stages`] where values, depths, samples or the near plane are, by `wrong_formulas` of formulas, and here for the rest. A program with two mistakes at once
 //! follows none of them, and nothing is named.
 
 use rasterproof_core::geometry::twice_area;
