@@ -12,7 +12,7 @@ use rasterproof_core::triangle::{Fragment, ValuePlace};
 use rasterproof_render::pipeline::multisample::{SAMPLES, moved};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::pixels::few;
-use rasterproof_verify::oracle::values::ExactTriangle;
+use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
 
 use super::ask::SampledValues;
 use super::declared::Declared;
@@ -22,7 +22,7 @@ use super::judged::CaseJudgement;
 /// A point of a pixel, in 1/16 px from its upper left corner.
 pub type Place = (i32, i32);
 
-/// The centre of a pixel.
+/// Halfway between 0 and 16 on both axes.
 pub const CENTRE: Place = (8, 8);
 
 /// Where the value of a sample is computed, in a pixel of which these samples are covered.
@@ -37,8 +37,7 @@ pub fn place(at: ValuePlace, covered: u8, sample: usize) -> Place {
 
 /// By how much more than inside the triangle depth and attributes may be off at a point of a pixel. Nothing where the plane of 1 / w
 /// is not above 0, so that no perspective has a value there.
-#[must_use]
-pub fn factors(triangle: &Triangle, [x_px, y_px]: [i32; 2], (x, y): Place) -> Option<[f64; 2]> {
+fn factors(triangle: &Triangle, [x_px, y_px]: [i32; 2], (x, y): Place) -> Option<[f64; 2]> {
     let corners = triangle.corners();
     let at = [(x_px, x), (y_px, y)].map(|(px, part)| {
         i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
@@ -59,6 +58,26 @@ pub fn factors(triangle: &Triangle, [x_px, y_px]: [i32; 2], (x, y): Place) -> Op
 
 /// Errors that are larger than this share of a value by the tolerance alone say nothing of it.
 const MOST_OF_A_VALUE: f64 = 0.25;
+
+/// How far depth and both attributes may be off at a point of a pixel where they are `values`. Nothing where they are not compared,
+/// since perspective has no value there or the tolerance alone allows too much of it.
+#[must_use]
+pub fn bounds(
+    triangle: &Triangle,
+    at_px: [i32; 2],
+    place: Place,
+    values: [f64; 3],
+    tolerance: f64,
+) -> Option<[f64; 3]> {
+    let [of_depth, of_attributes] = factors(triangle, at_px, place)?;
+    if tolerance * of_depth.max(of_attributes) > MOST_OF_A_VALUE {
+        return None;
+    }
+    let inside = value_bounds(triangle, tolerance);
+    let factors = [of_depth, of_attributes, of_attributes];
+    // Of the largest magnitude of all, the extrapolated one among them.
+    Some([0, 1, 2].map(|i| inside[i].max(tolerance * values[i].abs()) * factors[i]))
+}
 
 /// Compares the values of some samples with exact ones, where these samples are covered.
 pub(super) fn compare(
@@ -95,21 +114,12 @@ fn compare_one(
     (exact, place): (&ExactTriangle<2>, Place),
     tolerance: f64,
 ) {
-    let Some([of_depth, of_attributes]) = factors(triangle, [found.x_px, found.y_px], place) else {
+    let at_px = [found.x_px, found.y_px];
+    let (depth, [a, b]) = exact.at(at_px[0], at_px[1]);
+    let right = [&depth, &a, &b];
+    let Some(bounds) = bounds(triangle, at_px, place, right.map(Exact::to_f64), tolerance) else {
         return;
     };
-    if tolerance * of_depth.max(of_attributes) > MOST_OF_A_VALUE {
-        return;
-    }
-    let (depth, [a, b]) = exact.at(found.x_px, found.y_px);
-    let right = [&depth, &a, &b];
-    let bounds = value_bounds(triangle, tolerance);
     let drawn = [found.depth, found.varying.x, found.varying.y];
-    let factors = [of_depth, of_attributes, of_attributes];
-    let off = [0, 1, 2].map(|i| {
-        // Of the largest magnitude of all, the extrapolated one among them.
-        let bound = bounds[i].max(tolerance * right[i].to_f64().abs()) * factors[i];
-        right[i].distance(drawn[i]) / bound
-    });
-    judged.off(found, off);
+    judged.off(found, [0, 1, 2].map(|i| right[i].distance(drawn[i]) / bounds[i]));
 }

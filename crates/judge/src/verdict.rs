@@ -90,7 +90,7 @@ rasterproof_core::named! {
 }
 
 impl Shapes {
-    /// Those of a row with this check.
+    /// What the shapes of a row are, by the check that it is of.
     #[must_use]
     pub fn of(check: Option<Check>) -> Self {
         match check {

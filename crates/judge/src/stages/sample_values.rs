@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use super::search::{Quantity, Spot, Stage, choices, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question, SampledValues};
 use crate::declared::Declared;
-use crate::expected::value_bounds;
-use crate::sample_values::{CENTRE, Place, factors, place};
+use crate::sample_values::{CENTRE, Place, bounds, place};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::ValuePlace;
@@ -15,7 +14,7 @@ use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::oracle::Oracle;
 
 composed! {
-    /// How samples get their values.
+    /// The samples that are drawn in a pixel, and the way from the corners' values to theirs.
     pub struct SampleShading {
         masks: SampleGate,
         at: At,
@@ -25,7 +24,7 @@ composed! {
 }
 
 choices! {
-    /// Which samples are drawn.
+    /// Whether a sample is drawn, by itself, by the others of its pixel or by the centre.
     pub enum SampleGate: "samples with values", "draw the samples that are covered, each once" {
         Covered,
         Never = "does not draw {}",
@@ -71,9 +70,9 @@ choices! {
 pub struct ShadedPixel<'a> {
     pub(super) spot: Spot,
     triangle: &'a Triangle,
-    /// Entries of the answer.
+    /// What the answer says of it: some samples with the same values each.
     drawn: Vec<&'a SampledValues>,
-    /// Its covered samples.
+    /// The samples that are covered, as a mask.
     pub(super) right: u8,
     pub(super) is_centre_covered: bool,
     declared: ValuePlace,
@@ -164,17 +163,10 @@ impl SampleShading {
     fn has_values(&self, pixel: &ShadedPixel<'_>, sample: usize, found: [f64; 3]) -> bool {
         let at = self.place(pixel, sample);
         let [x, y] = at.map(|v| v.round() as i32);
-        let Some([of_depth, of_attributes]) = factors(pixel.triangle, pixel.spot.at, (x, y)) else {
-            // No perspective has a value there.
-            return true;
-        };
         let right = self.values(pixel, at);
-        let bounds = value_bounds(pixel.triangle, pixel.tolerance);
-        let factors = [of_depth, of_attributes, of_attributes];
-        (0..3).all(|k| {
-            let bound = bounds[k].max(pixel.tolerance * right[k].abs()) * factors[k];
-            pixel.tolerance * factors[k] > 0.25 || (found[k] - right[k]).abs() <= bound
-        })
+        let bounds = bounds(pixel.triangle, pixel.spot.at, (x, y), right, pixel.tolerance);
+        // What the judge does not compare may be anything.
+        bounds.is_none_or(|bounds| (0..3).all(|k| (found[k] - right[k]).abs() <= bounds[k]))
     }
 }
 

@@ -38,25 +38,18 @@ enum Field {
 }
 
 impl Field {
-    const OF_TRIANGLES: [Self; 8] = [
-        Self::Question,
-        Self::Guarded,
-        Self::Pixels,
-        Self::PixelsOfTwo,
-        Self::Border,
-        Self::BorderOfTwo,
-        Self::Rows,
-        Self::Edges,
-    ];
-    const OF_LINES: [Self; 7] = [
-        Self::Question,
-        Self::Guarded,
-        Self::Pixels,
-        Self::PixelsOfTwo,
-        Self::Border,
-        Self::BorderOfTwo,
-        Self::Walk,
-    ];
+    fn all(is_line: bool) -> Vec<Self> {
+        let of_one: &[Self] = if is_line { &[Self::Walk] } else { &[Self::Rows, Self::Edges] };
+        let of_both = [
+            Self::Question,
+            Self::Guarded,
+            Self::Pixels,
+            Self::PixelsOfTwo,
+            Self::Border,
+            Self::BorderOfTwo,
+        ];
+        [&of_both, of_one].concat()
+    }
 }
 
 /// Questions by which a recipe is held to be wrong often enough and not always the same.
@@ -110,12 +103,12 @@ impl<'a> Kitchen<'a> {
         let count = self.vocabulary.names.len();
         let first = if is_pixel { self.vocabulary.of_question } else { 0 };
         let end = if is_pixel { count } else { self.vocabulary.of_question };
+        let rows: Vec<Vec<i64>> = match is_pixel {
+            true => self.pixels.clone(),
+            false => self.answers.iter().map(|a| a.facts.clone()).collect(),
+        };
         loop {
             let i = self.rng.int(first as i64, end as i64 - 1) as usize;
-            let rows: Vec<Vec<i64>> = match is_pixel {
-                true => self.pixels.clone(),
-                false => self.answers.iter().map(|a| a.facts.clone()).collect(),
-            };
             let value = self.one_of(&rows)[i];
             if value == NONE {
                 continue;
@@ -249,13 +242,13 @@ fn recipes_explain_themselves() {
         let mut lines = Lines::new(&mut no_line, &known, [&of_line; 2], &[], SEED, &work);
         let drawer: &mut dyn Drawer = if is_line { &mut lines } else { &mut triangles };
         let mut kitchen = Kitchen::new(drawer, seed);
-        let fields: &[Field] = if is_line { &Field::OF_LINES } else { &Field::OF_TRIANGLES };
-        for &field in fields {
+        let fields = Field::all(is_line);
+        for &field in &fields {
             let mut certain = 0;
             for _ in 0..count {
                 let mut changed = vec![field];
                 if is_pair {
-                    changed.push(kitchen.one_of(fields));
+                    changed.push(kitchen.one_of(&fields));
                 }
                 let model = kitchen.served(&changed);
                 let (learned, words) = explained(&model, kitchen.drawer, &kitchen.vocabulary);
