@@ -9,25 +9,26 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::check_value;
+use rasterproof_core::triangle::{ScreenTriangle, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Board, Choice, Clock, Column, Details, Draft, Entry, Ladder, Measure, Part, Pass, PreparedCell,
-    Run, Sampling, Timing, antialiasing, coverage, interpolation, timed,
+    Board, Choice, Clock, Column, Details, Entry, Ladder, Measure, Part, Pass, PreparedCell, Run,
+    Sampling, Timing, add_column, antialiasing, coverage, interpolation,
 };
 use rasterproof_registry::engines::Drawer;
-use rasterproof_render::effects::Effects;
-use rasterproof_render::effects::render::BadScene;
+use rasterproof_render::effects::plan::{PiecePlan, Pieces, Samples};
+use rasterproof_render::effects::render::{BadScene, Rendered};
+use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::shade::{Attributes, PLACED};
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_tiles::frames::{self, TilesError};
 use rasterproof_verify::comparison::tolerance::SCANLINE;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-use crate::effects::differing;
+use crate::effects::{PLANS, differing, frame_pass};
 use crate::hard::HardCases;
-use crate::memory;
 use crate::view::{NOTHING, Piece, Sampled, seen};
 
 /// How thoroughly times are taken.
@@ -68,31 +69,59 @@ pub fn measure(
     progress(0.0, Ladder::Scanline.title());
     let mut boards = coverage_boards(sampled, &sample, timing.within(2.0));
     progress(0.4, Ladder::Interpolation.title());
-    boards.push(interpolation_board(sampled.shaded(), hard, timing));
+    boards.extend(interpolation_board(sampled.shaded(), hard, timing));
     progress(0.5, Ladder::Depth.title());
-    boards.push(depth(sampled, &sample, timing.within(2.0)));
+    boards.extend(depth(sampled, &sample, timing.within(2.0)));
     progress(0.6, Ladder::Antialiasing.title());
-    boards.push(antialiasing_board((sampled.at_centres(), sampled.size), timing));
+    boards.extend(antialiasing_board((sampled.at_centres(), sampled.size), timing));
     progress(0.7, "planners");
-    boards.push(planners(scene, target, timing.within(2.0))?);
+    boards.extend(planners(scene, target, timing.within(2.0))?);
     Ok(boards)
 }
 
-/// A board of a model, timed.
-fn board<'a>(
+/// The choices of a group, each with what it gets wrong and what is timed.
+struct Group<'a> {
     ladder: Ladder,
-    measure: Measure,
-    sampling: Sampling,
-    (choices, cells): (Vec<Choice>, Vec<PreparedCell<'a>>),
-    timing: Timing,
-) -> Board {
-    let mut draft = Draft::new(ladder, 0, vec![measure], choices);
-    draft.add(Column::of_model(sampling), cells);
-    timed(vec![draft], Some(timing), &|_| ()).remove(0)
+    measures: Vec<Measure>,
+    rows: Vec<(Choice, PreparedCell<'a>)>,
 }
 
-fn choices_of<I>(entries: &[Entry<'_, I>]) -> Vec<Choice> {
-    entries.iter().map(|entry| entry.choice.clone()).collect()
+/// A group whose choices have entries; `cell` gets the number of each as well.
+fn group<'a, I>(
+    ladder: Ladder,
+    measures: &[Measure],
+    entries: Vec<Entry<I>>,
+    cell: impl Fn((usize, &Entry<I>)) -> PreparedCell<'a>,
+) -> Group<'a> {
+    let cells: Vec<_> = entries.iter().enumerate().map(cell).collect();
+    let choices = entries.into_iter().map(|entry| entry.choice);
+    Group { ladder, measures: measures.to_vec(), rows: choices.zip(cells).collect() }
+}
+
+/// The boards of groups that do the same job, with the model as their one column.
+fn boards<'a>(
+    groups: impl IntoIterator<Item = Group<'a>>,
+    sampling: Sampling,
+    timing: Timing,
+) -> Vec<Board> {
+    let (mut boards, mut cells) = (Vec::new(), Vec::new());
+    for Group { ladder, measures, rows } in groups {
+        let (choices, of_group) = rows.into_iter().unzip();
+        boards.push(Board::new(ladder, 0, measures, choices));
+        cells.push(of_group);
+    }
+    add_column(&mut boards, &Column::of_model(sampling), cells, Some(timing), &|_| ());
+    boards
+}
+
+/// What the buffers of a choice take at their peak, in a window and for so many triangles.
+fn bytes(choice: &Choice, window: PixelRect, triangles: u64) -> u64 {
+    let [of_pixel, of_triangle] = choice.bytes;
+    of_pixel * pixels(window) + of_triangle * triangles
+}
+
+fn pixels(window: PixelRect) -> u64 {
+    u64::from(window.width()) * u64::from(window.height())
 }
 
 /// Pieces that are timed.
@@ -203,44 +232,32 @@ fn rename(found: &mut Details, faces: &[u32]) {
 /// Pieces whose coverage is judged at once.
 const CHUNK: usize = 256;
 
-fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
-    sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect()
-}
-
 /// Both groups of coverage: all pieces against the oracle, as they are and snapped; times of a sample, in the same rounds.
 fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
-    let (window, chunks) = (sampled.window, chunks(sampled));
-    let (titles, shorts) = match sampled.is_antialiased() {
-        false => (
-            ["wrong pixels, corners as they are", "wrong pixels, corners snapped"],
-            ["px as given", "px snapped"],
-        ),
-        true => (
-            ["wrong samples, corners as they are", "wrong samples, corners snapped"],
-            ["samples as given", "samples snapped"],
-        ),
+    let window = sampled.window;
+    let chunks: Vec<&[Piece]> =
+        sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
+    let (plural, unit) = (sampled.counted(), sampled.unit());
+    let measure = |(corners, short)| {
+        let title = format!("wrong {plural}, corners {corners}");
+        Measure::new(title, format!("{unit} {short}"), Some(0.0)).counts(unit)
     };
-    let measure = |i: usize| Measure::new(titles[i], shorts[i], Some(0.0)).counts(sampled.unit());
-    let to_time = coverage::Input::timed(class(sample.of(&sampled.planes[0]), window).0);
-    let mut drafts = Vec::new();
-    for ladder in [Ladder::Scanline, Ladder::EdgeFunction] {
+    let measures = [("as they are", "as given"), ("snapped", "snapped")].map(measure);
+    let to_time = coverage::Input::new(class(sample.of(&sampled.planes[0]), window).0);
+    let group = |ladder: Ladder| {
         let of_chunks =
             parallel::map(chunks.len(), |number| judged(ladder, chunks[number], window));
-        let entries = coverage::choices(ladder);
-        let mut draft = Draft::new(ladder, 0, [0, 1].map(measure).to_vec(), choices_of(&entries));
-        let cell = |(number, entry): (usize, &Entry<'_, coverage::Input>)| {
+        let cell = |(number, entry): (usize, &Entry<coverage::Input>)| {
             let mut found = Details::default();
             for chunk in &of_chunks {
                 let Details { pixels, first, wrong, .. } = &chunk[number].as_ref()?.found;
                 found.pixels = [0, 1].map_array(|i| found.pixels[i] + pixels[i]);
-                let first = first.map(|(of, at)| (of, sampled.pixel(at)));
-                found.first = found.first.or(first);
+                found.first = found.first.or(first.map(|(of, sample)| (of, sampled.pixel(sample))));
                 found.wrong.extend(wrong);
             }
             merge(&mut found.wrong);
-            let name = &*entry.choice.name;
-            found.bytes = Some(memory::coverage(name, window, sample.pieces.part));
-            let unit = match (ladder, name) {
+            found.bytes = Some(bytes(&entry.choice, window, sample.pieces.part));
+            let unit = match (ladder, &*entry.choice.name) {
                 (Ladder::EdgeFunction, "f32 direct") => Some(f64::from(f32::EPSILON) / 2.0),
                 (Ladder::EdgeFunction, "f64 direct") => Some(f64::EPSILON / 2.0),
                 _ => None,
@@ -249,18 +266,16 @@ fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Bo
             let errors = found.pixels.map(|pixels| Some(pixels as f64)).to_vec();
             Ok((Run { errors, found, ..Run::default() }, Some(entry.pass(&to_time)?)))
         };
-        let cells: Vec<PreparedCell<'_>> = entries.iter().enumerate().map(cell).collect();
-        draft.add(Column::of_model(sample.sampling()), cells);
-        drafts.push(draft);
-    }
-    timed(drafts, Some(timing), &|_| ())
+        group(ladder, &measures, coverage::choices(ladder), cell)
+    };
+    boards([Ladder::Scanline, Ladder::EdgeFunction].map(group), sample.sampling(), timing)
 }
 
 /// What each choice of a group gets wrong of some pieces.
 fn judged(ladder: Ladder, pieces: &[Piece], window: PixelRect) -> Vec<Result<Run, String>> {
     let (class, faces) = class(pieces, window);
-    let input = coverage::Input::judged(class);
-    let judge = |entry: Entry<'_, coverage::Input>| {
+    let input = coverage::Input::new(class);
+    let judge = |entry: Entry<coverage::Input>| {
         let mut run = entry.judge(&input)?;
         rename(&mut run.found, &faces);
         Ok(run)
@@ -333,20 +348,20 @@ fn interpolation_board(
     (pieces, window): (&[Piece], PixelRect),
     hard: &HardCases,
     timing: Timing,
-) -> Board {
+) -> Vec<Board> {
+    use interpolation::{HALF_STEP, SAMPLES, choices, input};
     let taken: Vec<Piece> = pieces.iter().filter(|piece| has_values(piece)).cloned().collect();
     let sample = Sample::new(&taken, window, TIMED_PX / 4);
-    let judged = interpolation::Input::new(&class(&taken, window).0, interpolation::SAMPLES);
-    let to_time = interpolation::Input::new(&class(sample.of(&taken), window).0, 0);
+    let judged = input(&class(&taken, window).0, SAMPLES);
+    let to_time = input(&class(sample.of(&taken), window).0, 0);
     let are_hard = taken.iter().filter(|piece| hard.is_hard(piece.face));
     let (class_of_hard, faces) = class(are_hard, window);
-    let on_hard = (!faces.is_empty())
-        .then(|| interpolation::Input::new(&class_of_hard, 4 * interpolation::SAMPLES));
-    let entries = interpolation::choices();
-    let cell = |entry: &Entry<'_, interpolation::Input>| {
+    let on_hard = (!faces.is_empty()).then(|| input(&class_of_hard, 4 * SAMPLES));
+    let cell = |(_, entry): (usize, &Entry<interpolation::Input>)| {
         let mut run = entry.judge(&judged)?;
         run.errors.truncate(1);
-        run.found = Details { bytes: Some(memory::interpolation(window)), ..Details::default() };
+        run.found = Details::default();
+        run.found.bytes = Some(bytes(&entry.choice, window, 0));
         if let Some(on_hard) = &on_hard {
             let mut of_hard = entry.judge(on_hard)?;
             rename(&mut of_hard.found, &faces);
@@ -356,64 +371,61 @@ fn interpolation_board(
         }
         Ok((run, Some(entry.pass(&to_time)?)))
     };
-    let cells = entries.iter().map(cell).collect();
-    let title = "worst error over the largest value; up to half a step of 8 bits is good";
     let sampling = Sampling {
         judged: judged.judged(),
         looked_at: on_hard.as_ref().map(interpolation::Input::judged),
         not_judged: (pieces.len() - taken.len()) as u64,
         ..sample.sampling()
     };
-    let measure = Measure::new(title, "error / M", Some(1.0 / 512.0));
-    board(Ladder::Interpolation, measure, sampling, (choices_of(&entries), cells), timing)
+    let title = "worst error over the largest value; up to half a step of 8 bits is good";
+    let measure = Measure::new(title, "error / M", Some(HALF_STEP));
+    boards([group(Ladder::Interpolation, &[measure], choices(), cell)], sampling, timing)
 }
 
 /// Choices of antialiasing: errors of all pieces, times of a sample.
-fn antialiasing_board((pieces, window): (&[Piece], PixelRect), timing: Timing) -> Board {
+fn antialiasing_board((pieces, window): (&[Piece], PixelRect), timing: Timing) -> Vec<Board> {
     let sample = Sample::new(pieces, window, TIMED_PX / 4);
     let judged = antialiasing::Input::new(&class(pieces, window).0);
     let to_time = antialiasing::Input::new(&class(sample.of(pieces), window).0);
-    let entries = antialiasing::choices();
-    let cell = |entry: &Entry<'_, antialiasing::Input>| {
+    let cell = |(_, entry): (usize, &Entry<antialiasing::Input>)| {
         let mut run = entry.judge(&judged)?;
-        run.found.bytes = memory::antialiasing(&entry.choice.name, window);
+        run.found.bytes = Some(bytes(&entry.choice, window, 0));
         Ok((run, Some(entry.pass(&to_time)?)))
     };
-    let cells = entries.iter().map(cell).collect();
     let title = "root mean square distance from the exact share of a pixel on an edge";
     let measure = Measure::new(title, "rms of a px", Some(0.0));
-    let choices = choices_of(&entries);
-    board(Ladder::Antialiasing, measure, sample.sampling(), (choices, cells), timing)
+    let group = group(Ladder::Antialiasing, &[measure], antialiasing::choices(), cell);
+    boards([group], sample.sampling(), timing)
 }
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
-fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Board {
+fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
     let (window, pieces) = (sampled.window, &*sampled.planes[0]);
     let truths =
         parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
-    let choice = |format: DepthFormat| {
-        let about = match format {
-            DepthFormat::Unorm32 => "2^32 equal steps",
-            DepthFormat::Unorm24 => "2^24 equal steps, as most hardware",
-            DepthFormat::F32 => "a float, 0 at the near plane",
-            DepthFormat::F32Reversed => "a float, 1 at the near plane",
-            DepthFormat::F64 => "a double",
+    let row = |format: DepthFormat| {
+        let (about, of_depth) = match format {
+            DepthFormat::Unorm32 => ("2^32 equal steps", size_of::<u32>()),
+            DepthFormat::Unorm24 => ("2^24 equal steps, as most hardware", size_of::<u32>()),
+            DepthFormat::F32 => ("a float, 0 at the near plane", size_of::<f32>()),
+            DepthFormat::F32Reversed => ("a float, 1 at the near plane", size_of::<f32>()),
+            DepthFormat::F64 => ("a double", size_of::<f64>()),
         };
-        Choice::new(format.name(), about, &[])
-    };
-    let cell = |format: DepthFormat| -> PreparedCell<'_> {
-        let bytes = Some(memory::depth(format, window, sampled.planes.len()));
-        let mut found = Details { bytes, ..Details::default() };
+        // A depth as the format has it, and the number of a piece.
+        let of_pixel = (of_depth + size_of::<u32>()) * sampled.planes.len();
+        let choice = Choice::new(format.name(), about, &[]).holding(of_pixel, 0);
+        let mut found = Details { bytes: Some(bytes(&choice, window, 0)), ..Details::default() };
         for (pieces, truth) in sampled.planes.iter().zip(&truths) {
+            let face = |number: u32| pieces.get(number as usize).map(|piece| piece.face);
             let seen = seen(pieces, window, format, &mut (0..pieces.len()));
             for (y, row) in seen.rows() {
-                for ((x, seen), exact) in (window.x0..).zip(row).zip(truth.row(y)) {
+                let both = row.iter().zip(truth.row(y));
+                for (x, (&seen, &exact)) in (window.x0..).zip(both) {
                     if seen != exact {
-                        let face = |number: &u32| pieces.get(*number as usize).map(|p| p.face);
                         let (seen, exact) = (face(seen), face(exact));
+                        let pair = exact.or(seen).zip(seen.or(exact));
                         let pixel = sampled.pixel([x, y]);
                         found.first = found.first.or(Some((exact.or(seen), pixel)));
-                        let pair = exact.or(seen).zip(seen.or(exact));
                         found.wrong.extend(pair.map(|(exact, seen)| ([exact, seen], 1)));
                     }
                 }
@@ -423,18 +435,15 @@ fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Board {
         merge(&mut found.wrong);
         let pass = Pass::new(move || {
             let mut timed = sample.numbers.iter().copied();
-            std::hint::black_box(self::seen(pieces, window, format, &mut timed));
+            std::hint::black_box(seen(pieces, window, format, &mut timed));
         });
-        Ok((Run { errors, found, ..Run::default() }, Some(pass)))
+        (choice, Ok((Run { errors, found, ..Run::default() }, Some(pass))))
     };
-    let (title, short) = match sampled.is_antialiased() {
-        false => ("pixels that show another piece than exact depths do", "wrong px"),
-        true => ("samples that show another piece than exact depths do", "wrong samples"),
-    };
-    let measure = Measure::new(title, short, Some(0.0)).counts(sampled.unit());
-    let formats = DepthFormat::ALL.into_iter();
-    let of = (formats.clone().map(choice).collect(), formats.map(cell).collect());
-    board(Ladder::Depth, measure, sample.sampling(), of, timing)
+    let (plural, unit) = (sampled.counted(), sampled.unit());
+    let title = format!("{plural} that show another piece than exact depths do");
+    let measures = vec![Measure::new(title, format!("wrong {unit}"), Some(0.0)).counts(unit)];
+    let rows = DepthFormat::ALL.into_iter().map(row).collect();
+    boards([Group { ladder: Ladder::Depth, measures, rows }], sample.sampling(), timing)
 }
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
@@ -476,12 +485,7 @@ fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
 }
 
 /// Whole frames: each rasterizer by each planner, and tiles, against the one with everything switched on.
-fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Board, BadScene> {
-    const PLANNERS: [(&str, Effects, &str); 3] = [
-        ("all", Effects::ALWAYS, "every effect is computed everywhere"),
-        ("usual", Effects::USUAL, "what a usual renderer leaves out is left out"),
-        ("planned", Effects::PLANNED, "what changes no pixel, by a proof, is left out"),
-    ];
+fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Board>, BadScene> {
     let (size, antialias) = (target.size(), target.antialias());
     let target = RefCell::new(target);
     let mut first: Option<Frame<Colour>> = None;
@@ -492,18 +496,14 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Board,
         let found = Details { first: at, bytes, ..Details::default() };
         Run { errors: vec![Some(wrong.len() as f64)], found, ..Run::default() }
     };
-    let (mut choices, mut cells): (Vec<Choice>, Vec<PreparedCell<'_>>) = (Vec::new(), Vec::new());
+    let mut rows: Vec<(Choice, PreparedCell<'_>)> = Vec::new();
     for drawer in Drawer::ALL {
-        for (name, effects, about) in PLANNERS {
-            choices.push(Choice::new(format!("{} {name}", drawer.name()), about, &[]));
+        for (name, effects, about) in PLANS {
             let rendered = drawer.render(scene, &effects, &mut target.borrow_mut())?;
-            let bytes = memory::frame(&rendered, scene, &target.borrow());
-            let target = &target;
-            let pass = Pass::new(move || {
-                let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
-                std::hint::black_box(rendered.is_ok());
-            });
-            cells.push(Ok((run(rendered.picture, Some(bytes)), Some(pass))));
+            let bytes = memory_of_frame(&rendered, scene, &target.borrow());
+            let choice = Choice::new(format!("{} {name}", drawer.name()), about, &[]);
+            let pass = frame_pass((scene, drawer), effects, &target);
+            rows.push((choice, Ok((run(rendered.picture, Some(bytes)), Some(pass)))));
         }
     }
     let samples = match antialias {
@@ -518,22 +518,53 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Board,
         match frames::render(scene, width, height, samples) {
             Ok(picture) => {
                 let about = "coverage exact, values in f32; the time of all its threads together";
-                choices.push(Choice::new("tiles", about, &[]));
                 let pass = Pass::new(move || {
                     std::hint::black_box(frames::render(scene, width, height, samples).is_ok());
                 });
-                cells.push(Ok((run(picture, None), Some(pass.by(Clock::Threads)))));
+                let cell = (run(picture, None), Some(pass.by(Clock::Threads)));
+                rows.push((Choice::new("tiles", about, &[]), Ok(cell)));
             }
             Err(TilesError::NotDrawn(_)) => {}
             Err(TilesError::Scene(bad)) => return Err(bad),
         }
     }
     let title = "pixels that differ from the frame of scanline with everything switched on";
-    let measure = Measure::new(title, "wrong px", Some(0.0));
-    let pixels = Part::all(u64::from(width) * u64::from(height));
-    let items = Part::all(scene.triangles() as u64);
+    let measures = vec![Measure::new(title, "wrong px", Some(0.0))];
+    let (pixels, items) = (Part::all(pixels(size)), Part::all(scene.triangles() as u64));
     let sampling = Sampling { items, pixels, judged: pixels, looked_at: None, not_judged: 0 };
-    Ok(board(Ladder::Frames, measure, sampling, (choices, cells), timing))
+    Ok(boards([Group { ladder: Ladder::Frames, measures, rows }], sampling, timing))
+}
+
+/// The most memory of a frame, from the sizes of what it holds: colour and key of each sample, the picture and a copy of it where there is a second buffer, what is noted
+/// for each pixel while samples are told apart, positions in clip space, and pieces where all of them are listed.
+fn memory_of_frame(rendered: &Rendered, scene: &Scene, target: &Target) -> u64 {
+    let plan = &rendered.plan;
+    let of_colour = size_of::<Colour>();
+    let (size, antialias) = (target.size(), target.antialias());
+    let samples = match plan.frame.samples {
+        Samples::Middle => 1,
+        Samples::Each | Samples::OnDemand { .. } => antialias.samples(),
+    };
+    let pictures = if plan.frame.second_buffer { 2 } else { 1 };
+    let shading = match antialias {
+        Antialias::Multisample4 => size_of::<(u64, Colour)>() + size_of::<u8>(),
+        Antialias::None | Antialias::Supersample(_) => 0,
+    };
+    let on_demand = match plan.frame.samples {
+        Samples::OnDemand { .. } => of_colour + size_of::<[u64; 2]>(),
+        Samples::Each | Samples::Middle => 0,
+    };
+    let of_pixel = samples as usize * (of_colour + size_of::<u64>())
+        + pictures * of_colour
+        + shading
+        + on_demand;
+    let positions: usize = scene.items.iter().map(|item| item.mesh.positions.len()).sum();
+    let is_listed = plan.items.iter().any(|item| matches!(item.pieces, Pieces::Listed(_)));
+    let listed = if is_listed { scene.triangles() } else { 0 };
+    let of_piece =
+        size_of::<(usize, ScreenTriangle<Attributes<PLACED>>)>() + size_of::<PiecePlan>();
+    let scene = positions * size_of::<ClipPoint>() + listed * of_piece;
+    of_pixel as u64 * pixels(size) + scene as u64
 }
 
 #[cfg(test)]
@@ -600,11 +631,12 @@ mod tests {
                 ..Sample::of_sizes(&[7], 9).sampling()
             };
             let run = Run { errors: vec![Some(0.0)], ..Run::default() };
-            let of = (vec![Choice::default()], vec![Ok((run, None))]);
-            let measure = Measure::new("", "", Some(0.0));
-            board(Ladder::Depth, measure, sampling, of, Timing::ONCE).meets(0, 0, 0)
+            let rows = vec![(Choice::default(), Ok((run, None)))];
+            let measures = vec![Measure::new("", "", Some(0.0))];
+            let group = Group { ladder: Ladder::Depth, measures, rows };
+            boards([group], sampling, Timing::ONCE)[0].meets(0, 0, 0)
         };
-        assert_eq!([is_exact(7), is_exact(0)], [Some(true), Some(false)]);
+        assert_eq!([is_exact(7), is_exact(0)], [true, false]);
     }
 
     #[test]

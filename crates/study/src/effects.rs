@@ -244,22 +244,39 @@ fn otherwise(effect: Effect, is_paid_for: bool) -> Effects {
     Effects::PLANNED.with(effect, if is_paid_for { Mode::Never } else { Mode::Always })
 }
 
+/// The mixtures of effects that a renderer may have without looking at a single one: name, effects, and what that is.
+pub(crate) const PLANS: [(&str, Effects, &str); 3] = [
+    ("all", Effects::ALWAYS, "every effect is computed everywhere"),
+    ("usual", Effects::USUAL, "what a usual renderer leaves out is left out"),
+    ("planned", Effects::PLANNED, "what changes no pixel, by a proof, is left out"),
+];
+
+/// Draws a frame: what is timed of it.
+pub(crate) fn frame_pass<'a>(
+    (scene, drawer): (&'a Scene, Drawer),
+    effects: Effects,
+    target: &'a RefCell<&mut Target>,
+) -> Pass<'a> {
+    Pass::new(move || {
+        let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
+        std::hint::black_box(rendered.is_ok());
+    })
+}
+
+/// Times of passes, each of which is compared with the first.
+fn over_first(mut passes: Vec<Pass<'_>>, timing: Timing) -> Vec<Times> {
+    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
+    compare(&mut passes, timing, &|_| pairs.clone(), &|_| ())
+}
+
 /// Times the planned frame, and those in which one effect is switched over that makes a difference in work.
 fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Times {
     let mut working: Vec<&mut Need> = needs.iter_mut().filter(|need| need.work > 0).collect();
     let others = working.iter().map(|need| otherwise(need.effect, need.is_paid_for));
     let target = RefCell::new(target);
-    let pass = |effects: Effects| {
-        let target = &target;
-        Pass::new(move || {
-            let drawn = Drawer::Scanline.render(scene, &effects, &mut target.borrow_mut());
-            std::hint::black_box(drawn.is_ok());
-        })
-    };
-    let mut passes: Vec<Pass<'_>> =
-        std::iter::once(Effects::PLANNED).chain(others).map(pass).collect();
-    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
-    let mut times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| ()).into_iter();
+    let pass = |effects| frame_pass((scene, Drawer::Scanline), effects, &target);
+    let passes = std::iter::once(Effects::PLANNED).chain(others).map(pass).collect();
+    let mut times = over_first(passes, timing).into_iter();
     let planned = times.next().expect("the planned frame is timed");
     for (need, times) in working.iter_mut().zip(times) {
         need.otherwise = Some(times);
@@ -325,15 +342,9 @@ fn antialias(
         pictures.push((name, picture));
         targets.push(target);
     }
-    let mut passes = Vec::new();
-    for target in &mut targets {
-        passes.push(Pass::new(move || {
-            let drawn = Drawer::Scanline.render(scene, &Effects::PLANNED, target);
-            std::hint::black_box(drawn.is_ok());
-        }));
-    }
-    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
-    let times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| ());
+    let targets: Vec<_> = targets.iter_mut().map(RefCell::new).collect();
+    let pass = |target| frame_pass((scene, Drawer::Scanline), Effects::PLANNED, target);
+    let times = over_first(targets.iter().map(pass).collect(), timing);
     let ratios =
         ALL.iter().zip(&times).filter_map(|((name, _), time)| Some((*name, time.over(&times[0])?)));
     found.antialiasing.extend(ratios);

@@ -8,7 +8,6 @@ pub mod effects;
 pub mod facing;
 pub mod grid;
 pub mod hard;
-pub mod memory;
 pub mod report;
 pub mod savings;
 mod shape;

@@ -12,7 +12,7 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::Scene;
 
-use crate::effects::differing;
+use crate::effects::{PLANS, differing, frame_pass};
 
 /// A frame by a mixture of effects, whose times are of the same rounds as those of the others.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -29,16 +29,15 @@ pub struct Measured {
 }
 
 impl Measured {
-    fn new(effects: &str, times: &Times, same: bool) -> Self {
+    fn new((mixture, times): (&Mixture, &Times)) -> Self {
         let Spread { low, median, high } = times.spread().times(1e-3);
-        let (effects, times) = (effects.to_owned(), times.clone());
         Self {
-            effects,
+            effects: mixture.name.clone(),
             rounds: times.rounds(),
             time_us: median,
             quartiles_us: [low, high],
-            same,
-            times,
+            same: mixture.same,
+            times: times.clone(),
         }
     }
 
@@ -59,10 +58,6 @@ pub struct Saves {
 }
 
 impl Saves {
-    fn new(work: u64, times: Option<Ratio>) -> Self {
-        Self { work, times: times.filter(|_| work > 0) }
-    }
-
     /// A share of the time, or that there is nothing to save.
     #[must_use]
     pub fn words(&self) -> String {
@@ -109,15 +104,11 @@ impl Savings {
     }
 }
 
-const WHOLE: [(&str, Effects); 3] =
-    [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
-
-/// A frame that was drawn once: what it did, and whether it has the bits of the one that pays for everything.
-struct TriedMixture {
+/// A mixture of effects that may be timed.
+struct Mixture {
     name: String,
     effects: Effects,
-    /// Of the effect that is switched over in it.
-    work: u64,
+    /// Whether its picture has the bits of the one that pays for everything.
     same: bool,
 }
 
@@ -138,100 +129,81 @@ pub fn measure(
         drawn();
         Ok::<_, BadScene>(rendered)
     };
-    // Only those are kept that are shown.
-    let [everything, usual, planned] =
-        [draw(&Effects::ALWAYS)?, draw(&Effects::USUAL)?, draw(&Effects::PLANNED)?];
-    let mut timing = Timing { rounds: rounds.map(|rounds| rounds as usize), ..PLAN };
-    let mut mixtures = Vec::new();
-    let effects =
-        if is_whole || (rounds.is_none() && is_slow(&mut draw)?) { &[][..] } else { &Effect::ALL };
+    let (mut frames, mut timed) = (Vec::new(), Vec::new());
+    for (name, effects, _) in PLANS {
+        let rendered = draw(&effects)?;
+        let first = frames.first().unwrap_or(&rendered);
+        let same = rendered.picture == first.picture;
+        timed.push(Mixture { name: name.to_owned(), effects, same });
+        frames.push(rendered);
+    }
+    // The slower one of each pair is named first.
+    let mut pairs: Vec<Pair> = vec![[EVERYTHING, PLANNED], [USUAL, PLANNED]];
+    let mut changed = Vec::new();
+    let is_slow = rounds.is_none() && is_slow(&mut draw)?;
+    let effects = if is_whole || is_slow { &[][..] } else { &Effect::ALL };
+    // Of each effect how much work it saves alone and as the last one, with the pair of frames that shows what time.
+    let mut found: Vec<[(u64, Option<Pair>); 2]> = Vec::new();
     for &effect in effects {
-        let name = effect.name();
-        for (base, name, effects) in [
-            (
-                &everything,
-                format!("all, {name} planned"),
-                Effects::ALWAYS.with(effect, Mode::Planned),
-            ),
-            (&planned, format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
-        ] {
+        let mut compared = |name: String, base: usize, effects: Effects| {
             let rendered = draw(&effects)?;
-            let work = effect.calls(&rendered.counters).abs_diff(effect.calls(&base.counters));
-            let same = rendered.picture == everything.picture;
-            mixtures.push(TriedMixture { name, effects, work, same });
-        }
+            let calls = |rendered: &Rendered| effect.calls(&rendered.counters);
+            let work = calls(&rendered).abs_diff(calls(&frames[base]));
+            let same = rendered.picture == frames[EVERYTHING].picture;
+            if work == 0 {
+                changed.extend((!same).then_some(name));
+                return Ok((0, None));
+            }
+            let other = timed.len();
+            timed.push(Mixture { name, effects, same });
+            let pair = if base == EVERYTHING { [base, other] } else { [other, base] };
+            pairs.push(pair);
+            Ok((work, Some(pair)))
+        };
+        let name = effect.name();
+        let alone = Effects::ALWAYS.with(effect, Mode::Planned);
+        let last = Effects::PLANNED.with(effect, Mode::Always);
+        found.push([
+            compared(format!("all, {name} planned"), EVERYTHING, alone)?,
+            compared(format!("planned,+{name}"), PLANNED, last)?,
+        ]);
     }
-    // The whole frames, and those whose work differs from that of the frame that they are compared with.
-    let mut timed = WHOLE.map(|(_, effects)| effects).to_vec();
-    let mut pairs: Vec<Pair> = vec![[0, 2], [1, 2]];
-    let places: Vec<Option<usize>> = (0..mixtures.len())
-        .map(|number| {
-            let TriedMixture { effects, work, .. } = &mixtures[number];
-            (*work > 0).then(|| {
-                timed.push(*effects);
-                // Everything is compared with the even ones, and the odd ones with the plan.
-                let last = timed.len() - 1;
-                pairs.push(if number.is_multiple_of(2) { [0, last] } else { [last, 2] });
-                last
-            })
-        })
-        .collect();
-    let shared = RefCell::new(target);
-    let pass = |effects: Effects| {
-        let shared = &shared;
-        Pass::new(move || {
-            let rendered = drawer.render(scene, &effects, &mut shared.borrow_mut());
-            std::hint::black_box(rendered.is_ok());
-        })
+    let share = if is_whole { 0.5 } else { 1.0 };
+    let rounds = rounds.map(|rounds| rounds as usize);
+    let timing = Timing { rounds, ..PLAN }.within(share);
+    let times = {
+        let target = RefCell::new(&mut *target);
+        let pass = |mixture: &Mixture| frame_pass((scene, drawer), mixture.effects, &target);
+        let mut passes: Vec<Pass<'_>> = timed.iter().map(pass).collect();
+        compare(&mut passes, timing, &|_| pairs.clone(), &|_| drawn())
     };
-    let mut passes: Vec<Pass<'_>> = timed.into_iter().map(pass).collect();
-    if is_whole {
-        timing = timing.within(0.5);
-    }
-    let times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| drawn());
-    drop(passes);
-    let target = shared.into_inner();
-    let whole = [&everything, &usual, &planned];
-    let whole = [0, 1, 2]
-        .map(|i| Measured::new(WHOLE[i].0, &times[i], whole[i].picture == everything.picture));
-    let mut savings = Savings {
-        times: [0, 1].map(|i| whole[i].over(&whole[2])),
-        noise: times[0].noise(),
-        effects: Vec::new(),
-        mixtures: Vec::new(),
-        changed: Vec::new(),
-        everything: whole[0].clone(),
-        usual: whole[1].clone(),
-        planned: whole[2].clone(),
-    };
-    let [all, _, plan] = &whole;
-    let saves: Vec<Saves> = mixtures
-        .iter()
-        .zip(&places)
-        .enumerate()
-        .map(|(number, (TriedMixture { name, work, same, .. }, place))| {
-            let Some(place) = place else {
-                savings.changed.extend((!same).then(|| name.clone()));
-                return Saves::new(0, None);
-            };
-            let mixture = Measured::new(name, &times[*place], *same);
-            let ratio =
-                if number.is_multiple_of(2) { all.over(&mixture) } else { mixture.over(plan) };
-            savings.mixtures.push(mixture);
-            Saves::new(*work, Some(ratio))
-        })
-        .collect();
-    for (&effect, pair) in effects.iter().zip(saves.chunks_exact(2)) {
+    let all: Vec<Measured> = timed.iter().zip(&times).map(Measured::new).collect();
+    let over = |[a, b]: Pair| all[a].over(&all[b]);
+    let mut savings = Vec::new();
+    for (&effect, of_both) in effects.iter().zip(found) {
         let without = drawer.render_without(scene, effect, target)?;
-        savings.effects.push(Saving {
-            effect,
-            alone: pair[0],
-            last: pair[1],
-            wrong_without: differing(&without.picture, &everything.picture, 0).count() as u64,
-        });
+        let changed = differing(&without.picture, &frames[EVERYTHING].picture, 0).count() as u64;
+        let [alone, last] = of_both.map(|(work, pair)| Saves { work, times: pair.map(over) });
+        savings.push(Saving { effect, alone, last, wrong_without: changed });
     }
-    Ok((savings, [everything, planned]))
+    let savings = Savings {
+        times: [over(pairs[0]), over(pairs[1])],
+        noise: times[EVERYTHING].noise(),
+        effects: savings,
+        everything: all[EVERYTHING].clone(),
+        usual: all[USUAL].clone(),
+        planned: all[PLANNED].clone(),
+        mixtures: all[PLANS.len()..].to_vec(),
+        changed,
+    };
+    let planned = frames.swap_remove(PLANNED);
+    Ok((savings, [frames.swap_remove(EVERYTHING), planned]))
 }
+
+/// Places in [`PLANS`].
+const EVERYTHING: usize = 0;
+const USUAL: usize = 1;
+const PLANNED: usize = 2;
 
 /// How long frames are compared where no number of rounds is given.
 const PLAN: Timing =
@@ -264,13 +236,12 @@ pub fn survey_us(scene: &Scene, target: &Target) -> Result<Option<f64>, BadScene
 mod tests {
     use super::*;
 
-    /// Made-up times in which a frame takes half as long without an effect: it saves that where it does work, and nothing where it
-    /// does none.
+    /// Made-up times in which a frame takes half as long without an effect.
     #[test]
     fn what_does_no_work_saves_nothing() {
         let times = Times::of(vec![vec![2.0; 8], vec![1.0; 8]], None);
-        let ratio = times[0].over(&times[1]);
-        assert_eq!(Saves::new(7, ratio).words(), "50% (46 to 53)");
-        assert_eq!(Saves::new(0, ratio).words(), "no work");
+        let saves = Saves { work: 7, times: times[0].over(&times[1]) };
+        assert_eq!(saves.words(), "50% (46 to 53)");
+        assert_eq!(Saves { work: 0, times: None }.words(), "no work");
     }
 }

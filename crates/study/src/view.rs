@@ -272,6 +272,12 @@ impl Sampled {
         if self.is_antialiased() { "samples" } else { "px" }
     }
 
+    /// The same as a word: `pixels` or `samples`.
+    #[must_use]
+    pub fn counted(&self) -> &'static str {
+        if self.is_antialiased() { "samples" } else { "pixels" }
+    }
+
     #[must_use]
     pub fn pixel(&self, sample: [i32; 2]) -> [i32; 2] {
         let scale = (self.window.width() / self.size.width().max(1)).max(1) as i32;

@@ -5,10 +5,9 @@
 
 use std::ops::Range;
 
-use super::drawn::Canvas;
-use super::entry::{Columns, Entry};
-use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Choice, Column, CostOptions, Pass, Run};
+use super::entry::{Canvas, Entry, PreparedColumns, classes};
+use super::scene::Scene;
+use super::{Choice, CostOptions, Run};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -32,49 +31,42 @@ impl Input {
     }
 }
 
-fn entry(
+fn entry<A: Antialias + 'static>(
     name: &'static str,
     about: &'static str,
-    promises: &[usize],
-    make: fn() -> Box<dyn Antialias>,
-) -> Entry<'static, Input> {
+    samples: usize,
+    make: impl Fn() -> A + Copy + 'static,
+) -> Entry<Input> {
+    // Exact areas have none. A sample is a byte beside the share of each pixel.
+    let promises: &[usize] = if samples == 0 { &[0] } else { &[] };
     Entry::new(
-        Choice::new(name, about, promises),
-        move |Input { triangles, truth, canvas }: &Input| {
-            let mut target = Frame::new(canvas.bounds, 0.0);
+        Choice::new(name, about, promises).holding(size_of::<f64>() + samples, 0),
+        move |Input { triangles, truth, .. }| {
+            let mut target = Frame::new(truth.shares.bounds(), 0.0);
             make().draw(triangles, &mut target);
             Ok(Run::of(vec![Some(root_mean_square(&target, truth))]))
         },
-        move |Input { triangles, canvas, .. }: &Input| {
-            let (mut choice, frames) = (make(), canvas.frames());
-            Ok(Pass::new(move || {
-                choice.draw(std::hint::black_box(triangles), &mut frames.borrow_mut());
-            }))
+        move |Input { triangles, canvas, .. }| {
+            let mut choice = make();
+            Ok(canvas.pass(move |target| choice.draw(std::hint::black_box(triangles), target)))
         },
     )
 }
 
 #[must_use]
-pub fn choices() -> Vec<Entry<'static, Input>> {
+pub fn choices() -> Vec<Entry<Input>> {
+    let multiple = |side: i32| move || Supersample::new(Scanline, side);
     vec![
-        entry("1x", "the centre", &[], || Box::new(Multisample::new(Scanline, ONE))),
-        entry("4x multisample", "the standard pattern of four", &[], || {
-            Box::new(Multisample::new(Scanline, FOUR))
-        }),
-        entry("2x2 supersample", "a window twice as large", &[], || {
-            Box::new(Supersample::new(Scanline, 2))
-        }),
-        entry("4x4 supersample", "a window four times as large", &[], || {
-            Box::new(Supersample::new(Scanline, 4))
-        }),
-        entry("8x8 supersample", "a window eight times as large", &[], || {
-            Box::new(Supersample::new(Scanline, 8))
-        }),
-        entry("exact area", "whole numbers, rounded once: the reference", &[0], || {
-            Box::new(ExactArea)
-        }),
+        entry("1x", "the centre", 1, || Multisample::new(Scanline, ONE)),
+        entry("4x multisample", FOUR_SAMPLES, 4, || Multisample::new(Scanline, FOUR)),
+        entry("2x2 supersample", "a window twice as large", 4, multiple(2)),
+        entry("4x4 supersample", "a window four times as large", 16, multiple(4)),
+        entry("8x8 supersample", "a window eight times as large", 64, multiple(8)),
+        entry("exact area", "whole numbers, rounded once: the reference", 0, || ExactArea),
     ]
 }
+
+const FOUR_SAMPLES: &str = "the standard pattern of four";
 
 /// The exact shares, and the pixels on an edge.
 struct Truth {
@@ -108,16 +100,11 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
-    let pixels = if options.quick { 8_000 } else { 30_000 };
-    let column = |scene: Scene| {
-        let input = Input::new(&scene);
-        let column =
-            |pixels| Column::new(scene.name, scene.about, input.triangles.len() as u64, pixels);
-        match scene.name.starts_with(W_PREFIX) {
-            true => (column(0), Err("coverage does not depend on w".to_owned())),
-            false => (column(input.truth.pixels), Ok(input)),
-        }
-    };
-    scenes(options.seed, Size { side_px: 256, pixels }).into_iter().map(column).collect()
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
+    classes(options, (256, [8_000, 30_000]), |scene| {
+        scene.is_of_coverage()?;
+        let input = Input::new(scene);
+        let counts = [input.triangles.len(), input.truth.pixels as usize];
+        Ok((input, counts))
+    })
 }

@@ -5,14 +5,13 @@
 //! - The clock is the processor time of the thread, so a round in which another program ran is not longer.
 //! - A pass of a few milliseconds runs once untimed before it is timed, so that it finds the caches and the heap as it left them
 //!   itself, and not as the pass before it did.
-//! - What a pass writes to lies at another place in memory in each round, so that its ratio does not depend on where it happens to lie
-//!   in this process ([`Places`]).
+//! - Passes of a column write to one frame, which begins at a line of the cache wherever the heap puts it, so that ratios do not
+//!   depend on where it happens to lie in this process.
 //! - One pass runs twice in each round, as if it were two (A/A). What the ratio of the two is off 1 is the noise.
 //! - The ratio of two passes is the median of the ratios in the single rounds, with an interval: the true median lies between two
 //!   of the sorted ratios, by the binomial distribution, whatever the times are like.
 //! - There are more rounds while an interval is wide, until the time is over.
 
-use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -82,72 +81,13 @@ impl<'a> Pass<'a> {
     }
 }
 
-thread_local! {
-    /// The number of the round that runs.
-    static ROUND: Cell<usize> = const { Cell::new(0) };
-}
-
-/// Memory to which passes write, several times over, one after the other: on one of four of them a write of 64 bytes falls into
-/// one line of the cache, and on the others into two, which takes up to twice as long. In each round the next one is written to.
-pub struct Places<T>(Vec<RefCell<T>>);
-
-impl<T> Places<T> {
-    pub fn new(make: impl Fn() -> T) -> Self {
-        // Blocks of the heap whose sizes are multiples of 64 bytes lie 16 bytes further in a line each.
-        keep_heap();
-        Self((0..4).map(|_| RefCell::new(make())).collect())
-    }
-
-    fn now(&self) -> &RefCell<T> {
-        &self.0[ROUND.get() % self.0.len()]
-    }
-
-    pub fn borrow(&self) -> Ref<'_, T> {
-        self.now().borrow()
-    }
-
-    pub fn borrow_mut(&self) -> RefMut<'_, T> {
-        self.now().borrow_mut()
-    }
-}
-
 /// Quartiles of one quantity over the rounds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "ThreeNumbers")]
 pub struct Spread {
     /// A quarter of the rounds were at most this.
     pub low: f64,
     pub median: f64,
     pub high: f64,
-}
-
-/// Three numbers from a file, which may be anything.
-#[derive(Deserialize)]
-struct ThreeNumbers {
-    low: f64,
-    median: f64,
-    high: f64,
-    #[serde(default)]
-    rounds: usize,
-}
-
-impl ThreeNumbers {
-    fn checked(self, what: &str) -> Result<Self, String> {
-        let Self { low, median, high, .. } = self;
-        match 0.0 <= low && low <= median && 0.0 < median && median <= high {
-            true => Ok(self),
-            false => Err(format!("{low}, {median}, {high} are not the {what}")),
-        }
-    }
-}
-
-impl TryFrom<ThreeNumbers> for Spread {
-    type Error = String;
-
-    fn try_from(sorted: ThreeNumbers) -> Result<Self, String> {
-        let ThreeNumbers { low, median, high, .. } = sorted.checked("quartiles of times")?;
-        Ok(Self { low, median, high })
-    }
 }
 
 impl Spread {
@@ -178,22 +118,13 @@ const WIDE: f64 = 1.15;
 /// How many times as long one pass takes as another one: the median of the ratios in the rounds in which both ran, and an interval
 /// around it, which the noise of the comparison widens, and `BETWEEN`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "ThreeNumbers")]
 pub struct Ratio {
     pub low: f64,
     pub median: f64,
     pub high: f64,
     /// None of a pass with itself.
+    #[serde(default)]
     pub rounds: usize,
-}
-
-impl TryFrom<ThreeNumbers> for Ratio {
-    type Error = String;
-
-    fn try_from(sorted: ThreeNumbers) -> Result<Self, String> {
-        let ThreeNumbers { low, median, high, rounds } = sorted.checked("interval of a ratio")?;
-        Ok(Self { low, median, high, rounds })
-    }
 }
 
 /// What may be said of a ratio.
@@ -512,7 +443,6 @@ fn in_rounds(
     let mut order = Order::new((0..=twin).collect());
     let mut rounds = 0;
     while !first.is_empty() {
-        ROUND.set(rounds);
         for slot in order.draw() {
             times[slot].push(run(if slot == twin { of_twin } else { slot }));
         }

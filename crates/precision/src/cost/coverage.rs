@@ -4,13 +4,13 @@
 //! and the triangle with its corners snapped to 1/256 px. Choices on the lattice are exact against the
 //! latter; what they show against the former is the price of snapping, an error of the input.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
 
-use super::drawn::Canvas;
-use super::entry::{Columns, Entry};
+use super::entry::{Canvas, Entry, PreparedColumns, classes};
+use super::scene::Scene;
 use super::tiles::Lists;
-use super::{Choice, Clock, Column, CostOptions, Details, Ladder, Name, Pass, Places, Run};
-use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
+use super::{Choice, Clock, CostOptions, Details, Ladder, Name, Pass, Run};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
 use crate::ladder::{Cover, Snapped, Unsnapped, Work, snap};
@@ -21,7 +21,7 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
-use rasterproof_core::triangle::{FreeCorners, Span};
+use rasterproof_core::triangle::{Corners, FreeCorners, Span};
 use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::{Published, bare};
 use rasterproof_verify::oracle::Oracle;
@@ -67,25 +67,20 @@ pub trait ExternalChoice {
 
 /// Triangles that choices are given.
 pub struct Input {
-    pub scene: Scene,
-    truth: Truth,
-    triangles: Places<Vec<FreeCorners>>,
+    scene: Scene,
+    /// Takes long, and is made when the first choice is judged.
+    truth: OnceCell<Truth>,
     canvas: Canvas<u32>,
 }
 
 impl Input {
-    /// The triangles of a scene with the pixels that are right for them, which judging needs.
     #[must_use]
-    pub fn judged(scene: Scene) -> Self {
-        Self { truth: Truth::of(&scene), ..Self::timed(scene) }
+    pub fn new(scene: Scene) -> Self {
+        Self { truth: OnceCell::new(), canvas: Canvas::new(scene.bounds), scene }
     }
 
-    /// The triangles of a scene without these pixels, which take long, for those who only time.
-    #[must_use]
-    pub fn timed(scene: Scene) -> Self {
-        let (triangles, canvas) =
-            (Places::new(|| scene.triangles.clone()), Canvas::new(scene.bounds));
-        Self { scene, truth: Truth::default(), triangles, canvas }
+    fn truth(&self) -> &Truth {
+        self.truth.get_or_init(|| Truth::of(&self.scene))
     }
 }
 
@@ -98,38 +93,37 @@ fn entry(
     about: impl Into<Name>,
     promises: &[usize],
     body: impl Cover + Copy + 'static,
-) -> Entry<'static, Input> {
+) -> Entry<Input> {
     let own_truth = usize::from(promises.contains(&SNAPPED));
     Entry::new(
         Choice::new(name, about, promises),
-        move |input: &Input| {
+        move |input| {
             judge(input, own_truth, &|corners, bounds, spans| {
                 body.accepts(corners, bounds)?;
                 Ok(body.cover(corners, bounds, |span| spans.push(span)))
             })
         },
-        move |input: &Input| {
-            let (bounds, frames) = (input.canvas.bounds, input.canvas.frames());
-            Ok(Pass::new(move || {
-                let triangles = input.triangles.borrow();
-                body.paint(std::hint::black_box(&triangles), bounds, &mut frames.borrow_mut());
+        move |Input { scene, canvas, .. }| {
+            Ok(canvas.pass(move |target| {
+                body.paint(std::hint::black_box(&scene.triangles), scene.bounds, target);
             }))
         },
     )
 }
 
 /// An external choice beside the others.
-pub(super) fn external(other: Box<dyn ExternalChoice>) -> Entry<'static, Input> {
+pub(super) fn external(other: Box<dyn ExternalChoice>) -> Entry<Input> {
     let choice = other.choice();
-    let other = std::rc::Rc::new(RefCell::new(other));
-    let timed = std::rc::Rc::clone(&other);
+    let other = Rc::new(RefCell::new(other));
+    let timed = Rc::clone(&other);
     Entry::new(
         choice,
-        move |Input { scene, truth, .. }: &Input| {
+        move |input: &Input| {
+            let scene = &input.scene;
             let spans = other.borrow_mut().spans(&scene.triangles, scene.bounds)?;
-            Ok(score(&spans, scene, truth, GIVEN))
+            Ok(score(&spans, input, GIVEN))
         },
-        move |Input { scene, .. }: &Input| {
+        move |Input { scene, .. }| {
             // A device works while the processor waits.
             let pass = timed.borrow_mut().pass(&scene.triangles, scene.bounds)?;
             Ok(Pass::new(pass).by(Clock::Wall))
@@ -139,94 +133,87 @@ pub(super) fn external(other: Box<dyn ExternalChoice>) -> Entry<'static, Input> 
 
 /// The choices of one of the two groups.
 #[must_use]
-pub fn choices(ladder: Ladder) -> Vec<Entry<'static, Input>> {
+pub fn choices(ladder: Ladder) -> Vec<Entry<Input>> {
     match ladder {
-        Ladder::Scanline => scanlines(),
-        Ladder::EdgeFunction => edge_functions(),
+        Ladder::Scanline => vec![
+            entry("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
+            entry("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
+            entry("f32 direct", CROSSING, &[], scanline::Direct::<f32>::default()),
+            entry("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
+            entry("f64 direct", CROSSING, &[], scanline::Direct::<f64>::default()),
+            entry("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
+            entry("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
+            entry("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
+        ],
+        Ladder::EdgeFunction => vec![
+            entry("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
+            entry("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
+            entry("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
+            entry("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
+            entry("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
+            entry("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
+            entry("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
+            entry("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
+            entry("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
+            entry("engine", BY_WIDTH, &[SNAPPED], Snapped(EdgeFunction)),
+            tiles(),
+            entry("adaptive", BY_FILTER, &[GIVEN], Unsnapped(EdgeFunctionExact)),
+            entry("robust", "orient2d at every sample", &[GIVEN], Robust),
+        ],
         _ => Vec::new(),
     }
 }
 
-fn scanlines() -> Vec<Entry<'static, Input>> {
-    vec![
-        entry("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
-        entry("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
-        entry("f32 direct", "x = ax + (yc - ay) dx / dy", &[], scanline::Direct::<f32>::default()),
-        entry("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
-        entry("f64 direct", "x = ax + (yc - ay) dx / dy", &[], scanline::Direct::<f64>::default()),
-        entry("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
-        entry("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
-        entry("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
-    ]
+/// The choice that holds all snapped corners at once.
+fn tiles() -> Entry<Input> {
+    let lists = Lists::default();
+    let mut entry = entry("tiles i32 x 16", lists.about(), &[SNAPPED], lists);
+    entry.choice.bytes[1] = size_of::<Corners>() as u64;
+    entry
 }
 
-fn edge_functions() -> Vec<Entry<'static, Input>> {
-    vec![
-        entry("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
-        entry("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
-        entry("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
-        entry("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
-        entry("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
-        entry("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
-        entry("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
-        entry("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
-        entry("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
-        entry(
-            "engine",
-            "snaps; the engine edge-function, width by triangle",
-            &[SNAPPED],
-            Snapped(EdgeFunction),
-        ),
-        entry("tiles i32 x 16", Lists::default().about(), &[SNAPPED], Lists::default()),
-        entry("adaptive", "the engine edge-function-exact", &[GIVEN], Unsnapped(EdgeFunctionExact)),
-        entry("robust", "orient2d at every sample", &[GIVEN], Robust),
-    ]
-}
+const CROSSING: &str = "x = ax + (yc - ay) dx / dy";
+const BY_WIDTH: &str = "snaps; the engine edge-function, width by triangle";
+const BY_FILTER: &str = "the engine edge-function-exact";
 
-/// The pixels of one scene by both truths.
-#[derive(Default)]
+/// The spans of each triangle of a scene by both truths, as given and as snapped, and their pixels.
 struct Truth {
-    /// Spans of each triangle as given, then as snapped.
-    spans: [Vec<Vec<Span>>; 2],
+    spans: Vec<[Vec<Span>; 2]>,
     pixels: [u64; 2],
 }
 
 impl Truth {
     fn of(scene: &Scene) -> Self {
-        let collect = |draw: &dyn Fn(&FreeCorners, &mut Vec<Span>)| -> Vec<Vec<Span>> {
-            let each = |corners| {
-                let mut spans = Vec::new();
-                draw(corners, &mut spans);
-                spans
-            };
-            scene.triangles.iter().map(each).collect()
-        };
-        let spans = [
-            collect(&|corners, spans| {
-                Oracle.cover_exact(corners, scene.bounds, |span| spans.push(span));
-            }),
-            collect(&|corners, spans| {
-                if let Some(corners) = snap(corners) {
-                    Oracle.cover(corners, scene.bounds, |span| spans.push(span));
-                }
-            }),
-        ];
-        let pixels =
-            |spans: &[Vec<Span>]| spans.iter().flatten().map(Span::pixels).sum::<usize>() as u64;
-        let pixels = spans.each_ref().map(|spans| pixels(spans));
-        Self { spans, pixels }
+        let mut truth = Self { spans: Vec::new(), pixels: [0; 2] };
+        for free in &scene.triangles {
+            let [mut given, mut snapped] = [Vec::new(), Vec::new()];
+            Oracle.cover_exact(free, scene.bounds, |span| given.push(span));
+            if let Some(corners) = snap(free) {
+                Oracle.cover(corners, scene.bounds, |span| snapped.push(span));
+            }
+            let spans = [given, snapped];
+            for (sum, spans) in truth.pixels.iter_mut().zip(&spans) {
+                *sum += spans.iter().map(Span::pixels).sum::<usize>() as u64;
+            }
+            truth.spans.push(spans);
+        }
+        truth
     }
 }
 
-/// Differences of hit counts, summed over the pixels of `a` and `b`.
-fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
-    let mut wrong = 0;
-    sweep(&[a, b], |hits, length| wrong += u64::from(hits[0].abs_diff(hits[1])) * length);
-    wrong
+/// Differences of hit counts, summed over the pixels of `a` and `b`, and the first pixel that has one.
+fn wrong_pixels(a: &[Span], b: &[Span]) -> (u64, Option<[i32; 2]>) {
+    let (mut wrong, mut first) = (0, None);
+    sweep(&[a, b], |hits, start, length| {
+        let difference = u64::from(hits[0].abs_diff(hits[1]));
+        wrong += difference * length;
+        first = first.or((difference > 0).then_some(start));
+    });
+    (wrong, first)
 }
 
-/// Visits maximal runs of pixels that every list hits equally often: hits by list, and the length.
-fn sweep<const N: usize>(lists: &[&[Span]; N], mut visit: impl FnMut([u32; N], u64)) {
+/// Visits maximal runs of pixels that every list hits equally often, in order: hits by list, the first pixel, and the length.
+fn sweep<const N: usize>(lists: &[&[Span]; N], mut visit: impl FnMut([u32; N], [i32; 2], u64)) {
     let mut events: Vec<(i32, i32, usize, bool)> = Vec::new();
     for (i, list) in lists.iter().enumerate() {
         for span in *list {
@@ -240,7 +227,7 @@ fn sweep<const N: usize>(lists: &[&[Span]; N], mut visit: impl FnMut([u32; N], u
     for (y_px, x_px, list, begins) in events {
         // Every span ends in its row, so nothing is open where the row changes.
         if y_px == last.0 && x_px > last.1 {
-            visit(hits, u64::from(x_px.abs_diff(last.1)));
+            visit(hits, [last.1, y_px], u64::from(x_px.abs_diff(last.1)));
         }
         // Where one span ends and the next begins, the end sorts first; both count before any visit.
         hits[list] = if begins { hits[list] + 1 } else { hits[list] - 1 };
@@ -256,10 +243,11 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
         let shown = (interior.y0..interior.y1).contains(&span.y_px) && x0_px < x1_px;
         shown.then_some(Span { y_px: span.y_px, x0_px, x1_px })
     };
-    let all = [&truth.spans[0], &truth.spans[1], spans]
-        .map_array(|lists| lists.iter().flatten().filter_map(within).collect::<Vec<_>>());
+    let by_truth = |i: usize| truth.spans.iter().flat_map(move |of| &of[i]).filter_map(within);
+    let [given, snapped] = [0, 1].map_array(|i| by_truth(i).collect::<Vec<_>>());
+    let ours: Vec<Span> = spans.iter().flatten().filter_map(within).collect();
     let (mut holes, mut twice) = (0, 0);
-    sweep(&[&all[0][..], &all[1], &all[2]], |[given, snapped, hits], length| {
+    sweep(&[&given[..], &snapped, &ours], |[given, snapped, hits], _, length| {
         if given == 1 && snapped == 1 {
             holes += if hits == 0 { length } else { 0 };
             twice += if hits > 1 { length } else { 0 };
@@ -269,75 +257,52 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
 }
 
 fn judge(input: &Input, own_truth: usize, draw: Draw<'_>) -> Result<Run, String> {
-    let Input { scene, truth, .. } = input;
     let mut work = Some(Work::default());
     let mut spans = Vec::new();
-    for corners in &scene.triangles {
+    for corners in &input.scene.triangles {
         let mut of_this = Vec::new();
-        let counted = draw(corners, scene.bounds, &mut of_this)?;
-        if let (Some(sum), Some(counted)) = (&mut work, counted) {
-            *sum += counted;
-        } else {
-            work = None;
-        }
+        let counted = draw(corners, input.scene.bounds, &mut of_this)?;
+        work = work.zip(counted).map(|(sum, counted)| sum + counted);
         spans.push(of_this);
     }
-    Ok(Run { work, ..score(&spans, scene, truth, own_truth) })
+    Ok(Run { work, ..score(&spans, input, own_truth) })
 }
 
 /// What is wrong of each triangle. A choice that snaps has first and single wrong pixels by what it was given after that.
-fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth, own_truth: usize) -> Run {
+fn score(spans: &[Vec<Span>], input: &Input, own_truth: usize) -> Run {
+    let truth = input.truth();
     let mut found = Details::default();
-    for (number, ours) in (0..).zip(spans) {
-        let truths = [0, 1].map_array(|i| &truth.spans[i][number as usize][..]);
-        let wrong = truths.map_array(|truth| wrong_pixels(ours, truth));
-        found.pixels = [0, 1].map_array(|i| found.pixels[i] + wrong[i]);
-        if wrong[own_truth] > 0 {
-            found.wrong.push(([number; 2], wrong[own_truth]));
-            let first = || first_difference(ours, truths[own_truth]);
-            found.first = found.first.or_else(|| Some((Some(number), first()?)));
+    for (number, (ours, truths)) in (0..).zip(spans.iter().zip(&truth.spans)) {
+        let wrong = truths.each_ref().map_array(|truth| wrong_pixels(ours, truth));
+        found.pixels = [0, 1].map_array(|i| found.pixels[i] + wrong[i].0);
+        let (own, first) = wrong[own_truth];
+        if own > 0 {
+            found.wrong.push(([number; 2], own));
+            found.first = found.first.or(first.map(|pixel| (Some(number), pixel)));
         }
     }
     let per_million = |i: usize| found.pixels[i] as f64 * 1e6 / truth.pixels[i].max(1) as f64;
     let mut errors = vec![Some(per_million(0)), Some(per_million(1)), None, None];
-    if let Some(interior) = scene.interior {
+    if let Some(interior) = input.scene.interior {
         let (holes, twice) = cracks(truth, spans, interior);
         (errors[HOLES], errors[TWICE]) = (Some(holes as f64), Some(twice as f64));
     }
     Run { found, ..Run::of(errors) }
 }
 
-/// The first pixel that one list of spans hits more often than the other.
-fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
-    let pixels = |spans: &[Span]| {
-        let each = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(move |x| (s.y_px, x)));
-        let mut all: Vec<(i32, i32)> = each.collect();
-        all.sort_unstable();
-        all
-    };
-    let (a, b) = (pixels(a), pixels(b));
-    let same = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
-    let first = a.get(same).into_iter().chain(b.get(same)).min()?;
-    Some([first.1, first.0])
-}
-
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
-    let pixels = if options.quick { 60_000 } else { 800_000 };
-    let column = |scene: Scene| {
-        let (name, about, items) = (scene.name, scene.about, scene.triangles.len() as u64);
-        if name.starts_with(W_PREFIX) {
-            let why = "coverage does not depend on w".to_owned();
-            return (Column::new(name, about, items, 0), Err(why));
-        }
-        let input = Input::judged(scene);
-        (Column::new(name, about, items, input.truth.pixels[GIVEN]), Ok(input))
-    };
-    scenes(options.seed, Size { side_px: 1024, pixels }).into_iter().map(column).collect()
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
+    classes(options, (1024, [60_000, 800_000]), |scene| {
+        scene.is_of_coverage()?;
+        let input = Input::new(scene.clone());
+        let counts = [scene.triangles.len(), input.truth().pixels[GIVEN] as usize];
+        Ok((input, counts))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cost::scene::{Size, scenes};
 
     fn span(y_px: i32, x0_px: i32, x1_px: i32) -> Span {
         Span { y_px, x0_px, x1_px }
@@ -346,6 +311,7 @@ mod tests {
     /// Missing, extra and twice, by hand.
     #[test]
     fn wrong_pixels_by_hand() {
+        let wrong_pixels = |a: &[Span], b: &[Span]| super::wrong_pixels(a, b).0;
         let truth = [span(0, 0, 4), span(1, 2, 6)];
         assert_eq!(wrong_pixels(&truth, &truth), 0);
         assert_eq!(wrong_pixels(&[span(0, 0, 2), span(0, 2, 4), span(1, 2, 6)], &truth), 0);
@@ -362,7 +328,8 @@ mod tests {
     #[test]
     fn cracks_by_hand() {
         let net = vec![vec![span(0, 0, 4)], vec![span(0, 4, 8)]];
-        let truth = Truth { spans: [net.clone(), net.clone()], pixels: [8, 8] };
+        let both = |spans: &Vec<Span>| [spans.clone(), spans.clone()];
+        let truth = Truth { spans: net.iter().map(both).collect(), pixels: [8, 8] };
         let all = PixelRect { x0: 0, y0: 0, x1: 8, y1: 1 };
         let cracks = |truth: &Truth, spans: &[Vec<Span>]| super::cracks(truth, spans, all);
         assert_eq!(cracks(&truth, &net), (0, 0));
@@ -374,8 +341,8 @@ mod tests {
         let planted = entry("planted", "", &[], body);
         scenes(1, Size { side_px: 128, pixels: 4000 })
             .into_iter()
-            .filter(|scene| !scene.name.starts_with(W_PREFIX))
-            .map(|scene| (scene.name, planted.judge(&Input::judged(scene)).unwrap().errors))
+            .filter(|scene| scene.is_of_coverage().is_ok())
+            .map(|scene| (scene.name, planted.judge(&Input::new(scene)).unwrap().errors))
             .collect()
     }
 
@@ -454,7 +421,7 @@ mod tests {
             let (mut ours, mut truth) = (Vec::new(), Vec::new());
             choice.cover(&corners, window, |span| ours.push(span));
             Oracle.cover_exact(&corners, window, |span| truth.push(span));
-            assert_eq!(wrong_pixels(&ours, &truth), 0, "{corners:?}");
+            assert_eq!(wrong_pixels(&ours, &truth), (0, None), "{corners:?}");
         }
         for index in 0..2000 {
             let mut rng = rasterproof_core::random::Rng::new("theory", 1, index);

@@ -3,8 +3,8 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::entry::{Columns, Entry, left_out};
-use super::{Choice, Column, CostOptions, Pass, Run};
+use super::entry::{Entry, PreparedColumns, and_no_class, tiled};
+use super::{Choice, Column, CostOptions};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -16,6 +16,7 @@ const DISTANCES: [(&str, f64); 5] =
 /// How far apart the layers are, over the distance.
 const APART: f64 = 1e-4;
 const SIDE_PX: usize = 64;
+const TILE: usize = SIDE_PX * SIDE_PX;
 
 /// Two layers over a tile of pixels, as the depths at three of its corners.
 struct Layers {
@@ -62,7 +63,6 @@ impl<T: Real> DepthPlane<T> {
 /// front one got.
 #[inline]
 fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Entry], colours: &mut [u8]) {
-    const TILE: usize = SIDE_PX * SIDE_PX;
     for (layers, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
     {
@@ -112,34 +112,20 @@ pub(super) struct Input {
     layers: Vec<Layers>,
 }
 
-impl Input {
-    fn pixels(&self) -> usize {
-        self.layers.len() * SIDE_PX * SIDE_PX
-    }
-}
-
-fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<'static, Input> {
-    let buffers = |pixels: usize| (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
-    Entry::new(
+fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<Input> {
+    tiled(
         Choice::new(name, about, &[]),
-        move |input: &Input| {
-            let (mut buffer, mut colours) = buffers(input.pixels());
-            draw::<F>(&input.layers, &mut buffer, &mut colours);
+        |input: &Input| vec![stored::<F>(FAR); input.layers.len() * TILE],
+        |input, buffer, colours| draw::<F>(&input.layers, buffer, colours),
+        |input, colours| {
             let wrong = colours.iter().filter(|&&colour| colour != 2).count();
-            let per_million = wrong as f64 * 1e6 / input.pixels() as f64;
-            Ok(Run::of(vec![Some(per_million), Some(gap::<F>(input.z)), Some(step::<F>(input.z))]))
-        },
-        move |input: &Input| {
-            let (mut buffer, mut colours) = buffers(input.pixels());
-            Ok(Pass::new(move || {
-                draw::<F>(std::hint::black_box(&input.layers), &mut buffer, &mut colours);
-                std::hint::black_box(&buffer);
-            }))
+            let per_million = wrong as f64 * 1e6 / colours.len() as f64;
+            vec![Some(per_million), Some(gap::<F>(input.z)), Some(step::<F>(input.z))]
         },
     )
 }
 
-pub(super) fn choices() -> Vec<Entry<'static, Input>> {
+pub(super) fn choices() -> Vec<Entry<Input>> {
     vec![
         entry::<Fixed24>("24-bit", "whole numbers, 0 at the near plane"),
         entry::<Forward<f32>>("f32", "-1 at the near plane"),
@@ -148,19 +134,16 @@ pub(super) fn choices() -> Vec<Entry<'static, Input>> {
     ]
 }
 
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
-    let mut columns = Vec::new();
-    for (name, z) in DISTANCES {
+    let column = move |(name, z): (&'static str, f64)| {
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
-        let input = Input { z, layers: layers(options.seed, name, z, tiles) };
-        let pixels = 2 * input.pixels() as u64;
-        columns.push((Column::new(name, about, 2 * tiles as u64, pixels), Ok(input)));
-    }
-    columns
-        .extend(left_out(options, "depth depends on the distance from the eye, not on the shape"));
-    columns
+        let layers = layers(options.seed, name, z, tiles);
+        (Column::new(name, about, 2 * tiles as u64, 2 * (tiles * TILE) as u64), Input { z, layers })
+    };
+    let why = "depth depends on the distance from the eye, not on the shape";
+    and_no_class(options, DISTANCES.into_iter().map(column), why)
 }
 
 #[cfg(test)]

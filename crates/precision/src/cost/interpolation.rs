@@ -1,14 +1,13 @@
 //! The group of interpolation: how far values are from the exact ones, and what they take.
 //!
-//! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
-//! against quotients of big integers; each choice with a derived bound is also held to that.
+//! Errors are taken against quotients of big integers; each choice with a derived bound is also held to that.
 
 use super::bounds::{Bound, Place, largest};
-use super::drawn::{Canvas, CoveredTriangle, Emit, dress, pixels};
-use super::entry::{Columns, Entry};
-use super::scene::{Scene, Size, scenes};
+use super::entry::{Entry, PreparedColumns, classes};
+use super::sampled::{self, CoveredTriangle, Emit, dress};
+use super::scene::Scene;
 use super::tiles::Planes;
-use super::{Choice, Column, CostOptions, Details, Name, Part, Pass, Run};
+use super::{Choice, CostOptions, Details, Name, Run};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -19,7 +18,7 @@ use rasterproof_core::triangle::Span;
 use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
 
 /// Half a step of 8 bits over [0, M]: nobody sees less.
-pub(super) const HALF_STEP: f64 = 1.0 / 512.0;
+pub const HALF_STEP: f64 = 1.0 / 512.0;
 
 impl Values for Planes {
     fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
@@ -61,58 +60,48 @@ fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
     ExactTriangle::new(corners, [0.0; 3], *inv_w, value.map_array(|v| [v]))
 }
 
-/// Triangles that choices are given, and the pixels at which their values are judged.
-pub struct Input {
-    drawn: Vec<CoveredTriangle<Valued>>,
-    samples: Vec<Sample>,
-    canvas: Canvas<f32>,
-}
+/// Triangles with the exact values at a sample of their pixels.
+pub type Input = sampled::Input<Valued, Exact>;
 
 /// In about how many pixels values are judged.
 pub const SAMPLES: usize = 4000;
 
-impl Input {
-    /// About so many samples of all pixels, evenly spread in drawing order; none of triangles that are timed alone.
-    #[must_use]
-    pub fn new(scene: &Scene, count: usize) -> Self {
-        let drawn = valued(scene);
-        let samples = if count == 0 { Vec::new() } else { samples(&drawn, count) };
-        Self { drawn, samples, canvas: Canvas::new(scene.bounds) }
-    }
-
-    /// The pixels in which values are judged, and all.
-    #[must_use]
-    pub fn judged(&self) -> Part {
-        Part { part: self.samples.len() as u64, of: pixels(&self.drawn) as u64 }
-    }
+/// The triangles of a scene on the lattice, with w and a value at each corner, and about so many samples.
+#[must_use]
+pub fn input(scene: &Scene, samples: usize) -> Input {
+    let drawn = dress(scene, |number, corners, inv_w| {
+        let w = scene.w[number];
+        // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
+        let made = |i: usize| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0;
+        let given = scene.values.get(number).copied();
+        let value = given.unwrap_or_else(|| [0, 1, 2].map_array(made));
+        Valued { corners, inv_w, value }
+    });
+    Input::new(drawn, scene.bounds, samples, |triangle| {
+        let exact = exact(triangle)?;
+        Some(move |x_px, y_px| {
+            let (_, [value]) = exact.at(x_px, y_px);
+            Some(value)
+        })
+    })
 }
 
-/// Two closures of each choice alone are compiled for it; all that counts is compiled once.
 fn entry<T: Real>(
     name: &'static str,
     about: impl Into<Name>,
     bound: Bound,
     body: impl Values + Copy + 'static,
-) -> Entry<'static, Input> {
+) -> Entry<Input> {
     // 13 D + M is at most 27 M, far below the goal with either float.
-    let promises: &[usize] =
-        if matches!(bound, Bound::Offset | Bound::Rounded) { &[0] } else { &[] };
-    Entry::new(
-        Choice::new(name, about, promises),
-        move |input: &Input| {
-            Ok(judge(input, (bound, T::UNIT), &|of, emit| {
-                body.values(&of.triangle, &of.spans, emit);
-            }))
-        },
-        move |Input { drawn, canvas, .. }: &Input| {
-            let frames = canvas.frames();
-            Ok(Pass::new(move || body.paint(std::hint::black_box(drawn), &mut frames.borrow_mut())))
-        },
-    )
+    let is_certain = matches!(bound, Bound::Offset | Bound::Rounded);
+    let promises: &[usize] = if is_certain { &[0] } else { &[] };
+    sampled::entry(Choice::new(name, about, promises), body, move |input, choice| {
+        judge(input, (bound, T::UNIT), choice)
+    })
 }
 
 #[must_use]
-pub fn choices() -> Vec<Entry<'static, Input>> {
+pub fn choices() -> Vec<Entry<Input>> {
     vec![
         entry::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
         entry::<f32>(
@@ -157,76 +146,6 @@ pub fn choices() -> Vec<Entry<'static, Input>> {
     ]
 }
 
-/// The triangles of a scene on the lattice, with w and a value at each corner.
-fn valued(scene: &Scene) -> Vec<CoveredTriangle<Valued>> {
-    dress(scene, |number, corners, inv_w| {
-        let w = scene.w[number];
-        // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
-        let made = |i: usize| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0;
-        let given = scene.values.get(number).copied();
-        let value = given.unwrap_or_else(|| [0, 1, 2].map_array(made));
-        Valued { corners, inv_w, value }
-    })
-}
-
-struct Sample {
-    triangle: usize,
-    number: usize,
-    exact: Exact,
-}
-
-/// Every so many-th pixel is a sample, so that there are about `count`.
-fn stride(pixels: usize, count: usize) -> usize {
-    // Odd, so that a stride does not keep step with rows of even length.
-    (pixels / count).max(1) | 1
-}
-
-/// About `count` samples of all pixels, evenly spread in drawing order.
-fn samples(drawn: &[CoveredTriangle<Valued>], count: usize) -> Vec<Sample> {
-    let stride = stride(pixels(drawn), count);
-    let mut samples = Vec::new();
-    let mut before = 0;
-    for (triangle, CoveredTriangle { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
-        let columns = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(|x_px| (x_px, s.y_px)));
-        let Some(plane) = exact(valued) else { continue };
-        let mut number = 0;
-        for (x_px, y_px) in columns {
-            if (before + number) % stride == 0 {
-                let (_, [exact]) = plane.at(x_px, y_px);
-                samples.push(Sample { triangle, number, exact });
-            }
-            number += 1;
-        }
-        before += number;
-    }
-    samples
-}
-
-/// Takes a triangle, a sample of it, the pixel and the value that a choice has there.
-type See<'a, 'b> = dyn FnMut(&'a CoveredTriangle<Valued>, &Sample, [i32; 2], f64) + 'b;
-
-/// Calls `see` for each sample.
-fn at_samples<'a>(
-    choice: Emit<'_, Valued>,
-    drawn: &'a [CoveredTriangle<Valued>],
-    samples: &[Sample],
-    see: &mut See<'a, '_>,
-) {
-    let mut samples = samples.iter().peekable();
-    for (i, of_this) in drawn.iter().enumerate() {
-        if samples.peek().is_none_or(|sample| sample.triangle != i) {
-            continue;
-        }
-        let mut number = 0;
-        choice(of_this, &mut |x_px, y_px, value| {
-            if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
-                see(of_this, sample, [x_px, y_px], value);
-            }
-            number += 1;
-        });
-    }
-}
-
 /// The span of a row; rows before it may be missing.
 fn row_of(spans: &[Span], y_px: i32) -> Span {
     let guess = (y_px - spans[0].y_px).clamp(0, spans.len() as i32 - 1) as usize;
@@ -238,65 +157,50 @@ fn row_of(spans: &[Span], y_px: i32) -> Span {
 fn judge(input: &Input, (bound, unit): (Bound, f64), choice: Emit<'_, Valued>) -> Run {
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     let mut wrong: Vec<([u32; 2], u64)> = Vec::new();
-    at_samples(
-        choice,
-        &input.drawn,
-        &input.samples,
-        &mut |of_this, sample, [x_px, y_px], value| {
-            let CoveredTriangle { triangle, spans, number } = of_this;
-            let error = sample.exact.distance(value);
-            worst = worst.max(relative(of_this, sample, value));
-            let place = Place { triangle, spans, span: row_of(spans, y_px), x_px };
-            if let Some(bound) = bound.at(&place, unit) {
-                let share = if error == 0.0 { 0.0 } else { error / bound };
-                worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
+    input.at_samples(choice, &mut |of_this, exact, [x_px, y_px], value| {
+        let CoveredTriangle { triangle, spans, number } = of_this;
+        let (error, most) = (exact.distance(value), largest(triangle.value));
+        worst = worst.max(if most > 0.0 { error / most } else { error });
+        let place = Place { triangle, spans, span: row_of(spans, y_px), x_px };
+        if let Some(bound) = bound.at(&place, unit) {
+            let share = if error == 0.0 { 0.0 } else { error / bound };
+            worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
+        }
+        if error > HALF_STEP * most {
+            let triangle = [*number as u32; 2];
+            match wrong.last_mut() {
+                Some((last, count)) if *last == triangle => *count += 1,
+                _ => wrong.push((triangle, 1)),
             }
-            if error > HALF_STEP * largest(triangle.value) {
-                let triangle = [*number as u32; 2];
-                match wrong.last_mut() {
-                    Some((last, count)) if *last == triangle => *count += 1,
-                    _ => wrong.push((triangle, 1)),
-                }
-            }
-        },
-    );
+        }
+    });
     let found = Details { wrong, ..Details::default() };
     Run { found, ..Run::of(vec![Some(worst), Some(worst / unit), worst_bound]) }
 }
 
-/// The error of a value over the largest of its triangle, where that is not 0.
-fn relative(of_this: &CoveredTriangle<Valued>, sample: &Sample, value: f64) -> f64 {
-    let (m, error) = (largest(of_this.triangle.value), sample.exact.distance(value));
-    if m > 0.0 { error / m } else { error }
-}
-
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
-    let (pixels, count) = if options.quick { (8_000, 500) } else { (60_000, SAMPLES) };
-    let column = |scene: Scene| {
-        let input = Input::new(&scene, count);
-        let (items, pixels) = (input.drawn.len() as u64, input.judged().of);
-        (Column::new(scene.name, scene.about, items, pixels), Ok(input))
-    };
-    scenes(options.seed, Size { side_px: 512, pixels }).into_iter().map(column).collect()
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
+    let count = if options.quick { 500 } else { SAMPLES };
+    classes(options, (512, [8_000, 60_000]), move |scene| Ok(input(scene, count).counted()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cost::scene::{Size, scenes};
 
     /// The worst share of its bound that a choice reaches on every class of scenes, all pixels asked.
-    fn worst(choice: &Entry<'_, Input>, seed: u64) -> f64 {
+    fn worst(choice: &Entry<Input>, seed: u64) -> f64 {
         scenes(seed, Size { side_px: 64, pixels: 1500 })
             .iter()
             .map(|scene| {
-                let input = Input::new(scene, usize::MAX);
-                assert!(input.samples.len() > 100, "{}", scene.name);
+                let input = input(scene, usize::MAX);
+                assert!(input.judged().part > 100, "{}", scene.name);
                 choice.judge(&input).unwrap().errors[2].unwrap_or(0.0)
             })
             .fold(0.0, f64::max)
     }
 
-    fn in_both<T: Real>() -> Vec<Entry<'static, Input>> {
+    fn in_both<T: Real>() -> Vec<Entry<Input>> {
         vec![
             entry::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
             entry::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
@@ -338,7 +242,7 @@ mod tests {
         }
     }
 
-    fn late(bound: Bound, choice: impl Values + Copy + 'static) -> Entry<'static, Input> {
+    fn late(bound: Bound, choice: impl Values + Copy + 'static) -> Entry<Input> {
         entry::<f32>("late", "", bound, Late(choice))
     }
 

@@ -1,18 +1,17 @@
 //! The group of levels of detail: how far the level of a pixel is from the exact one, and what it takes.
 //!
-//! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
-//! quotients of big integers, of which the logarithm alone is rounded.
+//! Errors are taken against derivatives in quotients of big integers, of which the logarithm alone is rounded.
 
-use super::drawn::{Canvas, CoveredTriangle, Emit, dress, pixels};
-use super::entry::{Columns, Entry};
-use super::scene::{Scene, Size, scenes};
-use super::{Choice, Column, CostOptions, Pass, Run};
+use super::entry::{Entry, PreparedColumns, classes};
+use super::sampled::{self, CoveredTriangle, Emit, dress};
+use super::scene::Scene;
+use super::{Choice, CostOptions, Run};
 use crate::ladder::interpolation::Values;
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 
 /// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
 pub(super) const STEP: f64 = 1.0 / 256.0;
@@ -20,8 +19,11 @@ pub(super) const STEP: f64 = 1.0 / 256.0;
 /// Pixels of a class at which errors are taken.
 const SAMPLES: usize = 400;
 
+/// Triangles with the exact levels at a sample of their pixels.
+type Input = sampled::Input<Textured, f64>;
+
 /// The triangles of a scene on the lattice that cover anything, with texture coordinates made of their positions.
-fn textured(scene: &Scene) -> Vec<CoveredTriangle<Textured>> {
+fn input(scene: &Scene) -> Input {
     let mut drawn = dress(scene, |_, corners, inv_w| {
         let made = |i: usize| {
             let SubpixelPoint { x, y } = corners[i];
@@ -30,7 +32,11 @@ fn textured(scene: &Scene) -> Vec<CoveredTriangle<Textured>> {
         Textured { corners, inv_w, uv: [0, 1, 2].map_array(made) }
     });
     drawn.retain(|of| !of.spans.is_empty());
-    drawn
+    of(drawn, scene.bounds)
+}
+
+fn of(drawn: Vec<CoveredTriangle<Textured>>, bounds: PixelRect) -> Input {
+    Input::new(drawn, bounds, SAMPLES, |&of| Some(move |x_px, y_px| exact(&of, x_px, y_px)))
 }
 
 fn exactly(value: f64) -> BigRational {
@@ -68,72 +74,27 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
     (square > 0.0).then(|| 0.5 * libm::log2(square))
 }
 
-struct Sample {
-    number: usize,
-    level: f64,
-}
-
-fn samples(drawn: &[CoveredTriangle<Textured>]) -> Vec<Sample> {
-    let pixels = drawn.iter().flat_map(|of| of.spans.iter().map(move |span| (of, span)));
-    let pixels =
-        pixels.flat_map(|(of, span)| (span.x0_px..span.x1_px).map(move |x| (of, x, span.y_px)));
-    let stride = (pixels.clone().count() / SAMPLES).max(1) | 1;
-    let sampled = pixels.enumerate().step_by(stride);
-    let samples = sampled.filter_map(|(number, (of, x_px, y_px))| {
-        Some(Sample { number, level: exact(&of.triangle, x_px, y_px)? })
-    });
-    samples.collect()
-}
-
-/// Triangles that choices are given, and the pixels at which their levels are judged.
-pub(super) struct Input {
-    drawn: Vec<CoveredTriangle<Textured>>,
-    samples: Vec<Sample>,
-    canvas: Canvas<f32>,
-}
-
-impl Input {
-    fn new(scene: &Scene) -> Self {
-        let drawn = textured(scene);
-        Self { samples: samples(&drawn), drawn, canvas: Canvas::new(scene.bounds) }
-    }
-}
-
 fn entry(
     name: &'static str,
     about: &'static str,
     body: impl Values<Textured> + Copy + 'static,
-) -> Entry<'static, Input> {
-    Entry::new(
-        Choice::new(name, about, &[]),
-        move |input: &Input| {
-            Ok(judge(input, &|of, emit| body.values(&of.triangle, &of.spans, emit)))
-        },
-        move |Input { drawn, canvas, .. }: &Input| {
-            let frames = canvas.frames();
-            Ok(Pass::new(move || body.paint(std::hint::black_box(drawn), &mut frames.borrow_mut())))
-        },
-    )
+) -> Entry<Input> {
+    sampled::entry(Choice::new(name, about, &[]), body, judge)
 }
 
-fn judge(Input { drawn, samples, .. }: &Input, emit: Emit<'_, Textured>) -> Run {
-    let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
-    let mut left = samples.iter().peekable();
-    let mut see = |_, _, level: f64| {
-        if let Some(sample) = left.next_if(|sample| sample.number == number) {
-            let error = (level - sample.level).abs();
-            // A triangle that is an edge in the texture has no area, and no level by it.
-            let error = if error.is_finite() { error } else { f64::from(u8::MAX) };
-            worst = worst.max(error);
-            sum += error;
-        }
-        number += 1;
-    };
-    drawn.iter().for_each(|of_this| emit(of_this, &mut see));
-    Run::of(vec![Some(worst), Some(sum / samples.len().max(1) as f64)])
+fn judge(input: &Input, choice: Emit<'_, Textured>) -> Run {
+    let (mut worst, mut sum) = (0f64, 0.0);
+    input.at_samples(choice, &mut |_, exact, _, level| {
+        let error = (level - exact).abs();
+        // A triangle that is an edge in the texture has no area, and no level by it.
+        let error = if error.is_finite() { error } else { f64::from(u8::MAX) };
+        worst = worst.max(error);
+        sum += error;
+    });
+    Run::of(vec![Some(worst), Some(sum / input.judged().part.max(1) as f64)])
 }
 
-pub(super) fn choices() -> Vec<Entry<'static, Input>> {
+pub(super) fn choices() -> Vec<Entry<Input>> {
     vec![
         entry("one a triangle", "by the areas in texels and in pixels", OfTriangle),
         entry(
@@ -147,20 +108,14 @@ pub(super) fn choices() -> Vec<Entry<'static, Input>> {
     ]
 }
 
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
-    let size = if options.quick { 20_000 } else { 200_000 };
-    let column = |scene: Scene| {
-        let input = Input::new(&scene);
-        let (items, pixels) = (input.drawn.len() as u64, pixels(&input.drawn) as u64);
-        (Column::new(scene.name, scene.about, items, pixels), Ok(input))
-    };
-    scenes(options.seed, Size { side_px: 512, pixels: size }).into_iter().map(column).collect()
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
+    classes(options, (512, [20_000, 200_000]), |scene| Ok(input(scene).counted()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_core::grid::PixelRect;
+    use crate::cost::scene::{Size, scenes};
     use rasterproof_core::triangle::Span;
 
     /// A square of 256 x 256 texels in 64 x 64 pixels that faces the eye: four texels a pixel.
@@ -175,9 +130,8 @@ mod tests {
         assert_eq!(exact(&triangle, 3, 7), Some(2.0));
         let spans = vec![Span { y_px: 7, x0_px: 1, x1_px: 6 }];
         let drawn = vec![CoveredTriangle { number: 0, triangle, spans }];
-        let samples = samples(&drawn);
-        assert_eq!(samples.len(), 5);
-        let input = Input { drawn, samples, canvas: Canvas::new(PixelRect::window(64, 64)) };
+        let input = of(drawn, PixelRect::window(64, 64));
+        assert_eq!(input.judged().part, 5);
         for choice in choices() {
             let worst = choice.judge(&input).unwrap().errors[0].unwrap();
             assert!(worst < 1e-5, "{}: {worst}", choice.choice.name);
@@ -196,9 +150,9 @@ mod tests {
             }
         }
         let scenes = scenes(1, Size { side_px: 256, pixels: 4_000 });
-        let worst = |name: &str, choice: Entry<'_, Input>| {
+        let worst = |name: &str, choice: Entry<Input>| {
             let scene = scenes.iter().find(|scene| scene.name == name).unwrap();
-            choice.judge(&Input::new(scene)).unwrap().errors[0].unwrap()
+            choice.judge(&input(scene)).unwrap().errors[0].unwrap()
         };
         let affine = || entry("affine", "", Affine);
         assert!(worst("w 1", affine()) < 1e-9 && worst("w 4", affine()) > 0.5);

@@ -1,9 +1,7 @@
 //! The group of lines: pixels beside the nearest one, and what drawing takes.
 
-use super::drawn::Canvas;
-use super::entry::{Columns, Entry};
-use super::scene::{Scene, Size, scenes};
-use super::{Choice, Column, CostOptions, Pass, Run};
+use super::entry::{Canvas, Entry, PreparedColumns, classes};
+use super::{Choice, CostOptions, Run};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
@@ -17,42 +15,40 @@ type Ends = [PixelPoint; 2];
 
 /// The lines of a column, the pixels that are right for each, and where choices draw them.
 pub(super) struct Input {
+    window: PixelRect,
     lines: Vec<Ends>,
     truth: Vec<Vec<PixelPoint>>,
     canvas: Canvas<u32>,
 }
 
 impl Input {
-    fn pixels(&self) -> u64 {
-        self.truth.iter().map(|list| list.len() as u64).sum()
+    fn pixels(&self) -> usize {
+        self.truth.iter().map(Vec::len).sum()
     }
 }
-
-/// Lists the pixels of a line as a choice sees it.
-type Pixels<'a> = &'a dyn Fn(Ends) -> Result<Vec<PixelPoint>, String>;
 
 fn entry(
     name: &'static str,
     about: &'static str,
     promises: &[usize],
     body: impl Draw + Copy + 'static,
-) -> Entry<'static, Input> {
+) -> Entry<Input> {
     Entry::new(
         Choice::new(name, about, promises),
         move |input: &Input| {
-            judge(input, &|ends| {
+            let mut wrong = 0;
+            for (&ends, truth) in input.lines.iter().zip(&input.truth) {
                 body.accepts(ends)?;
                 let mut pixels = Vec::new();
-                body.draw(ends, input.canvas.bounds, |pixel| pixels.push(pixel));
-                Ok(pixels)
-            })
+                body.draw(ends, input.window, |pixel| pixels.push(pixel));
+                wrong += differences(pixels, truth);
+            }
+            Ok(Run::of(vec![Some(wrong as f64 * 1e6 / input.pixels().max(1) as f64)]))
         },
-        move |Input { lines, canvas, .. }: &Input| {
-            let (window, frames) = (canvas.bounds, canvas.frames());
-            Ok(Pass::new(move || {
-                let target = &mut *frames.borrow_mut();
+        move |Input { window, lines, canvas, .. }: &Input| {
+            Ok(canvas.pass(move |target| {
                 for (ends, colour) in std::hint::black_box(lines).iter().zip(1..) {
-                    body.draw(*ends, window, |p| {
+                    body.draw(*ends, *window, |p| {
                         // Off by a row at the border, a drifting choice must not leave the frame.
                         let y_px = p.y.clamp(window.y0, window.y1 - 1);
                         let x = (p.x.clamp(window.x0, window.x1 - 1) - window.x0) as usize;
@@ -64,15 +60,7 @@ fn entry(
     )
 }
 
-fn judge(input: &Input, pixels: Pixels<'_>) -> Result<Run, String> {
-    let mut wrong = 0;
-    for (ends, truth) in input.lines.iter().zip(&input.truth) {
-        wrong += differences(pixels(*ends)?, truth);
-    }
-    Ok(Run::of(vec![Some(wrong as f64 * 1e6 / input.pixels().max(1) as f64)]))
-}
-
-pub(super) fn choices() -> Vec<Entry<'static, Input>> {
+pub(super) fn choices() -> Vec<Entry<Input>> {
     vec![
         entry("16.16 DDA", "y += dy / dx in fixed point", &[], FixedPoint),
         entry("f32 DDA", "y += dy / dx", &[], Drifting::<f32>::default()),
@@ -85,8 +73,7 @@ pub(super) fn choices() -> Vec<Entry<'static, Input>> {
 /// Lines for the classes of scenes that mean something for them, and why not for the others.
 fn lines(
     name: &str,
-    seed: u64,
-    size: &Size,
+    (seed, pixels): (u64, u64),
     bounds: PixelRect,
 ) -> Result<(Vec<Ends>, &'static str), String> {
     let (most, about) = match name {
@@ -99,7 +86,7 @@ fn lines(
         _ => return Err("a class of triangles, not of lines".to_owned()),
     };
     let mut rng = Rng::new(name, seed, 1);
-    let count = (size.pixels / (u64::from(most as u16) / 2 + 1)).max(16);
+    let count = (pixels / (u64::from(most as u16) / 2 + 1)).max(16);
     let side = i64::from(bounds.width());
     let lines = (0..count).map(|_| {
         let [du, dv] = match name {
@@ -155,18 +142,15 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
     missing(&truth, &ours).max(missing(&ours, &truth)) + ours.len().abs_diff(truth.len()) as u64
 }
 
-pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
-    let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
-    // The classes of the other groups, for their names and windows.
-    let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
-    let column = |class: Scene| match lines(class.name, options.seed, &size, class.bounds) {
-        Err(why) => (Column::new(class.name, class.about, 0, 0), Err(why)),
-        Ok((lines, about)) => {
-            let truth = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
-            let input = Input { lines, truth, canvas: Canvas::new(class.bounds) };
-            let items = input.lines.len() as u64;
-            (Column::new(class.name, about, items, input.pixels()), Ok(input))
-        }
-    };
-    classes.into_iter().map(column).collect()
+/// On the other groups' classes, for their names and windows.
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
+    let how = (options.seed, if options.quick { 20_000 } else { 300_000 });
+    classes(options, (1024, [0, 0]), move |class| {
+        let (lines, about) = lines(class.name, how, class.bounds)?;
+        class.about = about;
+        let truth = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
+        let input = Input { window: class.bounds, lines, truth, canvas: Canvas::new(class.bounds) };
+        let counts = [input.lines.len(), input.pixels()];
+        Ok((input, counts))
+    })
 }

@@ -1,92 +1,66 @@
-//! From choices and columns to boards: what each choice gets wrong of each column, then the times of all.
-
-use std::cell::Cell as Counter;
+//! From choices and columns to boards: what each choice gets wrong of a column, then the times of all in the same rounds.
 
 use super::clock::over_fastest;
-use super::entry::{Columns, Entry, PreparedCell};
+use super::entry::{Entry, PreparedColumns};
 use super::{
-    Board, Cell, Choice, Column, CostOptions, ExternalChoice, Ladder, Measure, Pass, Time, Timing,
-    antialiasing, compare, coverage, depth, interpolation, levels, lines, shadow,
+    Board, Cell, Choice, Column, CostOptions, ExternalChoice, Ladder, Measure, Pass, Run, Time,
+    Timing, antialiasing, compare, coverage, depth, interpolation, levels, lines, shadow,
 };
 
-/// A pass with the numbers of its choice and its column.
-struct PlacedPass<'a> {
-    choice: usize,
-    column: usize,
-    pass: Pass<'a>,
-}
+/// What happens to a choice on a column: what it gets wrong, and what is timed; or why it is not run.
+pub type PreparedCell<'a> = Result<(Run, Option<Pass<'a>>), String>;
 
-/// A board whose errors are known, with the passes that are still to be timed.
-pub struct Draft<'a> {
-    board: Board,
-    passes: Vec<PlacedPass<'a>>,
-}
-
-impl<'a> Draft<'a> {
+impl Board {
+    /// A board without columns.
     #[must_use]
     pub fn new(ladder: Ladder, seed: u64, measures: Vec<Measure>, choices: Vec<Choice>) -> Self {
         let cells = choices.iter().map(|_| Vec::new()).collect();
-        let board =
-            Board { ladder, seed, rounds: 0, measures, columns: Vec::new(), choices, cells };
-        Self { board, passes: Vec::new() }
+        Self { ladder, seed, rounds: 0, measures, columns: Vec::new(), choices, cells }
     }
+}
 
-    /// Adds a column, with a cell for each choice.
-    pub fn add(&mut self, column: Column, cells: impl IntoIterator<Item = PreparedCell<'a>>) {
-        let number = self.board.columns.len();
-        self.board.columns.push(column);
-        for (choice, (row, cell)) in self.board.cells.iter_mut().zip(cells).enumerate() {
-            row.push(match cell {
+/// Adds a column to boards of groups that do the same job, with a cell for each choice of each board. All choices are timed in the
+/// same rounds, each against the fastest of all, and the exact ones of each measure against each other.
+pub fn add_column(
+    boards: &mut [Board],
+    column: &Column,
+    cells: Vec<Vec<PreparedCell<'_>>>,
+    timing: Option<Timing>,
+    progress: &dyn Fn(f64),
+) {
+    let (mut places, mut passes) = (Vec::new(), Vec::new());
+    for (number, (board, cells)) in boards.iter_mut().zip(cells).enumerate() {
+        board.columns.push(column.clone());
+        for (choice, cell) in cells.into_iter().enumerate() {
+            board.cells[choice].push(match cell {
                 Err(why) => Cell::NotRun(why),
                 Ok((run, pass)) => {
-                    let placed = |pass| PlacedPass { choice, column: number, pass };
-                    self.passes.extend(pass.map(placed));
+                    places.extend(pass.is_some().then_some([number, choice]));
+                    passes.extend(pass);
                     Cell::Run(Box::new(run))
                 }
             });
         }
     }
+    if let Some(timing) = timing {
+        time_column(boards, (&places, passes), timing, progress);
+    }
 }
 
-/// Times what was prepared for boards with the same columns: all choices of a column in the same rounds, each against the fastest
-/// of all, and the exact ones of each measure against each other.
-pub fn timed(drafts: Vec<Draft<'_>>, timing: Option<Timing>, progress: &dyn Fn(f64)) -> Vec<Board> {
-    let (mut boards, mut passes) = (Vec::new(), Vec::new());
-    for (number, draft) in drafts.into_iter().enumerate() {
-        boards.push(draft.board);
-        passes.extend(draft.passes.into_iter().map(|placed| (number, placed)));
-    }
-    let Some(timing) = timing else { return boards };
-    let mut columns: Vec<usize> = passes.iter().map(|(_, placed)| placed.column).collect();
-    columns.sort_unstable();
-    columns.dedup();
-    for (done, &column) in columns.iter().enumerate() {
-        let (of_column, others): (Vec<_>, Vec<_>) =
-            passes.into_iter().partition(|(_, placed)| placed.column == column);
-        passes = others;
-        let (places, of_column): (Vec<[usize; 2]>, Vec<Pass<'_>>) = of_column
-            .into_iter()
-            .map(|(board, placed)| ([board, placed.choice], placed.pass))
-            .unzip();
-        let told = |share: f64| progress((done as f64 + share) / columns.len() as f64);
-        time_column(&mut boards, column, (&places, of_column), timing, &told);
-    }
-    boards
-}
-
+/// Times the passes of the last column, each of which has its place: the numbers of its board and of its choice.
 fn time_column(
     boards: &mut [Board],
-    column: usize,
     (places, mut passes): (&[[usize; 2]], Vec<Pass<'_>>),
     timing: Timing,
     progress: &dyn Fn(f64),
 ) {
     let mut sets = vec![(0..passes.len()).collect::<Vec<_>>()];
     for (number, board) in boards.iter().enumerate() {
+        let column = board.columns.len() - 1;
         for measure in board.ranking() {
             let is_exact = |&pass: &usize| {
                 let [of, choice] = places[pass];
-                of == number && board.meets(choice, column, measure) == Some(true)
+                of == number && board.meets(choice, column, measure)
             };
             sets.push((0..places.len()).filter(is_exact).collect());
         }
@@ -98,14 +72,14 @@ fn time_column(
     };
     for (&[number, choice], of) in places.iter().zip(&times) {
         let board = &mut boards[number];
-        board.rounds = match board.rounds {
-            0 => of.rounds(),
-            rounds => rounds.min(of.rounds()),
-        };
-        let info = &mut board.columns[column];
-        info.noise = of.noise();
-        let pixel_ns = of.spread().times(1.0 / info.pixels.max(1) as f64);
-        if let (Cell::Run(run), Some(times)) = (&mut board.cells[choice][column], of.over(fastest))
+        // The fewest rounds of all columns.
+        let before = if board.rounds == 0 { usize::MAX } else { board.rounds };
+        board.rounds = before.min(of.rounds());
+        let Some(column) = board.columns.last_mut() else { continue };
+        column.noise = of.noise();
+        let pixel_ns = of.spread().times(1.0 / column.pixels.max(1) as f64);
+        if let (Some(Cell::Run(run)), Some(times)) =
+            (board.cells[choice].last_mut(), of.over(fastest))
         {
             run.time = Some(Time { pixel_ns, times, rounds: Some(of.clone()) });
         }
@@ -126,75 +100,76 @@ pub fn measure_with(
     external: Vec<Box<dyn ExternalChoice>>,
     progress: &dyn Fn(f64, &str),
 ) -> Vec<Board> {
-    let (coverage, others): (Vec<Ladder>, Vec<Ladder>) =
-        ladders.iter().partition(|ladder| ladder.is_coverage());
-    let parts = others.len() + usize::from(!coverage.is_empty());
-    let done = Counter::new(0);
-    let told = |share: f64, what: &str| progress((done.get() as f64 + share) / parts as f64, what);
+    let mut external = external.into_iter().map(coverage::external);
+    let jobs = || ladders.chunk_by(|a, b| a.is_coverage() && b.is_coverage());
     let mut boards = Vec::new();
-    if !coverage.is_empty() {
-        let mut groups: Vec<_> =
-            coverage.into_iter().map(|ladder| (ladder, coverage::choices(ladder))).collect();
-        if let Some((_, choices)) = groups.iter_mut().find(|group| group.0 == Ladder::EdgeFunction)
-        {
-            choices.extend(external.into_iter().map(coverage::external));
-        }
-        // A round of both groups takes longer than that of any other, as the slowest choice takes hundreds of times as long as the
-        // fastest.
-        let longer = if options.quick { 1.0 } else { 8.0 };
-        let timing = options.timing.map(|timing| timing.within(longer));
-        let options = &CostOptions { timing, ..*options };
-        boards = boards_of(&groups, &coverage::columns(options), options, &told);
-        done.set(1);
-    }
-    for ladder in others {
-        let how = (ladder, options, &told as Progress<'_>);
-        boards.extend(match ladder {
-            Ladder::Interpolation => group(how, interpolation::choices(), interpolation::columns),
-            Ladder::Depth => group(how, depth::choices(), depth::columns),
-            Ladder::Shadows => group(how, shadow::choices(), shadow::columns),
-            Ladder::Levels => group(how, levels::choices(), levels::columns),
-            Ladder::Lines => group(how, lines::choices(), lines::columns),
-            Ladder::Antialiasing => group(how, antialiasing::choices(), antialiasing::columns),
-            Ladder::Scanline | Ladder::EdgeFunction | Ladder::Frames => Vec::new(),
+    for (number, of) in jobs().enumerate() {
+        let told = |share: f64| {
+            progress((number as f64 + share) / jobs().count() as f64, of[0].title());
+        };
+        let job = Job { ladders: of, options, progress: &told };
+        boards.extend(match of[0] {
+            Ladder::Scanline | Ladder::EdgeFunction => {
+                let mut choices: Vec<_> = of.iter().map(|one| coverage::choices(*one)).collect();
+                if of.ends_with(&[Ladder::EdgeFunction]) {
+                    choices.last_mut().into_iter().for_each(|last| last.extend(external.by_ref()));
+                }
+                // A round of both groups takes longer than that of any other, as the slowest choice takes hundreds of times as
+                // long as the fastest.
+                let longer = if options.quick { 1.0 } else { 8.0 };
+                let timing = options.timing.map(|timing| timing.within(longer));
+                let options = &CostOptions { timing, ..*options };
+                Job { options, ..job }.boards(choices, coverage::columns(options))
+            }
+            Ladder::Interpolation => {
+                job.boards(vec![interpolation::choices()], interpolation::columns(options))
+            }
+            Ladder::Depth => job.boards(vec![depth::choices()], depth::columns(options)),
+            Ladder::Shadows => job.boards(vec![shadow::choices()], shadow::columns(options)),
+            Ladder::Levels => job.boards(vec![levels::choices()], levels::columns(options)),
+            Ladder::Antialiasing => {
+                job.boards(vec![antialiasing::choices()], antialiasing::columns(options))
+            }
+            Ladder::Lines => job.boards(vec![lines::choices()], lines::columns(options)),
+            Ladder::Frames => Vec::new(),
         });
-        done.set(done.get() + 1);
     }
     boards
 }
 
-type Progress<'a> = &'a dyn Fn(f64, &str);
-
-fn group<I>(
-    (ladder, options, progress): (Ladder, &CostOptions, Progress<'_>),
-    choices: Vec<Entry<'_, I>>,
-    columns: fn(&CostOptions) -> Columns<I>,
-) -> Vec<Board> {
-    boards_of(&[(ladder, choices)], &columns(options), options, progress)
+/// Groups that do the same job, to be measured on the same columns.
+#[derive(Clone, Copy)]
+struct Job<'a> {
+    ladders: &'a [Ladder],
+    options: &'a CostOptions,
+    progress: &'a dyn Fn(f64),
 }
 
-/// The boards of groups that do the same job on the same columns.
-fn boards_of<I>(
-    groups: &[(Ladder, Vec<Entry<'_, I>>)],
-    columns: &Columns<I>,
-    options: &CostOptions,
-    progress: &dyn Fn(f64, &str),
-) -> Vec<Board> {
-    let mut drafts = Vec::new();
-    for (ladder, entries) in groups {
-        let choices = entries.iter().map(|entry| entry.choice.clone()).collect();
-        let mut draft = Draft::new(*ladder, options.seed, ladder.measures(), choices);
-        for (number, (column, input)) in columns.iter().enumerate() {
-            progress(0.3 * number as f64 / columns.len() as f64, ladder.title());
-            let cell = |entry: &Entry<'_, I>| {
+impl Job<'_> {
+    fn boards<I>(
+        self,
+        choices: Vec<Vec<Entry<I>>>,
+        columns: impl PreparedColumns<I>,
+    ) -> Vec<Board> {
+        let CostOptions { seed, timing, .. } = *self.options;
+        let board = |(ladder, entries): (&Ladder, &Vec<Entry<I>>)| {
+            let choices = entries.iter().map(|entry| entry.choice.clone()).collect();
+            Board::new(*ladder, seed, ladder.measures(), choices)
+        };
+        let mut boards: Vec<Board> = self.ladders.iter().zip(&choices).map(board).collect();
+        let count = columns.len() as f64;
+        for (number, (column, input)) in columns.enumerate() {
+            let told = |share: f64| (self.progress)((number as f64 + share) / count);
+            told(0.0);
+            let cell = |entry: &Entry<I>| {
                 let input = input.as_ref().map_err(Clone::clone)?;
                 let run = entry.judge(input)?;
-                let pass = options.timing.map(|_| entry.pass(input)).transpose()?;
+                let pass = timing.map(|_| entry.pass(input)).transpose()?;
                 Ok((run, pass))
             };
-            draft.add(column.clone(), entries.iter().map(cell));
+            let cells = choices.iter().map(|entries| entries.iter().map(cell).collect()).collect();
+            add_column(&mut boards, &column, cells, timing, &told);
         }
-        drafts.push(draft);
+        boards
     }
-    timed(drafts, options.timing, &|share| progress(0.3 + 0.7 * share, groups[0].0.title()))
 }

@@ -10,13 +10,13 @@ mod bounds;
 mod clock;
 pub mod coverage;
 mod depth;
-mod drawn;
 mod entry;
 pub mod interpolation;
 mod levels;
 mod lines;
 mod measured;
 mod recorded;
+mod sampled;
 pub mod scene;
 mod shadow;
 mod tiles;
@@ -28,14 +28,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
 pub use bounds::Bound;
-pub use clock::{
-    CELLS, Clock, Pair, Pass, Places, Ratio, RatioKind, Spread, Times, Timing, compare,
-};
+pub use clock::{CELLS, Clock, Pair, Pass, Ratio, RatioKind, Spread, Times, Timing, compare};
 pub use coverage::ExternalChoice;
-pub use entry::{Entry, PreparedCell};
-pub use measured::{Draft, measure, measure_with, timed};
+pub use entry::Entry;
+pub use measured::{PreparedCell, add_column, measure, measure_with};
 pub use recorded::Recorded;
-pub use verdict::{Best, Cheapest, Dominated, JudgedChoice, Price, Priced, fastest, prices};
+pub use verdict::{Cheapest, JudgedChoice, Price, Priced, fastest, prices};
 
 rasterproof_core::named! {
     /// A group of choices that do the same job. In the order of the boards; its name is also a name of files.
@@ -89,78 +87,49 @@ impl Ladder {
 
     /// By what the choices of a group are judged; the first measure is the error of the plots.
     fn measures(self) -> Vec<Measure> {
-        match self {
+        const EXACT: Option<f64> = Some(0.0);
+        let listed = match self {
             Self::Scanline | Self::EdgeFunction => vec![
-                Measure::new(
-                    "wrong pixels per million, against the vertices as given",
-                    "wrong/M",
-                    Some(0.0),
-                ),
-                Measure::new(
-                    "wrong pixels per million, against the snapped vertices",
-                    "snapped",
-                    Some(0.0),
-                ),
-                Measure::new("pixels inside the mesh that no triangle hits", "holes", None),
-                Measure::new("pixels inside the mesh that two triangles hit", "twice", None),
+                ("wrong pixels per million, against the vertices as given", "wrong/M", EXACT),
+                ("wrong pixels per million, against the snapped vertices", "snapped", EXACT),
+                ("pixels inside the mesh that no triangle hits", "holes", None),
+                ("pixels inside the mesh that two triangles hit", "twice", None),
             ],
-            Self::Interpolation => vec![
-                Measure::new(
-                    "worst error over M, the largest value of a vertex",
-                    "error / M",
-                    Some(interpolation::HALF_STEP),
-                ),
-                Measure::new("worst error in units of u M, u of the float used", "u M", None),
-                Measure::new("worst error over its derived bound", "of bound", None),
-            ],
-            Self::Depth => vec![
-                Measure::new(
-                    "pixels per million showing the wrong one of two layers z / 10,000 apart",
-                    "wrong/M",
-                    Some(0.0),
-                ),
-                Measure::new(
-                    "gap: the least distance behind z that is stored as another depth",
-                    "gap",
-                    None,
-                ),
-                Measure::new(
-                    "step: the largest such gap over a thousand distances around z",
-                    "step",
-                    None,
-                ),
-            ],
-            Self::Shadows => vec![
-                Measure::new(
-                    "places per million in shadow that some light reaches",
-                    "missed/M",
-                    Some(0.0),
-                ),
-                Measure::new(
-                    "places per million in the light that keep some of it from themselves",
-                    "acne/M",
-                    Some(0.0),
-                ),
-            ],
+            Self::Interpolation => {
+                let goal = Some(interpolation::HALF_STEP);
+                vec![
+                    ("worst error over M, the largest value of a vertex", "error / M", goal),
+                    ("worst error in units of u M, u of the float used", "u M", None),
+                    ("worst error over its derived bound", "of bound", None),
+                ]
+            }
+            Self::Depth => {
+                let layers =
+                    "pixels per million showing the wrong one of two layers z / 10,000 apart";
+                let gap = "gap: the least distance behind z that is stored as another depth";
+                let step = "step: the largest such gap over a thousand distances around z";
+                vec![(layers, "wrong/M", EXACT), (gap, "gap", None), (step, "step", None)]
+            }
+            Self::Shadows => {
+                let missed = "places per million in shadow that some light reaches";
+                let acne = "places per million in the light that keep some of it from themselves";
+                vec![(missed, "missed/M", EXACT), (acne, "acne/M", EXACT)]
+            }
             Self::Levels => vec![
-                Measure::new(
-                    "largest distance from the exact level of detail",
-                    "levels",
-                    Some(levels::STEP),
-                ),
-                Measure::new("mean distance from the exact level of detail", "mean", None),
+                ("largest distance from the exact level of detail", "levels", Some(levels::STEP)),
+                ("mean distance from the exact level of detail", "mean", None),
             ],
             Self::Antialiasing => {
-                let title =
+                let rms =
                     "root mean square distance from the exact share, over the pixels on an edge";
-                vec![Measure::new(title, "rms", Some(0.0))]
+                vec![(rms, "rms", EXACT)]
             }
             Self::Lines => {
-                let title = "wrong pixels per million, against the exact line";
-                vec![Measure::new(title, "wrong/M", Some(0.0))]
+                vec![("wrong pixels per million, against the exact line", "wrong/M", EXACT)]
             }
             Self::Frames => Vec::new(),
-        }
+        };
+        listed.into_iter().map(|(title, short, goal)| Measure::new(title, short, goal)).collect()
     }
 }
 
@@ -191,7 +160,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    pub fn new(title: &'static str, short: &'static str, goal: Option<f64>) -> Self {
+    pub fn new(title: impl Into<Name>, short: impl Into<Name>, goal: Option<f64>) -> Self {
         Self { title: title.into(), short: short.into(), goal, unit: None }
     }
 
@@ -275,11 +244,21 @@ pub struct Choice {
     pub about: Name,
     /// Of which measures, by number, it promises to meet the goal, whatever the scene.
     pub promises: Vec<usize>,
+    /// What its buffers hold for each pixel of a window and for each triangle, in bytes.
+    #[serde(skip)]
+    pub bytes: [u64; 2],
 }
 
 impl Choice {
     pub fn new(name: impl Into<Name>, about: impl Into<Name>, promises: &[usize]) -> Self {
-        Self { name: name.into(), about: about.into(), promises: promises.to_vec() }
+        // Most choices write a number of 32 bits.
+        let bytes = [size_of::<u32>() as u64, 0];
+        Self { name: name.into(), about: about.into(), promises: promises.to_vec(), bytes }
+    }
+
+    #[must_use]
+    pub fn holding(self, of_pixel: usize, of_triangle: usize) -> Self {
+        Self { bytes: [of_pixel, of_triangle].map(|bytes| bytes as u64), ..self }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::{Board, Cell, Column};
+use super::{Board, Cell, Column, Ratio, Spread};
 
 /// A run of `cost`: what was measured, and the command that repeats it.
 #[derive(Clone, Debug, Deserialize)]
@@ -84,6 +84,10 @@ fn misfit(board: &Board) -> Option<String> {
     if board.cells.len() != choices {
         return Some(format!("{} rows of cells for {choices} choices", board.cells.len()));
     }
+    let noises = board.columns.iter().filter_map(|column| column.noise);
+    if let Some(noise) = noises.map(of_ratio).find(|noise| !are_sorted(noise)) {
+        return Some(format!("{noise:?} are not the interval of a ratio"));
+    }
     for (choice, row) in board.choices.iter().zip(&board.cells) {
         let name = &choice.name;
         if row.len() != columns {
@@ -102,7 +106,25 @@ fn misfit(board: &Board) -> Option<String> {
             if let Some(error) = run.errors.iter().flatten().find(|error| **error < 0.0) {
                 return Some(format!("{place} has an error of {error}"));
             }
+            let Some(time) = &run.time else { continue };
+            let Spread { low, median, high } = time.pixel_ns;
+            let both = [
+                ([low, median, high], "quartiles of times"),
+                (of_ratio(time.times), "interval of a ratio"),
+            ];
+            if let Some((numbers, what)) = both.iter().find(|(numbers, _)| !are_sorted(numbers)) {
+                return Some(format!("{place}: {numbers:?} are not the {what}"));
+            }
         }
     }
     None
+}
+
+fn of_ratio(ratio: Ratio) -> [f64; 3] {
+    [ratio.low, ratio.median, ratio.high]
+}
+
+/// Whether three numbers may be of times.
+fn are_sorted(&[low, median, high]: &[f64; 3]) -> bool {
+    0.0 <= low && low <= median && 0.0 < median && median <= high
 }

@@ -24,6 +24,16 @@ pub struct Scene {
     pub interior: Option<PixelRect>,
 }
 
+impl Scene {
+    /// Classes whose names begin so differ from the others by their w alone.
+    pub(super) fn is_of_coverage(&self) -> Result<(), String> {
+        match self.name.starts_with("w ") {
+            true => Err("coverage does not depend on w".to_owned()),
+            false => Ok(()),
+        }
+    }
+}
+
 /// How large a scene is: its window in pixels and about how much of it is covered.
 #[derive(Clone, Copy, Debug)]
 pub struct Size {
@@ -41,9 +51,6 @@ struct Class {
 
 type Point = [f64; 2];
 type Corners = [Point; 3];
-
-/// Classes whose name begins so differ from the others by their w alone.
-pub const W_PREFIX: &str = "w ";
 
 const fn class(
     name: &'static str,

@@ -4,8 +4,8 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::entry::{Columns, Entry, left_out};
-use super::{Choice, Column, CostOptions, Pass, Run};
+use super::entry::{Entry, PreparedColumns, and_no_class, tiled};
+use super::{Choice, Column, CostOptions};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_core::random::Rng;
 
@@ -107,29 +107,16 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
     vec![share(0), share(1)]
 }
 
-fn entry<F: Format + 'static>(
-    name: &'static str,
-    about: &'static str,
-) -> Entry<'static, Vec<Tile>> {
-    let buffers = |tiles: usize| (vec![F::store(1.0); tiles * TILE], vec![0; tiles * TILE]);
-    Entry::new(
+fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<Vec<Tile>> {
+    tiled(
         Choice::new(name, about, &[]),
-        move |tiles: &Vec<Tile>| {
-            let (mut map, mut lit) = buffers(tiles.len());
-            draw::<F>(tiles, &mut map, &mut lit);
-            Ok(Run::of(errors(&lit)))
-        },
-        move |tiles: &Vec<Tile>| {
-            let (mut map, mut lit) = buffers(tiles.len());
-            Ok(Pass::new(move || {
-                draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
-                std::hint::black_box(&lit);
-            }))
-        },
+        |tiles: &Vec<Tile>| vec![F::store(1.0); tiles.len() * TILE],
+        |tiles, map, lit| draw::<F>(tiles, map, lit),
+        |_, lit| errors(lit),
     )
 }
 
-pub(super) fn choices() -> Vec<Entry<'static, Vec<Tile>>> {
+pub(super) fn choices() -> Vec<Entry<Vec<Tile>>> {
     vec![
         entry::<Unbiased>("24-bit, no bias", "depths are compared as they are"),
         entry::<Fixed16>("16-bit", "whole numbers"),
@@ -140,20 +127,18 @@ pub(super) fn choices() -> Vec<Entry<'static, Vec<Tile>>> {
     ]
 }
 
-pub(super) fn columns(options: &CostOptions) -> Columns<Vec<Tile>> {
+pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Vec<Tile>> {
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
-    let mut columns = Vec::new();
-    for class in &CLASSES {
-        let slope =
-            if class.slope > 0.0 { "sloping by up to 10 degrees" } else { "facing the light" };
+    let column = move |class: &Class| {
+        let is_flat = class.slope == 0.0;
+        let slope = if is_flat { "facing the light" } else { "sloping by up to 10 degrees" };
         let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
         let column = Column::new(class.name, about, count as u64, (count * TILE) as u64);
-        columns.push((column, Ok(tiles(options.seed, class, count))));
-    }
-    columns
-        .extend(left_out(options, "shadows depend on the depths of surfaces, not on their shapes"));
-    columns
+        (column, tiles(options.seed, class, count))
+    };
+    let why = "shadows depend on the depths of surfaces, not on their shapes";
+    and_no_class(options, CLASSES.iter().map(column), why)
 }
 
 #[cfg(test)]

@@ -3,57 +3,8 @@
 
 use serde::Serialize;
 
+use super::coverage::{GIVEN, SNAPPED};
 use super::{Board, Choice, Ratio, RatioKind, Run, Times};
-
-/// The cheapest choices of one class of scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Best {
-    /// The cheapest choice of all, by number.
-    pub fastest: usize,
-    /// The cheapest choice whose error meets the goal of the measure.
-    pub good: Option<usize>,
-    /// The cheapest choice that promises no error, whatever the scene.
-    pub certain: Option<usize>,
-}
-
-/// A choice that another one beats in every class of scenes in which it ran.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Dominated {
-    pub choice: usize,
-    /// Choices that beat it, by number: at most as wrong and clearly faster.
-    pub by: Vec<usize>,
-}
-
-/// What no error costs over the cheapest choice of both groups, for one class of scenes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Price {
-    pub column: String,
-    pub cheapest: Priced,
-    /// The cheapest that promises nothing, so computes in floats.
-    pub unpromised: Option<Priced>,
-    /// The cheapest that is exact on the lattice, whatever the scene.
-    pub snapped: Option<Priced>,
-    /// The cheapest that is exact for the vertices as given, whatever the scene.
-    pub given: Option<Priced>,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Priced {
-    pub name: String,
-    pub pixel_ns: f64,
-    pub ratio: Ratio,
-}
-
-/// The cheapest exact choice of a column, and those of which the same rounds do not show that they are slower.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cheapest {
-    pub choice: usize,
-    /// Those between which and it there is no difference.
-    pub equal: Vec<usize>,
-    /// Those that may be faster or slower than it, for all that was measured.
-    pub undecided: Vec<usize>,
-    pub rounds: usize,
-}
 
 /// A choice with its board and a column on which it was run.
 #[derive(Clone, Copy)]
@@ -80,9 +31,16 @@ impl<'a> JudgedChoice<'a> {
         self.run.errors.get(measure).copied().flatten()
     }
 
+    /// Whether its error is as good as none.
     #[must_use]
     pub fn is_exact(&self, measure: usize) -> bool {
-        self.board.meets(self.number, self.column, measure) == Some(true)
+        self.board.meets(self.number, self.column, measure)
+    }
+
+    /// Whether it promises that, whatever the scene.
+    #[must_use]
+    pub fn promises(&self, measure: usize) -> bool {
+        self.choice().promises.contains(&measure)
     }
 
     /// The times of all rounds; nothing where it was not timed.
@@ -93,14 +51,32 @@ impl<'a> JudgedChoice<'a> {
 
     #[must_use]
     pub fn over(&self, other: &Self) -> Option<Ratio> {
-        match (self.number == other.number, std::ptr::eq(self.board, other.board)) {
-            (true, true) => Some(Ratio::ONE),
-            _ => self.times()?.over(other.times()?),
+        match self.number == other.number && std::ptr::eq(self.board, other.board) {
+            true => Some(Ratio::ONE),
+            false => self.times()?.over(other.times()?),
         }
     }
 
     fn pixel_ns(&self) -> Option<f64> {
         Some(self.run.time.as_ref()?.pixel_ns.median)
+    }
+
+    /// Whether another choice of its column is faster, intervals and all, and by a measure and those that rank nothing at most as
+    /// wrong.
+    fn is_beaten(&self, other: &Self, measure: usize) -> bool {
+        // Luck on one seed does not beat a promise.
+        if self.promises(measure) && !other.promises(measure) {
+            return false;
+        }
+        let mut measures = self.board.measures.iter().enumerate();
+        let is_no_worse = measures.all(|(number, one)| {
+            let both = other.error(number).zip(self.error(number));
+            let counts = number == measure || one.goal.is_none();
+            !counts || both.is_none_or(|(other, own)| other <= own)
+        });
+        let times = |one: &Self| one.run.time.as_ref().map(|time| time.times);
+        let both = times(other).zip(times(self));
+        is_no_worse && both.is_some_and(|(other, own)| other.high < own.low)
     }
 }
 
@@ -111,16 +87,44 @@ pub fn fastest<'a>(choices: impl Iterator<Item = JudgedChoice<'a>>) -> Option<Ju
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, choice)| choice)
 }
 
+/// The cheapest of some exact choices, and those of which the same rounds do not show that they are slower.
+pub struct Cheapest<'a> {
+    pub choice: JudgedChoice<'a>,
+    /// Those between which and it there is no difference.
+    pub equal: Vec<JudgedChoice<'a>>,
+    /// Those that may be faster or slower than it, for all that was measured.
+    pub undecided: Vec<JudgedChoice<'a>>,
+}
+
+impl<'a> Cheapest<'a> {
+    #[must_use]
+    pub fn of(exact: &[JudgedChoice<'a>]) -> Option<Self> {
+        let choice = fastest(exact.iter().copied())?;
+        let others = |is_rival: fn(&Ratio) -> bool| {
+            let ratio = |other: &JudgedChoice<'_>| other.over(&choice);
+            let is_rival = |other: &&JudgedChoice<'a>| {
+                ratio(other).is_some_and(|ratio| ratio != Ratio::ONE && is_rival(&ratio))
+            };
+            exact.iter().filter(is_rival).copied().collect()
+        };
+        Some(Self {
+            choice,
+            equal: others(|ratio| ratio.said() == RatioKind::NoDifference),
+            undecided: others(|ratio| ratio.said() == RatioKind::CannotBeTold && ratio.low <= 1.0),
+        })
+    }
+}
+
 impl Board {
     pub fn ranking(&self) -> impl Iterator<Item = usize> {
         self.measures.iter().enumerate().filter(|(_, m)| m.goal.is_some()).map(|(i, _)| i)
     }
 
-    /// Whether an error is as good as none; `None` where it was not measured.
+    /// Whether an error was measured and is as good as none.
     #[must_use]
-    pub fn meets(&self, choice: usize, column: usize, measure: usize) -> Option<bool> {
-        let error = self.error(choice, column, measure)?;
-        Some(error <= self.measures[measure].goal? && self.columns[column].is_judged())
+    pub fn meets(&self, choice: usize, column: usize, measure: usize) -> bool {
+        let both = self.error(choice, column, measure).zip(self.measures[measure].goal);
+        both.is_some_and(|(error, goal)| error <= goal) && self.columns[column].is_judged()
     }
 
     /// The choices that ran on a column.
@@ -134,86 +138,62 @@ impl Board {
         (0..self.columns.len()).filter(|&column| self.ran(column).next().is_some())
     }
 
+    /// The choices that a measure calls exact on a column.
+    pub fn exact(&self, column: usize, measure: usize) -> impl Iterator<Item = JudgedChoice<'_>> {
+        self.ran(column).filter(move |choice| choice.is_exact(measure))
+    }
+
     /// The fastest choice that a measure calls exact.
     #[must_use]
     pub fn cheapest_exact(&self, column: usize, measure: usize) -> Option<JudgedChoice<'_>> {
-        fastest(self.ran(column).filter(|choice| choice.is_exact(measure)))
-    }
-
-    /// The cheapest choices of a column by a measure; `None` without times.
-    pub fn best(&self, column: usize, measure: usize) -> Option<Best> {
-        let promises = |choice: &JudgedChoice<'_>| choice.choice().promises.contains(&measure);
-        let number = |choice: JudgedChoice<'_>| choice.number;
-        Some(Best {
-            fastest: fastest(self.ran(column))?.number,
-            good: self.cheapest_exact(column, measure).map(number),
-            certain: fastest(self.ran(column).filter(promises)).map(number),
-        })
+        fastest(self.exact(column, measure))
     }
 
     /// The cheapest exact choice with those that are as fast, as far as it can be told.
     #[must_use]
-    pub fn compared(&self, column: usize, measure: usize) -> Option<Cheapest> {
-        let best = self.cheapest_exact(column, measure)?;
-        let (mut equal, mut undecided) = (Vec::new(), Vec::new());
-        let others = self.ran(column).filter(|other| other.number != best.number);
-        for other in others.filter(|other| other.is_exact(measure)) {
-            let Some(ratio) = other.over(&best) else { continue };
-            match ratio.said() {
-                RatioKind::NoDifference => equal.push(other.number),
-                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(other.number),
-                RatioKind::CannotBeTold | RatioKind::Holds => {}
-            }
-        }
-        let rounds = best.times().map_or(0, Times::rounds);
-        Some(Cheapest { choice: best.number, equal, undecided, rounds })
+    pub fn compared(&self, column: usize, measure: usize) -> Option<Cheapest<'_>> {
+        Cheapest::of(&self.exact(column, measure).collect::<Vec<_>>())
     }
 
-    /// Whether `other` beats `choice` in a column: by this measure and those that rank nothing it is
-    /// at most as wrong, and its ratio to the cheapest choice is below that of the choice, intervals and all.
-    fn beats(&self, other: usize, choice: usize, column: usize, measure: usize) -> Option<bool> {
-        let (a, b) = (self.time(other, column)?, self.time(choice, column)?);
-        let at_most = |m: usize| match (self.error(other, column, m), self.error(choice, column, m))
-        {
-            (Some(a), Some(b)) => a <= b,
-            _ => true,
-        };
-        // Luck on one seed does not beat a promise.
-        let promises = |choice: usize| self.choices[choice].promises.contains(&measure);
-        if promises(choice) && !promises(other) {
-            return Some(false);
-        }
-        let counts = |m: &usize| *m == measure || self.measures[*m].goal.is_none();
-        let no_worse = (0..self.measures.len()).filter(counts).all(at_most);
-        Some(no_worse && a.times.high < b.times.low)
-    }
-
-    /// Choices that are beaten in every column in which they ran.
-    pub fn dominated(&self, measure: usize) -> Vec<Dominated> {
+    /// The choices that others beat in every column in which they ran, each with those others.
+    #[must_use]
+    pub fn dominated(&self, measure: usize) -> Vec<(&Choice, Vec<&Choice>)> {
         let beaten = |choice: usize| {
-            let mut by = Vec::new();
-            for column in self.columns_run().filter(|&c| self.time(choice, c).is_some()) {
-                let others = (0..self.choices.len()).filter(|&other| other != choice);
-                let mut better: Vec<_> = others
-                    .filter(|&other| self.beats(other, choice, column, measure) == Some(true))
-                    .collect();
-                better.sort_by(|&a, &b| {
-                    let ns = |r| self.time(r, column).map_or(f64::INFINITY, |t| t.pixel_ns.median);
-                    ns(a).total_cmp(&ns(b))
-                });
+            let mut by: Vec<usize> = Vec::new();
+            for column in self.columns_run().filter(|&column| self.time(choice, column).is_some()) {
+                let this = self.ran(column).find(|one| one.number == choice)?;
+                let better = || self.ran(column).filter(|other| this.is_beaten(other, measure));
                 // One that is known already, or else the fastest.
-                let known = better.iter().any(|other| by.contains(other));
-                match better.first() {
-                    None => return None,
-                    Some(&first) if !known => by.push(first),
-                    Some(_) => {}
+                if !better().any(|other| by.contains(&other.number)) {
+                    by.push(fastest(better())?.number);
                 }
             }
             by.sort_unstable();
-            (!by.is_empty()).then_some(Dominated { choice, by })
+            let by: Vec<&Choice> = by.into_iter().map(|other| &self.choices[other]).collect();
+            (!by.is_empty()).then_some((&self.choices[choice], by))
         };
         (0..self.choices.len()).filter_map(beaten).collect()
     }
+}
+
+/// What no error costs over the cheapest choice of both groups, for one class of scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Price {
+    pub column: String,
+    pub cheapest: Priced,
+    /// The cheapest that promises nothing, so computes in floats.
+    pub unpromised: Option<Priced>,
+    /// The cheapest that is exact on the lattice, whatever the scene.
+    pub snapped: Option<Priced>,
+    /// The cheapest that is exact for the vertices as given, whatever the scene.
+    pub given: Option<Priced>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Priced {
+    pub name: String,
+    pub pixel_ns: f64,
+    pub ratio: Ratio,
 }
 
 /// What exact coverage costs over the cheapest choice of both groups, for each class of scenes.
@@ -221,9 +201,9 @@ pub fn prices(boards: &[Board]) -> Vec<Price> {
     let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
     let Some(first) = coverage.first() else { return Vec::new() };
     let price = |column: usize| {
-        let cheapest = |filter: &dyn Fn(&[usize]) -> bool| {
+        let cheapest = |is_meant: &dyn Fn(&JudgedChoice<'_>) -> bool| {
             let all = coverage.iter().flat_map(|board| board.ran(column));
-            let cheapest = fastest(all.filter(|choice| filter(&choice.choice().promises)))?;
+            let cheapest = fastest(all.filter(is_meant))?;
             let name = format!("{} {}", cheapest.board.ladder.short(), cheapest.name());
             let time = cheapest.run.time.as_ref()?;
             Some(Priced { name, pixel_ns: time.pixel_ns.median, ratio: time.times })
@@ -231,9 +211,9 @@ pub fn prices(boards: &[Board]) -> Vec<Price> {
         Some(Price {
             column: first.columns[column].name.to_string(),
             cheapest: cheapest(&|_| true)?,
-            unpromised: cheapest(&<[usize]>::is_empty),
-            snapped: cheapest(&|promises| promises.contains(&super::coverage::SNAPPED)),
-            given: cheapest(&|promises| promises.contains(&super::coverage::GIVEN)),
+            unpromised: cheapest(&|one| one.choice().promises.is_empty()),
+            snapped: cheapest(&|one| one.promises(SNAPPED)),
+            given: cheapest(&|one| one.promises(GIVEN)),
         })
     };
     first.columns_run().filter_map(price).collect()

@@ -17,7 +17,7 @@ pub mod lines;
 pub mod scanline;
 pub mod shadow;
 
-use std::ops::AddAssign;
+use std::ops::Add;
 
 use num_traits::{AsPrimitive, Float};
 
@@ -63,11 +63,15 @@ pub struct Work {
     pub fallbacks: u64,
 }
 
-impl AddAssign for Work {
-    fn add_assign(&mut self, other: Self) {
-        self.divisions += other.divisions;
-        self.evaluations += other.evaluations;
-        self.fallbacks += other.fallbacks;
+impl Add for Work {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            divisions: self.divisions + other.divisions,
+            evaluations: self.evaluations + other.evaluations,
+            fallbacks: self.fallbacks + other.fallbacks,
+        }
     }
 }
 

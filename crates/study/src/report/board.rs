@@ -7,9 +7,10 @@
 use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Column, Ladder, Measure, Price, Priced, Ratio, RatioKind, Recorded, Run,
-    Time, prices,
+    Board, CELLS, Cell, Choice, Column, Ladder, Measure, Price, Priced, Ratio, RatioKind, Recorded,
+    Time, fastest, prices,
 };
+use rasterproof_precision::ladder::Work;
 use rasterproof_report::canvas;
 use rasterproof_report::html::{Figure, PicturedAnswer, Report};
 use rasterproof_report::table::{self, Row, Table};
@@ -20,15 +21,9 @@ const WIDTH: usize = 100;
 const NAME: usize = 18;
 const INDENT: usize = 2;
 
-/// A cell of a block: the number with its mark, and whether it is good.
-type Marked = (String, bool);
-
 /// A table for each measure of the error, for each kind of time and for each count of work.
 pub fn tables(board: &Board) -> Vec<Table> {
-    let of_measure = |(number, measure)| {
-        block(board, title(measure), &|choice, column| error_cell(board, choice, column, number))
-    };
-    let mut tables: Vec<Table> = board.measures.iter().enumerate().map(of_measure).collect();
+    let mut tables = errors(board);
     if board.rounds > 0 {
         tables.extend(times(board));
     }
@@ -46,46 +41,41 @@ pub fn tables(board: &Board) -> Vec<Table> {
     tables
 }
 
-fn title(measure: &Measure) -> String {
-    let title = &measure.title;
-    match measure.goal {
-        Some(0.0) => format!("{title} (0 is exact, * the cheapest such)"),
-        Some(goal) => format!("{title} (up to {goal:.4} is +, * the cheapest such)"),
-        None => title.to_string(),
-    }
-}
-
-fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Option<Marked> {
-    let error = board.error(choice, column, measure)?;
-    let good = board.meets(choice, column, measure) == Some(true);
-    let best = board.best(column, measure).and_then(|best| best.good) == Some(choice);
-    let is_zero_goal = board.measures[measure].goal == Some(0.0);
-    let mark = match (best, good) {
-        (true, _) => '*',
-        (false, true) if !is_zero_goal => '+',
-        _ => ' ',
+fn errors(board: &Board) -> Vec<Table> {
+    let of_measure = |(measure, Measure { title, goal, .. }): (usize, &Measure)| {
+        let (title, exact) = match goal {
+            Some(0.0) => (format!("{title} (0 is exact, * the cheapest such)"), ' '),
+            Some(goal) => (format!("{title} (up to {goal:.4} is +, * the cheapest such)"), '+'),
+            None => (title.to_string(), ' '),
+        };
+        block(board, title, &|choice, column| {
+            let is_best =
+                || board.cheapest_exact(column, measure).is_some_and(|best| best.number == choice);
+            let mark = match board.meets(choice, column, measure) {
+                true => Mark::Good(if is_best() { '*' } else { exact }),
+                false => Mark::Plain(' '),
+            };
+            Some((board.error(choice, column, measure)?, mark))
+        })
     };
-    Some((format!("{}{mark}", number(error, cell_width(board))), good))
+    board.measures.iter().enumerate().map(of_measure).collect()
 }
 
 fn times(board: &Board) -> [Table; 2] {
-    let cell = |choice: usize, column: usize, value: &dyn Fn(f64) -> f64| {
-        let time = board.time(choice, column)?;
-        let fastest = (0..board.choices.len())
-            .filter_map(|r| board.time(r, column))
-            .all(|other| other.pixel_ns.median >= time.pixel_ns.median);
-        let mark = if fastest { '<' } else { ' ' };
-        Some((format!("{}{mark}", number(value(time.pixel_ns.median), cell_width(board))), false))
+    let cell = |choice: usize, column: usize| {
+        let median = board.time(choice, column)?.pixel_ns.median;
+        let fastest = fastest(board.ran(column)).and_then(|one| one.run.time.as_ref());
+        let is_fastest = fastest.is_some_and(|time| time.pixel_ns.median >= median);
+        Some((median, Mark::Plain(if is_fastest { '<' } else { ' ' })))
     };
-    let title = format!(
-        "ns for each covered pixel, median of {} rounds or more (< the fastest)",
-        board.rounds
-    );
-    let pixels = block(board, title, &|r, c| cell(r, c, &|ns| ns));
-    let title = "ns for each triangle or line".to_owned();
-    let mut items = block(board, title, &|r, c| {
-        let Column { items, pixels, .. } = board.columns[c];
-        cell(r, c, &|ns| ns * pixels.max(1) as f64 / items.max(1) as f64)
+    let rounds = board.rounds;
+    let title =
+        format!("ns for each covered pixel, median of {rounds} rounds or more (< the fastest)");
+    let pixels = block(board, title, &cell);
+    let mut items = block(board, "ns for each triangle or line".to_owned(), &|choice, column| {
+        let Column { items, pixels, .. } = board.columns[column];
+        let (ns, mark) = cell(choice, column)?;
+        Some((ns * pixels.max(1) as f64 / items.max(1) as f64, mark))
     });
     let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time.as_ref());
     let spread = |t: &Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
@@ -98,33 +88,37 @@ fn times(board: &Board) -> [Table; 2] {
     }
     let noise = board.columns.iter().filter_map(|column| column.noise.map(Ratio::off_one));
     if let Some(worst) = noise.reduce(f64::max) {
-        items.notes.push(format!(
-            "two equal passes differ by at most {:.1}% in a class",
-            100.0 * (worst - 1.0)
-        ));
+        let worst = 100.0 * (worst - 1.0);
+        items.notes.push(format!("two equal passes differ by at most {worst:.1}% in a class"));
     }
     [pixels, items]
 }
 
 fn work(board: &Board) -> [Table; 3] {
-    type Count = fn(&Run) -> Option<u64>;
+    type Count = fn(&Work) -> u64;
     let counts: [(&str, Count); 3] = [
-        ("edges asked, or crossings computed, for each covered pixel", |r| {
-            Some(r.work?.evaluations)
-        }),
-        ("divisions for each covered pixel", |r| Some(r.work?.divisions)),
-        ("exact decisions after a filter, for each covered pixel", |r| Some(r.work?.fallbacks)),
+        ("edges asked, or crossings computed, for each covered pixel", |work| work.evaluations),
+        ("divisions for each covered pixel", |work| work.divisions),
+        ("exact decisions after a filter, for each covered pixel", |work| work.fallbacks),
     ];
     counts.map(|(title, count)| {
+        let count = |cell: &Cell| cell.run()?.work.as_ref().map(count);
         block(board, title.to_owned(), &|choice, column| {
-            let pixels = board.columns[column].pixels.max(1) as f64;
             // Choices that do none of it have no row.
-            let does = |cell: &Cell| cell.run().and_then(count).is_some_and(|n| n > 0);
-            let any = board.cells[choice].iter().any(does);
-            let each = any.then_some(count(board.run(choice, column)?)? as f64 / pixels)?;
-            Some((number(each, cell_width(board)) + " ", false))
+            let row = &board.cells[choice];
+            let does_any = row.iter().filter_map(count).any(|number| number > 0);
+            let number = does_any.then(|| count(&row[column]))??;
+            let pixels = board.columns[column].pixels.max(1);
+            Some((number as f64 / pixels as f64, Mark::Plain(' ')))
         })
     })
+}
+
+/// What stands behind a number.
+enum Mark {
+    Plain(char),
+    /// The number is good, too.
+    Good(char),
 }
 
 fn cell_width(board: &Board) -> usize {
@@ -132,18 +126,24 @@ fn cell_width(board: &Board) -> usize {
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
 }
 
-/// A row for each choice that has a cell to show, and a column for each class of scenes in which one has.
-fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<Marked>) -> Table {
+/// A row for each choice that has a number to show, and a column for each class of scenes in which one has.
+fn block(
+    board: &Board,
+    caption: String,
+    cell: &dyn Fn(usize, usize) -> Option<(f64, Mark)>,
+) -> Table {
     let choices = 0..board.choices.len();
+    let width = cell_width(board);
     let applies = |&column: &usize| choices.clone().any(|choice| cell(choice, column).is_some());
     let columns: Vec<usize> = board.columns_run().filter(applies).collect();
     let row = |choice: usize| {
         let mut row = Row::from(vec![board.choices[choice].name.to_string()]);
         for (place, &column) in (1..).zip(&columns) {
             row.cells.push(match cell(choice, column) {
-                Some((text, good)) => {
-                    row.good.extend(good.then_some(place));
-                    text
+                Some((value, Mark::Plain(mark))) => format!("{}{mark}", number(value, width)),
+                Some((value, Mark::Good(mark))) => {
+                    row.good.push(place);
+                    format!("{}{mark}", number(value, width))
                 }
                 None if board.run(choice, column).is_some() => "-".to_owned(),
                 None => "not run".to_owned(),
@@ -155,9 +155,8 @@ fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<M
     // A mark stands behind each number.
     let head = |&column: &usize| {
         let name = &board.columns[column].name;
-        let has_room = name.chars().count() < cell_width(board).max(6);
-        let head = if has_room { format!("{name} ") } else { name.to_string() };
-        table::Column::numbers(name, "").short(head).least(cell_width(board))
+        let gap = if name.chars().count() < width.max(6) { " " } else { "" };
+        table::Column::numbers(name, "").short(format!("{name}{gap}")).least(width)
     };
     let first = table::Column::words("choice").short("").least(NAME - INDENT);
     let columns = [first].into_iter().chain(columns.iter().map(head)).collect();
@@ -190,12 +189,13 @@ fn not_run(board: &Board) -> Vec<String> {
 /// By each measure the choices that others dominate in every class of scenes, with those others.
 fn dominated(board: &Board) -> Vec<String> {
     let line = |measure: usize| {
-        let list = board.dominated(measure).into_iter().map(|d| {
-            let by: Vec<_> = d.by.iter().map(|&r| &*board.choices[r].name).collect();
-            format!("{} (by {})", board.choices[d.choice].name, by.join(", "))
-        });
-        let list: Vec<_> = list.collect();
-        let list = if list.is_empty() { "none".to_owned() } else { list.join("; ") };
+        let names = |all: Vec<&Choice>| {
+            all.iter().map(|choice| &*choice.name).collect::<Vec<_>>().join(", ")
+        };
+        let all = board.dominated(measure).into_iter();
+        let all = all.map(|(choice, by)| format!("{} (by {})", choice.name, names(by)));
+        let list = Some(all.collect::<Vec<_>>().join("; ")).filter(|list| !list.is_empty());
+        let list = list.unwrap_or("none".to_owned());
         format!("dominated in every class, by {}: {list}", board.measures[measure].title)
     };
     board.ranking().map(line).collect()
@@ -240,12 +240,12 @@ fn sentence(boards: &[Board]) -> Option<String> {
     let prices = prices(boards);
     if prices.is_empty() {
         let board = boards.last()?;
-        let best: Vec<_> = board.columns_run().filter_map(|column| board.best(column, 0)).collect();
-        let exact = best.iter().filter(|best| best.good == Some(best.fastest)).count();
-        let title = board.ladder.title();
-        return (!best.is_empty()).then(|| format!(
-            "{title}: in {exact} of {} classes of scenes the cheapest choice of all is exact or good enough.",
-            best.len()
+        let best = board.columns_run().filter_map(|column| fastest(board.ran(column)));
+        let best: Vec<_> = best.collect();
+        let exact = best.iter().filter(|choice| choice.is_exact(0)).count();
+        let (title, all) = (board.ladder.title(), best.len());
+        return (all > 0).then(|| format!(
+            "{title}: in {exact} of {all} classes of scenes the cheapest choice of all is exact or good enough."
         ));
     }
     let takes = |of: &dyn Fn(&Price) -> Option<&Priced>| {

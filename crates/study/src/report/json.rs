@@ -1,10 +1,12 @@
 //! A study and the boards of `cost` for machines.
 
-use rasterproof_precision::cost::{Board, Cell, Recorded, Run, Spread, Time, Times, prices};
+use rasterproof_precision::cost::{
+    Board, Cell, Cheapest, JudgedChoice, Recorded, Run, Spread, Time, Times, fastest, prices,
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Places, StudyFindings};
+use super::{Places, StudyFindings, names};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::hard::HardCases;
 use crate::shift::Shifted;
@@ -18,18 +20,20 @@ pub fn cost(recorded: &Recorded) -> Value {
         .iter()
         .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
         .map(|(board, measure)| {
-            let named = |choice: usize| &*board.choices[choice].name;
             let best = |column: usize| {
-                let best = board.best(column, measure)?;
-                let name = |choice: Option<usize>| choice.map(named);
+                let promises = |choice: &JudgedChoice<'_>| choice.promises(measure);
+                let good = board.cheapest_exact(column, measure);
+                let certain = fastest(board.ran(column).filter(promises));
                 Some(json!({
-                    "column": board.columns[column].name, "fastest": named(best.fastest),
-                    "cheapest_good": name(best.good), "cheapest_certain": name(best.certain),
+                    "column": board.columns[column].name,
+                    "fastest": fastest(board.ran(column))?.name(),
+                    "cheapest_good": good.as_ref().map(JudgedChoice::name),
+                    "cheapest_certain": certain.as_ref().map(JudgedChoice::name),
                 }))
             };
-            let dominated = board.dominated(measure).into_iter().map(|d| {
-                let by: Vec<_> = d.by.into_iter().map(named).collect();
-                json!({ "choice": named(d.choice), "by": by })
+            let dominated = board.dominated(measure).into_iter().map(|(choice, by)| {
+                let by: Vec<_> = by.into_iter().map(|other| &other.name).collect();
+                json!({ "choice": choice.name, "by": by })
             });
             json!({
                 "group": board.ladder, "measure": board.measures[measure].title,
@@ -121,7 +125,7 @@ pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Value {
                 json!({ "pixel": [x, y], "face": face })
             });
             let rounds = run.time.as_ref().and_then(|time: &Time| time.rounds.as_ref());
-            let is_exact = |one: &usize| board.meets(number, 0, *one) == Some(true);
+            let is_exact = |one: &usize| board.meets(number, 0, *one);
             json!({
                 "name": choice.name, "about": choice.about, "errors": run.errors,
                 "exact": board.ranking().filter(is_exact).collect::<Vec<_>>(), "first_wrong": first,
@@ -132,15 +136,13 @@ pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Value {
             })
         };
         let measures: Vec<_> = board.measures.iter().map(|measure| &measure.title).collect();
-        let name = |number: usize| &*board.choices[number].name;
-        let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
         let of_measures = || (0..measures.len()).map(|measure| board.compared(0, measure));
-        let best = of_measures().map(|best| Some(name(best?.choice)));
+        let best = of_measures().map(|best| Some(best?.choice.name()));
         let compared = of_measures().map(|best| {
-            let best = best?;
+            let Cheapest { choice, equal, undecided } = best?;
             Some(json!({
-                "choice": name(best.choice), "equally_fast": names(&best.equal),
-                "undecided": names(&best.undecided), "rounds": best.rounds,
+                "choice": choice.name(), "equally_fast": names(&equal), "undecided": names(&undecided),
+                "rounds": choice.times().map_or(0, Times::rounds),
             }))
         });
         let column = &board.columns[0];

@@ -21,7 +21,7 @@ use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, JudgedChoice, Ladder, Part, Ratio, RatioKind, fastest,
+    Board, CELLS, Cell, Cheapest, JudgedChoice, Ladder, Part, Ratio, RatioKind, Times, fastest,
 };
 use rasterproof_render::scene::Scene;
 
@@ -151,6 +151,10 @@ fn answers(
     all.map(answer).collect()
 }
 
+fn names<'a>(choices: &[JudgedChoice<'a>]) -> Vec<&'a str> {
+    choices.iter().map(JudgedChoice::name).collect()
+}
+
 /// A choice with its group.
 fn full_name(choice: &JudgedChoice<'_>) -> String {
     format!("{} by {}", choice.name(), choice.board.ladder.title().trim_start_matches(COVERAGE))
@@ -196,15 +200,13 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
     }
     let all: Vec<JudgedChoice<'_>> = coverage(boards).flat_map(|board| board.ran(0)).collect();
     let least = |of: &dyn Fn(&JudgedChoice<'_>) -> bool| fastest(all.iter().copied().filter(of));
-    let promises =
-        |one: &JudgedChoice<'_>, measure: usize| one.choice().promises.contains(&measure);
     let certain = least(&|one| !one.choice().promises.is_empty() && wrong(one) == 0.0);
     let (Some(cheapest), Some(certain)) = (least(&|_| true), certain) else {
         let none = "No choice of coverage that is exact for every model takes these triangles.";
         return [none.to_owned(), String::new()];
     };
     let unit = unit(cheapest.board);
-    let is_snapped = promises(&certain, 1);
+    let is_snapped = certain.promises(1);
     let snapped = if is_snapped { " once its corners are snapped" } else { "" };
     let name = full_name(&certain);
     let ratio = over(&certain, &cheapest);
@@ -224,7 +226,7 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
         )
     };
     let mut others = String::new();
-    let as_given = least(&|one| promises(one, 0));
+    let as_given = least(&|one| one.promises(0));
     if let Some(as_given) = as_given.filter(|_| is_snapped && wrong_first(&certain) > 0) {
         let differ =
             count(wrong_first(&certain), &format!("{unit} differs"), &format!("{unit} differ"));
@@ -406,21 +408,15 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
 
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
 fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
-    let exact = || {
-        let all = boards.iter().flat_map(|board| board.ran(0));
-        all.filter(|choice| choice.is_exact(measure))
-    };
-    let Some((best, times)) = fastest(exact()).and_then(|best| Some((best, best.times()?))) else {
+    let exact: Vec<_> = boards.iter().flat_map(|board| board.exact(0, measure)).collect();
+    let best = Cheapest::of(&exact).and_then(|best| Some((best.choice.times()?, best)));
+    let Some((times, Cheapest { choice: best, equal, undecided })) = best else {
         let sampling = boards.iter().filter_map(|board| board.columns[0].sampling);
         let is_compared = sampling.map(|sampling| sampling.judged.part).any(|part| part > 0);
         let none = if is_compared { "none" } else { "no pixel was compared" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
-    let is_rival = |other: &JudgedChoice<'_>| {
-        let ratio = over(other, &best);
-        ratio != Ratio::ONE && ratio.said() != RatioKind::Holds && ratio.low <= 1.0
-    };
-    let rivals = exact().filter(is_rival).count();
+    let rivals = equal.len() + undecided.len();
     let mut name = best.name().to_owned();
     if boards.len() > 1 {
         let kind = best.board.ladder.title().trim_start_matches(COVERAGE).split(' ').next();
@@ -439,7 +435,7 @@ pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
     let mut lines = Vec::new();
     for (number, measure) in board.measures.iter().enumerate() {
         match board.compared(0, number) {
-            Some(_) => lines.extend(compared(board, number)),
+            Some(best) => lines.extend(compared(&best, number)),
             None if sampling.judged.part == 0 => {
                 lines.push("no pixel was compared, so nothing is called exact".to_owned());
             }
@@ -487,24 +483,22 @@ pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
 }
 
 /// The cheapest exact choice, or that there is no difference between those that are exact.
-fn compared(board: &Board, measure: usize) -> Vec<String> {
-    let Some(best) = board.compared(0, measure) else { return Vec::new() };
-    let names = |all: &[usize]| {
-        all.iter().map(|one| &*board.choices[*one].name).collect::<Vec<_>>().join(", ")
-    };
+fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
+    let Cheapest { choice, equal, undecided } = best;
+    let board = choice.board;
     let short = &board.measures[measure].short;
-    let exact = |choice: &JudgedChoice<'_>| choice.times().is_some() && choice.is_exact(measure);
-    let is_all = board.ran(0).filter(exact).count() == best.equal.len() + 1;
-    if is_all && !best.equal.is_empty() {
-        let all = names(&[&[best.choice], &*best.equal].concat());
+    let timed = board.exact(0, measure).filter(|one| one.times().is_some());
+    if !equal.is_empty() && timed.count() == equal.len() + 1 {
+        let all = names(&[&[*choice], &equal[..]].concat()).join(", ");
         return vec![format!("no difference between the exact choices ({short}): {all}")];
     }
-    let mut lines = vec![format!("cheapest exact ({short}): {}", names(&[best.choice]))];
-    if !best.equal.is_empty() {
-        lines.push(format!("no difference: {}", names(&best.equal)));
+    let mut lines = vec![format!("cheapest exact ({short}): {}", choice.name())];
+    if !equal.is_empty() {
+        lines.push(format!("no difference: {}", names(equal).join(", ")));
     }
-    if !best.undecided.is_empty() {
-        let (rounds, others) = (best.rounds, names(&best.undecided));
+    if !undecided.is_empty() {
+        let (rounds, others) =
+            (choice.times().map_or(0, Times::rounds), names(undecided).join(", "));
         lines.push(format!("undecided after {rounds} rounds, as fast or not: {others}"));
     }
     lines

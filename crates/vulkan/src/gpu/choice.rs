@@ -52,7 +52,7 @@ impl ExternalChoice for OnLadder {
             "{} {}: snaps to {bits} bits; cleared, drawn, waited for",
             about.driver, about.version
         );
-        Choice { name: about.short().into(), about: text.into(), promises: Vec::new() }
+        Choice::new(about.short(), text, &[])
     }
 
     fn spans(
