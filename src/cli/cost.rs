@@ -114,7 +114,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             if let Some(option) = typed.given(&of_groups) {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
-            let how = (arguments.once.effort(arguments.quick), arguments.json);
+            let how = (arguments.once.timing(arguments.quick), arguments.json);
             arguments.page.refuse_idle_folder(typed)?;
             let file = (&**path, arguments.page.page("cost.html"));
             return study::cost(file, &arguments.view, how, typed, streams);

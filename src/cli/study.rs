@@ -6,12 +6,12 @@ use std::path::Path;
 
 use rasterproof_host::output::{self, Output};
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_precision::cost::Board;
+use rasterproof_precision::cost::{Board, Timing};
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_study::corner_grid::CornerGrid;
-use rasterproof_study::cost::{self, Effort};
+use rasterproof_study::cost;
 use rasterproof_study::effects;
 use rasterproof_study::faces;
 use rasterproof_study::grid;
@@ -62,11 +62,12 @@ pub(super) struct OnceArgument {
 }
 
 impl OnceArgument {
-    pub(super) fn effort(&self, quick: bool) -> Effort {
+    /// How a group is timed: usually in seconds, so that a difference of a few percent can be told.
+    pub(super) fn timing(&self, quick: bool) -> Timing {
         match (self.once, quick) {
-            (true, _) => Effort::Once,
-            (false, true) => Effort::Quick,
-            (false, false) => Effort::Usual,
+            (true, _) => Timing::ONCE,
+            (false, true) => Timing::QUICK,
+            (false, false) => Timing::USUAL,
         }
     }
 }
@@ -84,21 +85,21 @@ fn studied<'a>(
 fn measure(
     studied: &Studied<'_>,
     view: &ViewArguments,
-    effort: Effort,
+    timing: Timing,
     on_terminal: bool,
 ) -> Result<Vec<Board>, InputError> {
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
     let mut target = view.target()?;
     let seen = (&studied.sampled, &studied.hard);
-    cost::measure(&studied.scene, seen, &mut target, effort, &told).map_err(usage)
+    cost::measure(&studied.scene, seen, &mut target, timing, &told).map_err(usage)
 }
 
 /// `cost FILE`: what each choice costs on the triangles of a model.
 pub(super) fn cost(
     (path, page): (&Path, Option<Output>),
     view: &ViewArguments,
-    (effort, is_json): (Effort, bool),
+    (timing, is_json): (Timing, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
@@ -106,7 +107,7 @@ pub(super) fn cost(
     let maker = view.maker(path, Purpose::Measured, streams)?;
     output::check_all(as_file(&page))?;
     let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
-    let boards = measure(&studied, view, effort, streams.progress)?;
+    let boards = measure(&studied, view, timing, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let report = Report {
@@ -138,14 +139,14 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         return all_around((arguments, views), &maker, streams);
     }
     let studied = studied(&maker, maker.scene.clone(), &what.view, arguments.grid.grid())?;
-    let effort = arguments.once.effort(arguments.quick);
-    let boards = measure(&studied, &what.view, effort, streams.progress)?;
+    let timing = arguments.once.timing(arguments.quick);
+    let boards = measure(&studied, &what.view, timing, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
     let pieces = studied.sampled.at_centres();
     let visible = (pieces, &cost::exactly_seen(pieces, window));
-    let timing = effort.timing().within(1.2);
-    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, timing)?;
+    let of_effects = timing.within(1.2);
+    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, of_effects)?;
     let inspect = |face| match what.source() {
         Ok(name) => format!("(a scene of the book, {name}, is no file to inspect)"),
         Err(path) => inspect_command(typed, path, face),
@@ -156,10 +157,10 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => ["cost", "verify", "plan"]
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
-    let rounds = match effort {
-        Effort::Once => 1,
-        Effort::Quick => 3,
-        Effort::Usual => 5,
+    let rounds = match timing {
+        Timing::ONCE => 1,
+        Timing::QUICK => 3,
+        _ => 5,
     };
     // What takes time for a plot alone is left out where none is drawn.
     let grids = match page.is_some() || arguments.all {
@@ -195,7 +196,7 @@ fn all_around(
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
         let studied = studied(maker, maker.turned(turn), view, arguments.grid.grid())?;
-        let boards = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
+        let boards = measure(&studied, view, arguments.once.timing(arguments.quick), false)?;
         around.add(360.0 * turn, &studied.hard, &boards);
         progress.done(1);
     }

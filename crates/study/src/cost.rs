@@ -31,28 +31,6 @@ use crate::effects::{PLANS, differing, frame_pass};
 use crate::hard::HardCases;
 use crate::view::{NOTHING, Piece, Sampled, seen};
 
-/// How thoroughly times are taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// In seconds for what is timed, so that a difference of a few percent can be told.
-    Usual,
-    Quick,
-    /// Everything a single time: for who looks at all but times.
-    Once,
-}
-
-impl Effort {
-    /// How a group is timed.
-    #[must_use]
-    pub fn timing(self) -> Timing {
-        match self {
-            Self::Usual => Timing::USUAL,
-            Self::Quick => Timing::QUICK,
-            Self::Once => Timing::ONCE,
-        }
-    }
-}
-
 /// Pixels that are timed on a group, quickly or not: which choice is the cheapest depends on the triangles.
 const TIMED_PX: u64 = 200_000;
 
@@ -61,11 +39,10 @@ pub fn measure(
     scene: &Scene,
     (sampled, hard): (&Sampled, &HardCases),
     target: &mut Target,
-    effort: Effort,
+    timing: Timing,
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Board>, BadScene> {
     let sample = Sample::new(&sampled.planes[0], sampled.window, TIMED_PX);
-    let timing = effort.timing();
     progress(0.0, Ladder::Scanline.title());
     let mut boards = coverage_boards(sampled, &sample, timing.within(2.0));
     progress(0.4, Ladder::Interpolation.title());

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{Pair, Pass, Ratio, RatioKind, Times, Timing, compare};
+use rasterproof_precision::cost::{Pass, Ratio, RatioKind, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -265,8 +265,8 @@ pub(crate) fn frame_pass<'a>(
 
 /// Times of passes, each of which is compared with the first.
 fn over_first(mut passes: Vec<Pass<'_>>, timing: Timing) -> Vec<Times> {
-    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
-    compare(&mut passes, timing, &|_| pairs.clone(), &|_| ())
+    let pairs: Vec<_> = (1..passes.len()).map(|other| vec![other, 0]).collect();
+    compare(&mut passes, timing, &pairs, &|_| ())
 }
 
 /// Times the planned frame, and those in which one effect is switched over that makes a difference in work.

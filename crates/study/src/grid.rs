@@ -299,7 +299,7 @@ pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<Gri
         }));
     }
     let timing = Timing { rounds: Some(rounds.max(1)), ..Timing::USUAL };
-    let times = compare(&mut passes, timing, &|_| Vec::new(), &|_| ());
+    let times = compare(&mut passes, timing, &[], &|_| ());
     for (price, times) in prices.iter_mut().zip(times.chunks(2)) {
         [price.scanline_ms, price.edge_function_ms] = [0, 1].map(|at| times[at].median() / 1e6);
     }

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::time::Duration;
 
-use rasterproof_precision::cost::{Clock, Pair, Pass, Ratio, Spread, Times, Timing, compare};
+use rasterproof_precision::cost::{Clock, Pass, Ratio, Spread, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::Canvas;
 use rasterproof_render::effects::render::{BadScene, Rendered, survey_again};
@@ -175,7 +175,12 @@ pub fn measure(
         let target = RefCell::new(&mut *target);
         let pass = |mixture: &Mixture| frame_pass((scene, drawer), mixture.effects, &target);
         let mut passes: Vec<Pass<'_>> = timed.iter().map(pass).collect();
-        compare(&mut passes, timing, &|_| pairs.clone(), &|_| drawn())
+        compare(
+            &mut passes,
+            timing,
+            &pairs.iter().map(|pair| pair.to_vec()).collect::<Vec<_>>(),
+            &|_| drawn(),
+        )
     };
     let all: Vec<Measured> = timed.iter().zip(&times).map(Measured::new).collect();
     let over = |[a, b]: Pair| all[a].over(&all[b]);
@@ -199,6 +204,9 @@ pub fn measure(
     let planned = frames.swap_remove(PLANNED);
     Ok((savings, [frames.swap_remove(EVERYTHING), planned]))
 }
+
+/// Two frames, of which the first one is expected to take longer.
+type Pair = [usize; 2];
 
 /// Places in [`PLANS`].
 const EVERYTHING: usize = 0;
@@ -226,7 +234,7 @@ pub fn survey_us(scene: &Scene, target: &Target) -> Result<Option<f64>, BadScene
     let timing = Timing { rounds: Some(9), ..PLAN };
     let mut us = None;
     survey_again(scene, &Canvas::of(target), &mut |survey| {
-        let times = compare(&mut [Pass::new(survey)], timing, &|_| Vec::new(), &|_| ());
+        let times = compare(&mut [Pass::new(survey)], timing, &[], &|_| ());
         us = times.first().map(|times| times.median() / 1e3);
     })?;
     Ok(us)

@@ -354,30 +354,22 @@ const LOOKS: [usize; 6] = [8, 16, 32, 64, 128, 256];
 /// A pass that takes so many times as long as the one that others are compared with leaves when its ratio is settled.
 const COSTLY: f64 = 8.0;
 
-/// Two passes whose ratio is asked for: the first over the second.
-pub type Pair = [usize; 2];
-
-/// The pairs that are asked for, by the median times of the passes.
-pub type PairsOfInterest<'a> = &'a dyn Fn(&[f64]) -> Vec<Pair>;
-
-/// All passes of each set over the fastest of the set.
-pub fn over_fastest(sets: &[Vec<usize>], medians: &[f64]) -> Vec<Pair> {
+/// Of each set of passes all others with the fastest one, as pairs.
+fn over_fastest(sets: &[Vec<usize>], medians: &[f64]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for set in sets {
         let fastest = set.iter().copied().min_by(|a, b| medians[*a].total_cmp(&medians[*b]));
-        let others = |fastest| {
-            set.iter().filter(move |one| **one != fastest).map(move |one| [*one, fastest])
-        };
-        pairs.extend(fastest.into_iter().flat_map(others));
+        let Some(fastest) = fastest else { continue };
+        pairs.extend(set.iter().filter(|one| **one != fastest).map(|one| [*one, fastest]));
     }
     pairs
 }
 
-/// Times passes in the same rounds.
+/// Times passes in the same rounds. The passes of each set are to be compared with each other.
 pub fn compare(
     passes: &mut [Pass<'_>],
     timing: Timing,
-    wanted: PairsOfInterest<'_>,
+    sets: &[Vec<usize>],
     progress: &dyn Fn(f64),
 ) -> Vec<Times> {
     let (start, used) = (Instant::now(), Clock::Threads.now());
@@ -407,7 +399,7 @@ pub fn compare(
     };
     let (times, noise) = match timing.rounds {
         Some(1) => (first.iter().map(|ns| vec![*ns]).collect(), None),
-        fixed => in_rounds(&first, fixed, wanted, &mut run, &mut has_time),
+        fixed => in_rounds(&first, fixed, sets, &mut run, &mut has_time),
     };
     let mut times = Times::of(times, noise);
     for ((times, wall), pass) in times.iter_mut().zip(wall).zip(passes) {
@@ -427,18 +419,18 @@ fn keep_heap() {
     drop(std::hint::black_box(vec![0u8; 31 << 20]));
 }
 
-/// Runs rounds until all that is wanted is settled or the time is over; `run` takes the number of a pass and returns its time.
+/// Runs rounds until all passes of each set are told from the fastest or the time is over; `run` takes the number of a pass and returns its time.
 /// Returns the times by pass, and the noise.
 fn in_rounds(
     first: &[f64],
     fixed: Option<usize>,
-    wanted: PairsOfInterest<'_>,
+    sets: &[Vec<usize>],
     run: &mut dyn FnMut(usize) -> f64,
     has_time: &mut dyn FnMut(usize) -> bool,
 ) -> (Vec<Vec<f64>>, Option<Ratio>) {
     // The pass that others are compared with runs a second time in each round, under the last number.
     let twin = first.len();
-    let of_twin = wanted(first).first().map_or(0, |pair| pair[1]);
+    let of_twin = over_fastest(sets, first).first().map_or(0, |pair| pair[1]);
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); twin + 1];
     let mut order = Order::new((0..=twin).collect());
     let mut rounds = 0;
@@ -456,7 +448,7 @@ fn in_rounds(
         }
         let medians: Vec<f64> =
             times[..twin].iter().map(|ns| Spread::of(ns.clone()).median).collect();
-        let mut pairs = wanted(&medians);
+        let mut pairs = over_fastest(sets, &medians);
         let noise = ratio(&times[twin], &times[of_twin]).off_one();
         pairs.retain(|&[a, b]| ratio(&times[a], &times[b]).widened(noise * BETWEEN).is_wide());
         if pairs.is_empty() {
@@ -622,14 +614,13 @@ mod tests {
         fn compare(mut self, most: usize) -> (Vec<Vec<f64>>, Option<Ratio>, usize) {
             let first = self.ns.clone();
             let all = vec![(0..first.len()).collect::<Vec<_>>()];
-            let wanted = |medians: &[f64]| over_fastest(&all, medians);
             let mut rounds = 0;
             let mut has_time = |done: usize| {
                 rounds = done;
                 done < most
             };
             let (times, noise) =
-                in_rounds(&first, None, &wanted, &mut |pass| self.time(pass), &mut has_time);
+                in_rounds(&first, None, &all, &mut |pass| self.time(pass), &mut has_time);
             (times, noise, rounds)
         }
     }
@@ -671,9 +662,8 @@ mod tests {
             pass => [1.0, 0.0, 20.0][pass],
         };
         let sets = [vec![0, 1, 2]];
-        let wanted = |medians: &[f64]| over_fastest(&sets, medians);
         let mut has_time = |rounds: usize| rounds < 100;
-        let (times, _) = in_rounds(&[1.0, 1.1, 20.0], None, &wanted, &mut run, &mut has_time);
+        let (times, _) = in_rounds(&[1.0, 1.1, 20.0], None, &sets, &mut run, &mut has_time);
         assert_eq!((times[2].len(), times[1].len()), (LOOKS[0], 100));
         let times = Times::of(times, None);
         assert_eq!(times[2].over(&times[0]).unwrap().said(), RatioKind::Holds);
@@ -687,10 +677,10 @@ mod tests {
         let mean = |ns: &[f64]| ns.iter().sum::<f64>() / ns.len() as f64;
         let mut machine = heavy();
         let fixed = Some(240);
-        let wanted = |_: &[f64]| vec![[0, 1], [2, 1]];
+        let sets = [vec![0, 1], vec![2, 1]];
         let first = machine.ns.clone();
         let (times, _) =
-            in_rounds(&first, fixed, &wanted, &mut |pass| machine.time(pass), &mut |_| true);
+            in_rounds(&first, fixed, &sets, &mut |pass| machine.time(pass), &mut |_| true);
         let fair = mean(&times[1]) / mean(&times[2]);
         assert!((fair - 1.0).abs() < 0.02, "{fair}");
         let (mut turning, mut times) = (heavy(), [Vec::new(), Vec::new(), Vec::new()]);
@@ -708,7 +698,7 @@ mod tests {
     fn other_rounds_are_not_compared() {
         let mut times = (0..2).flat_map(|_| {
             let mut passes = [Pass::new(|| ())];
-            compare(&mut passes, Timing::ONCE, &|_| Vec::new(), &|_| ())
+            compare(&mut passes, Timing::ONCE, &[], &|_| ())
         });
         let (a, b) = (times.next().unwrap(), times.next().unwrap());
         assert_eq!(a.over(&a), Some(Ratio::ONE));

@@ -18,23 +18,14 @@ const APART: f64 = 1e-4;
 const SIDE_PX: usize = 64;
 const TILE: usize = SIDE_PX * SIDE_PX;
 
-/// Two layers over a tile of pixels, as the depths at three of its corners.
-struct Layers {
-    /// Distances from the eye at the corners (0, 0), (SIDE, 0), (0, SIDE) of the front layer.
-    front: [f64; 3],
-}
-
-impl Layers {
-    fn back(&self) -> [f64; 3] {
-        self.front.map_array(|z| z * (1.0 + APART))
-    }
-}
+/// Two layers over a tile of pixels: the distances from the eye at the corners (0, 0), (SIDE, 0), (0, SIDE) of the front one.
+type Layers = [f64; 3];
 
 fn layers(seed: u64, name: &str, z: f64, count: usize) -> Vec<Layers> {
     let mut rng = Rng::new(name, seed, 2);
     // Slanted by up to a percent of the distance, within the planes.
     let near = |rng: &mut Rng| (z * (1.0 + 0.01 * rng.signed())).clamp(NEAR, FAR / (1.0 + APART));
-    (0..count).map(|_| Layers { front: [(); 3].map_array(|()| near(&mut rng)) }).collect()
+    (0..count).map(|_| [(); 3].map_array(|()| near(&mut rng))).collect()
 }
 
 /// Depth over a tile as a plane, at pixel centres, in the float of the format.
@@ -63,19 +54,19 @@ impl<T: Real> DepthPlane<T> {
 /// front one got.
 #[inline]
 fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Entry], colours: &mut [u8]) {
-    for (layers, (held, colours)) in
+    for (front, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
     {
-        let back = DepthPlane::<F::Float>::new::<F>(layers.back());
+        let back = DepthPlane::<F::Float>::new::<F>(front.map_array(|z| z * (1.0 + APART)));
         for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
             *held = F::store(back.at(i % SIDE_PX, i / SIDE_PX));
             *colour = 1;
         }
     }
-    for (layers, (held, colours)) in
+    for (front, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
     {
-        let front = DepthPlane::<F::Float>::new::<F>(layers.front);
+        let front = DepthPlane::<F::Float>::new::<F>(*front);
         for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
             let depth = F::store(front.at(i % SIDE_PX, i / SIDE_PX));
             if F::hides(depth, *held) {

@@ -1,6 +1,5 @@
 //! From choices and columns to boards: what each choice gets wrong of a column, then the times of all in the same rounds.
 
-use super::clock::over_fastest;
 use super::entry::{Entry, PreparedColumns};
 use super::{
     Board, Cell, Choice, Column, CostOptions, ExternalChoice, Ladder, Measure, Pass, Run, Time,
@@ -65,8 +64,7 @@ fn time_column(
             sets.push((0..places.len()).filter(is_exact).collect());
         }
     }
-    let wanted = |medians: &[f64]| over_fastest(&sets, medians);
-    let times = compare(&mut passes, timing, &wanted, progress);
+    let times = compare(&mut passes, timing, &sets, progress);
     let Some(fastest) = times.iter().min_by(|a, b| a.median().total_cmp(&b.median())) else {
         return;
     };

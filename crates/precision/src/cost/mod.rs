@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
 pub use bounds::Bound;
-pub use clock::{CELLS, Clock, Pair, Pass, Ratio, RatioKind, Spread, Times, Timing, compare};
+pub use clock::{CELLS, Clock, Pass, Ratio, RatioKind, Spread, Times, Timing, compare};
 pub use coverage::ExternalChoice;
 pub use entry::Entry;
 pub use measured::{PreparedCell, add_column, measure, measure_with};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::{Board, Cell, Column, Ratio, Spread};
+use super::{Board, Cell, Choice, Ratio, Run, Spread};
 
 /// A run of `cost`: what was measured, and the command that repeats it.
 #[derive(Clone, Debug, Deserialize)]
@@ -35,96 +35,79 @@ impl Recorded {
     }
 }
 
-/// A board whose parts fit each other.
-struct Fitting(Board);
-
-impl<'de> Deserialize<'de> for Fitting {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let board = Board::deserialize(from)?;
-        match misfit(&board) {
-            None => Ok(Self(board)),
-            Some(what) => Err(de::Error::custom(format!("board {}: {what}", board.ladder.name()))),
-        }
-    }
-}
-
-/// Boards that fit each other: each group once, and both groups of coverage on the same scenes.
+/// Boards whose parts fit each other.
 fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
-    let boards: Vec<Board> =
-        Vec::<Fitting>::deserialize(from)?.into_iter().map(|fitting| fitting.0).collect();
-    let mut seen = Vec::new();
-    for board in &boards {
-        if seen.contains(&board.ladder) {
-            return Err(de::Error::custom(format!("two boards of {}", board.ladder.name())));
-        }
-        seen.push(board.ladder);
-    }
-    let mut coverage = boards.iter().filter(|board| board.ladder.is_coverage());
-    if let (Some(a), Some(b)) = (coverage.next(), coverage.next())
-        && a.columns.iter().map(named).ne(b.columns.iter().map(named))
-    {
-        return Err(de::Error::custom("scanline and edge-function are of different scenes"));
-    }
+    let boards: Vec<Board> = Vec::deserialize(from)?;
+    let fit = boards.iter().try_for_each(|board| {
+        check(board).map_err(|what| format!("board {}: {what}", board.ladder.name()))
+    });
+    fit.and_then(|()| check_all(&boards)).map_err(de::Error::custom)?;
     Ok(boards)
 }
 
-fn named(column: &Column) -> (&str, u64, u64) {
-    (&column.name, column.items, column.pixels)
+/// Checks that there is each group once, and that both groups of coverage are of the same scenes.
+fn check_all(boards: &[Board]) -> Result<(), String> {
+    for (number, board) in boards.iter().enumerate() {
+        let is_again = boards[..number].iter().any(|other| other.ladder == board.ladder);
+        fits(!is_again, || format!("two boards of {}", board.ladder.name()))?;
+    }
+    let scenes = |board: &Board| {
+        let columns = board.columns.iter();
+        columns.map(|one| (one.name.clone(), one.items, one.pixels)).collect::<Vec<_>>()
+    };
+    let coverage = boards.iter().filter(|board| board.ladder.is_coverage()).map(scenes);
+    let coverage: Vec<_> = coverage.collect();
+    let is_same = coverage.windows(2).all(|both| both[0] == both[1]);
+    fits(is_same, || "scanline and edge-function are of different scenes".to_owned())
 }
 
-/// What does not fit in a board. Everything that shows boards relies on these.
-fn misfit(board: &Board) -> Option<String> {
-    let (choices, columns, measures) =
-        (board.choices.len(), board.columns.len(), board.measures.len());
+fn fits(is_so: bool, otherwise: impl FnOnce() -> String) -> Result<(), String> {
+    if is_so { Ok(()) } else { Err(otherwise()) }
+}
+
+/// Checks that the parts of a board fit. Everything that shows boards relies on this.
+fn check(board: &Board) -> Result<(), String> {
+    let (choices, columns) = (board.choices.len(), board.columns.len());
+    let measures = board.measures.len();
     // The first measure is the error of the plots; of coverage all four are asked for by number.
     let least = if board.ladder.is_coverage() { 4 } else { 1 };
-    if measures < least {
-        return Some(format!("{measures} measures, and at least {least} are needed"));
+    fits(measures >= least, || format!("{measures} measures, and at least {least} are needed"))?;
+    let rows = board.cells.len();
+    fits(rows == choices, || format!("{rows} rows of cells for {choices} choices"))?;
+    for noise in board.columns.iter().filter_map(|column| column.noise) {
+        check_ratio(noise)?;
     }
-    if board.cells.len() != choices {
-        return Some(format!("{} rows of cells for {choices} choices", board.cells.len()));
-    }
-    let noises = board.columns.iter().filter_map(|column| column.noise);
-    if let Some(noise) = noises.map(of_ratio).find(|noise| !are_sorted(noise)) {
-        return Some(format!("{noise:?} are not the interval of a ratio"));
-    }
-    for (choice, row) in board.choices.iter().zip(&board.cells) {
-        let name = &choice.name;
-        if row.len() != columns {
-            return Some(format!("{} cells of choice {name} for {columns} columns", row.len()));
-        }
-        if let Some(promise) = choice.promises.iter().find(|&&measure| measure >= measures) {
-            return Some(format!("choice {name} promises measure {promise} of {measures}"));
+    for (Choice { name, promises, .. }, row) in board.choices.iter().zip(&board.cells) {
+        let cells = row.len();
+        fits(cells == columns, || format!("{cells} cells of choice {name} for {columns} columns"))?;
+        for promise in promises {
+            let is_one = *promise < measures;
+            fits(is_one, || format!("choice {name} promises measure {promise} of {measures}"))?;
         }
         for (column, run) in board.columns.iter().zip(row.iter().map(Cell::run)) {
-            let Some(run) = run else { continue };
+            let Some(Run { errors, time, .. }) = run else { continue };
             let place = format!("{name} on {}", column.name);
-            if run.errors.len() != measures {
-                let errors = run.errors.len();
-                return Some(format!("{place} has {errors} errors for {measures} measures"));
+            let count = errors.len();
+            fits(count == measures, || {
+                format!("{place} has {count} errors for {measures} measures")
+            })?;
+            for error in errors.iter().flatten() {
+                fits(*error >= 0.0, || format!("{place} has an error of {error}"))?;
             }
-            if let Some(error) = run.errors.iter().flatten().find(|error| **error < 0.0) {
-                return Some(format!("{place} has an error of {error}"));
-            }
-            let Some(time) = &run.time else { continue };
+            let Some(time) = time else { continue };
             let Spread { low, median, high } = time.pixel_ns;
-            let both = [
-                ([low, median, high], "quartiles of times"),
-                (of_ratio(time.times), "interval of a ratio"),
-            ];
-            if let Some((numbers, what)) = both.iter().find(|(numbers, _)| !are_sorted(numbers)) {
-                return Some(format!("{place}: {numbers:?} are not the {what}"));
-            }
+            check_three([low, median, high], "quartiles of times")?;
+            check_ratio(time.times)?;
         }
     }
-    None
+    Ok(())
 }
 
-fn of_ratio(ratio: Ratio) -> [f64; 3] {
-    [ratio.low, ratio.median, ratio.high]
+fn check_ratio(Ratio { low, median, high, .. }: Ratio) -> Result<(), String> {
+    check_three([low, median, high], "interval of a ratio")
 }
 
-/// Whether three numbers may be of times.
-fn are_sorted(&[low, median, high]: &[f64; 3]) -> bool {
-    0.0 <= low && low <= median && 0.0 < median && median <= high
+fn check_three([low, median, high]: [f64; 3], what: &str) -> Result<(), String> {
+    let is_sorted = 0.0 <= low && low <= median && 0.0 < median && median <= high;
+    fits(is_sorted, || format!("{low}, {median}, {high} are not the {what}"))
 }

@@ -41,78 +41,54 @@ pub struct Size {
     pub pixels: u64,
 }
 
-/// A class: its name, what it is, the largest w, and how it is made.
-struct Class {
-    name: &'static str,
-    about: &'static str,
-    ratio: f64,
-    make: fn(&mut Rng, &Size) -> Vec<Corners>,
-}
-
 type Point = [f64; 2];
 type Corners = [Point; 3];
 
-const fn class(
-    name: &'static str,
-    about: &'static str,
-    ratio: f64,
-    make: fn(&mut Rng, &Size) -> Vec<Corners>,
-) -> Class {
-    Class { name, about, ratio, make }
-}
+/// A class: its name, what it is, the largest w, and how it is made.
+type Class = (&'static str, &'static str, f64, fn(&mut Rng, &Size) -> Vec<Corners>);
 
 const CLASSES: [Class; 12] = [
-    class("large", "a tenth of the window each", 4.0, large),
-    class("25 px", "25 px each", 4.0, |rng, size| compact(rng, size, 25.0)),
-    class("<8 px", "under 8 px each", 4.0, small),
-    class("sliver", "half a window long, 1/2 to 2 px wide", 4.0, sliver),
-    class("half", "corners on pixel centres: ties everywhere", 4.0, half),
-    class(
-        "tie",
-        "an edge through a sample, an end moved by at most an ulp of f32 or f64",
-        4.0,
-        tie,
-    ),
-    class("far", "1000 px each, 2^14 px from the origin", 4.0, thousand),
-    class(
-        "mesh",
-        "a net of shared edges, many through or past a sample by an ulp of f32 or f64",
-        4.0,
-        mesh,
-    ),
-    class("w 1", "1000 px each, equal w", 1.0, thousand),
-    class("w 4", "1000 px each, w ratio up to 4", 4.0, thousand),
-    class("w 100", "1000 px each, w ratio up to 100", 100.0, thousand),
-    class("w 1e4", "1000 px each, w ratio up to 10,000", 1e4, thousand),
+    ("large", "a tenth of the window each", 4.0, large),
+    ("25 px", "25 px each", 4.0, |rng, size| compact(rng, size, 25.0)),
+    ("<8 px", "under 8 px each", 4.0, small),
+    ("sliver", "half a window long, 1/2 to 2 px wide", 4.0, sliver),
+    ("half", "corners on pixel centres: ties everywhere", 4.0, half),
+    ("tie", "an edge through a sample, an end moved by at most an ulp of f32 or f64", 4.0, tie),
+    ("far", "1000 px each, 2^14 px from the origin", 4.0, thousand),
+    ("mesh", MESH, 4.0, mesh),
+    ("w 1", "1000 px each, equal w", 1.0, thousand),
+    ("w 4", "1000 px each, w ratio up to 4", 4.0, thousand),
+    ("w 100", "1000 px each, w ratio up to 100", 100.0, thousand),
+    ("w 1e4", "1000 px each, w ratio up to 10,000", 1e4, thousand),
 ];
+
+const MESH: &str = "a net of shared edges, many through or past a sample by an ulp of f32 or f64";
 
 pub fn scenes(seed: u64, size: Size) -> Vec<Scene> {
     CLASSES.iter().map(|class| scene(class, seed, size)).collect()
 }
 
-fn scene(class: &Class, seed: u64, size: Size) -> Scene {
-    let mut rng = Rng::new(class.name, seed, 0);
-    let corners = (class.make)(&mut rng, &size);
-    let offset = if class.name == "far" { FAR_PX } else { 0 };
-    let side = size.side_px as i32;
-    let has_ties = matches!(class.name, "tie" | "mesh");
+fn scene(&(name, about, ratio, make): &Class, seed: u64, size: Size) -> Scene {
+    let mut rng = Rng::new(name, seed, 0);
+    let corners = make(&mut rng, &size);
+    let offset = if name == "far" { FAR_PX } else { 0 };
+    let has_ties = matches!(name, "tie" | "mesh");
     let round = |v: f64| if has_ties { v } else { f32_of(v) };
-    let to = offset + side;
+    let to = offset + size.side_px as i32;
     let triangles: Vec<_> = corners
         .into_iter()
         .map(|corners| corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset)))))
         .filter_map(|corners| FreeCorners::new(corners).ok())
         .collect();
-    let w =
-        triangles.iter().map(|_| [(); 3].map_array(|()| spread(&mut rng, class.ratio))).collect();
+    let w = triangles.iter().map(|_| [(); 3].map_array(|()| spread(&mut rng, ratio))).collect();
     Scene {
-        name: class.name,
-        about: class.about,
+        name,
+        about,
         bounds: PixelRect { x0: offset, y0: offset, x1: to, y1: to },
         triangles,
         w,
         values: Vec::new(),
-        interior: (class.name == "mesh").then(|| interior(&size)),
+        interior: (name == "mesh").then(|| interior(&size)),
     }
 }
 
@@ -138,13 +114,10 @@ fn large(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 
 /// Areas of 1 to 8 px.
 fn small(rng: &mut Rng, size: &Size) -> Vec<Corners> {
-    (0..size.pixels / 4)
-        .map(|_| {
-            let area_px = 1.0 + 7.0 * rng.unit();
-            let shape = shape(rng, area_px);
-            place(rng, size, shape)
-        })
-        .collect()
+    placed(rng, size, size.pixels / 4, |rng| {
+        let area_px = 1.0 + 7.0 * rng.unit();
+        shape(rng, area_px)
+    })
 }
 
 fn thousand(rng: &mut Rng, size: &Size) -> Vec<Corners> {
@@ -153,12 +126,7 @@ fn thousand(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 
 fn compact(rng: &mut Rng, size: &Size, area_px: f64) -> Vec<Corners> {
     let count = (size.pixels / area_px as u64).max(2);
-    (0..count)
-        .map(|_| {
-            let shape = shape(rng, area_px);
-            place(rng, size, shape)
-        })
-        .collect()
+    placed(rng, size, count, |rng| shape(rng, area_px))
 }
 
 /// A triangle of the given area that is not thin: three points of a square, scaled.
@@ -174,36 +142,41 @@ fn shape(rng: &mut Rng, area_px: f64) -> Corners {
     }
 }
 
-/// Puts a shape somewhere in the window, a pixel away from its border at least.
-fn place(rng: &mut Rng, size: &Size, shape: Corners) -> Corners {
-    let mut offset = |axis: usize| {
-        let [a, b, c] = shape.map_array(|p| p[axis]);
-        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        1.0 - min + rng.unit() * (f64::from(size.side_px) - 2.0 - (max - min)).max(0.0)
+/// So many shapes, each put somewhere in the window, a pixel away from its border at least.
+fn placed(
+    rng: &mut Rng,
+    size: &Size,
+    count: u64,
+    shape: impl Fn(&mut Rng) -> Corners,
+) -> Vec<Corners> {
+    let place = |_| {
+        let shape = shape(rng);
+        let mut offset = |axis: usize| {
+            let [a, b, c] = shape.map_array(|p| p[axis]);
+            let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+            1.0 - min + rng.unit() * (f64::from(size.side_px) - 2.0 - (max - min)).max(0.0)
+        };
+        let (dx, dy) = (offset(0), offset(1));
+        shape.map_array(|[x, y]| [x + dx, y + dy])
     };
-    let (dx, dy) = (offset(0), offset(1));
-    shape.map_array(|[x, y]| [x + dx, y + dy])
+    (0..count).map(place).collect()
 }
 
 fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let length = f64::from(size.side_px) / 2.0;
     // A quarter of the pixels: the bounding box of a sliver holds many times more.
     let count = (size.pixels as f64 / (length * 2.4)).max(8.0) as u64;
-    (0..count)
-        .map(|_| {
-            // Within the unit circle, so that no direction is preferred.
-            let (x, y, norm) = loop {
-                let (x, y) = (rng.signed(), rng.signed());
-                let norm = (x * x + y * y).sqrt();
-                if norm > 0.1 && norm < 1.0 {
-                    break (x / norm, y / norm, 0.5 + 1.5 * rng.unit());
-                }
-            };
-            let half = norm / 2.0;
-            let shape = [[x * length, y * length], [-y * half, x * half], [y * half, -x * half]];
-            place(rng, size, shape)
-        })
-        .collect()
+    placed(rng, size, count, |rng| {
+        // Within the unit circle, so that no direction is preferred.
+        loop {
+            let (x, y) = (rng.signed(), rng.signed());
+            let norm = (x * x + y * y).sqrt();
+            if norm > 0.1 && norm < 1.0 {
+                let (x, y, half) = (x / norm, y / norm, (0.5 + 1.5 * rng.unit()) / 2.0);
+                return [[x * length, y * length], [-y * half, x * half], [y * half, -x * half]];
+            }
+        }
+    })
 }
 
 /// Corners on centres within a box of 32 px.

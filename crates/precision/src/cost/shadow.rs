@@ -9,26 +9,21 @@ use super::{Choice, Column, CostOptions};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_core::random::Rng;
 
-struct Class {
-    name: &'static str,
-    /// The distance is 2 to the minus this.
-    apart: i32,
-    /// The largest slope for a texel of a thousand.
-    slope: f64,
-}
+/// A name, how far apart the surfaces are, as the exponent of 1/2, and the largest slope for a texel of a thousand.
+type Class = (&'static str, i32, f64);
 
 /// The tangent of an angle of 10 degrees.
 const SLOPE: f64 = 0.176;
 
 const CLASSES: [Class; 8] = [
-    Class { name: "2^-12", apart: 12, slope: 0.0 },
-    Class { name: "2^-17", apart: 17, slope: 0.0 },
-    Class { name: "2^-20", apart: 20, slope: 0.0 },
-    Class { name: "2^-25", apart: 25, slope: 0.0 },
-    Class { name: "2^-28", apart: 28, slope: 0.0 },
-    Class { name: "2^-33", apart: 33, slope: 0.0 },
-    Class { name: "10d 2^-8", apart: 8, slope: SLOPE },
-    Class { name: "10d 2^-12", apart: 12, slope: SLOPE },
+    ("2^-12", 12, 0.0),
+    ("2^-17", 17, 0.0),
+    ("2^-20", 20, 0.0),
+    ("2^-25", 25, 0.0),
+    ("2^-28", 28, 0.0),
+    ("2^-33", 33, 0.0),
+    ("10d 2^-8", 8, SLOPE),
+    ("10d 2^-12", 12, SLOPE),
 ];
 
 /// Texels along a side of a tile. The left half of a tile has a second surface before it.
@@ -46,13 +41,13 @@ pub(super) struct Tile {
     place: [f64; 2],
 }
 
-fn tiles(seed: u64, class: &Class, count: usize) -> Vec<Tile> {
-    let mut rng = Rng::new(class.name, seed, 4);
+fn tiles(seed: u64, &(name, apart, slope): &Class, count: usize) -> Vec<Tile> {
+    let mut rng = Rng::new(name, seed, 4);
     let mut tile = || {
-        let slope = [(); 2].map(|()| rng.signed() * class.slope / MAP);
+        let slope = [(); 2].map(|()| rng.signed() * slope / MAP);
         let start = 0.25 + 0.5 * rng.unit();
         let place = [(); 2].map(|()| rng.unit());
-        Tile { receiver: DepthPlane { start, slope }, apart: 0.5f64.powi(class.apart), place }
+        Tile { receiver: DepthPlane { start, slope }, apart: 0.5f64.powi(apart), place }
     };
     (0..count).map(|_| tile()).collect()
 }
@@ -131,10 +126,10 @@ pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Vec<Tile>> 
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
     let column = move |class: &Class| {
-        let is_flat = class.slope == 0.0;
-        let slope = if is_flat { "facing the light" } else { "sloping by up to 10 degrees" };
-        let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
-        let column = Column::new(class.name, about, count as u64, (count * TILE) as u64);
+        let (name, apart, slope) = class;
+        let slope = if *slope == 0.0 { "facing the light" } else { "sloping by up to 10 degrees" };
+        let about = format!("surfaces {slope}, 2^-{apart} of the map's depth apart");
+        let column = Column::new(name, about, count as u64, (count * TILE) as u64);
         (column, tiles(options.seed, class, count))
     };
     let why = "shadows depend on the depths of surfaces, not on their shapes";
@@ -146,7 +141,7 @@ mod tests {
     use super::*;
 
     fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
-        let class = CLASSES.iter().find(|class| class.name == name).unwrap();
+        let class = CLASSES.iter().find(|class| class.0 == name).unwrap();
         let tiles = tiles(3, class, 64);
         let errors = entry::<F>("", "").judge(&tiles).unwrap().errors;
         [errors[0].unwrap(), errors[1].unwrap()]

@@ -51,10 +51,12 @@ impl<'a> JudgedChoice<'a> {
 
     #[must_use]
     pub fn over(&self, other: &Self) -> Option<Ratio> {
-        match self.number == other.number && std::ptr::eq(self.board, other.board) {
-            true => Some(Ratio::ONE),
-            false => self.times()?.over(other.times()?),
-        }
+        if self.is(other) { Some(Ratio::ONE) } else { self.times()?.over(other.times()?) }
+    }
+
+    #[must_use]
+    pub fn is(&self, other: &Self) -> bool {
+        self.number == other.number && std::ptr::eq(self.board, other.board)
     }
 
     fn pixel_ns(&self) -> Option<f64> {
@@ -123,7 +125,8 @@ impl Board {
     /// Whether an error was measured and is as good as none.
     #[must_use]
     pub fn meets(&self, choice: usize, column: usize, measure: usize) -> bool {
-        let both = self.error(choice, column, measure).zip(self.measures[measure].goal);
+        let goal = self.measures.get(measure).and_then(|measure| measure.goal);
+        let both = self.error(choice, column, measure).zip(goal);
         both.is_some_and(|(error, goal)| error <= goal) && self.columns[column].is_judged()
     }
 

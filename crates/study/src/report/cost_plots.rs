@@ -25,49 +25,51 @@ const RADIUS: f64 = 3.5;
 
 struct Dot {
     label: String,
-    time: f64,
-    /// First and last quartile of the time.
-    quartiles: [f64; 2],
+    /// Quartiles: a line from the first to the last one, and a disc at the median.
+    time: [f64; 3],
     /// `None` on the shelf.
     error: Option<f64>,
-    good: bool,
-    /// Good against the snapped vertices only.
-    hollow: bool,
-    cracked: bool,
-    /// Whether it is the cheapest exact one.
-    best: bool,
+    /// Green where it is good, as a ring where it is so against the snapped vertices only.
+    ink: Ink,
+    is_hollow: bool,
+    /// A circle around it: of the cheapest exact one, or a red one where a mesh has cracks.
+    around: Option<Ink>,
 }
 
 struct Panel {
     head: String,
     up: String,
-    right: String,
+    right: &'static str,
     /// An error that is drawn as a line, since many dots would have it.
     snapping: Option<f64>,
     dots: Vec<Dot>,
 }
 
 /// Error against time, a panel for each column of each board, as many in a row as are said, or fewer and wider ones. The
-/// first measure is the error. The line through a dot spans the quartiles of its time.
+/// first measure is the error.
 pub fn pareto(boards: &[Board], in_row: usize) -> Drawing {
-    let mut panels = Vec::new();
-    for board in boards {
-        for column in board.columns_run() {
-            let info = &board.columns[column];
-            let of_model = info.sampling.is_some();
-            panels.push(Panel {
-                head: match of_model {
-                    true => board.ladder.title().to_owned(),
-                    false => format!("{}: {}", info.name, info.about),
-                },
-                up: board.measures[0].title.to_string(),
-                right: (if of_model { "time in ms" } else { "time in ns for each pixel" })
-                    .to_owned(),
-                snapping: snapping(board, column).filter(|_| !of_model),
-                dots: dots(board, column, &cheapest_exact(board, column)),
-            });
+    let panel = |board: &Board, column: usize| {
+        let info = &board.columns[column];
+        let up = board.measures[0].title.to_string();
+        let best = |measure| board.cheapest_exact(column, measure);
+        match info.sampling {
+            Some(_) => {
+                let best: Vec<_> = board.ranking().filter_map(best).collect();
+                let (head, dots) = (board.ladder.title().to_owned(), dots(board, column, &best));
+                Panel { head, up, right: "time in ms", snapping: None, dots }
+            }
+            None => Panel {
+                head: format!("{}: {}", info.name, info.about),
+                up,
+                right: "time in ns for each pixel",
+                snapping: snapping(board, column),
+                dots: dots(board, column, best(0).as_slice()),
+            },
         }
-    }
+    };
+    let of_board =
+        |board| Board::columns_run(board).map(move |column| panel(board, column)).collect();
+    let panels = boards.iter().flat_map(|board| -> Vec<Panel> { of_board(board) }).collect();
     match boards {
         [board] if board.columns.iter().all(|column| column.sampling.is_none()) => {
             let title = format!("{}: error against time", board.ladder.title());
@@ -84,28 +86,20 @@ const LEGEND: &str = "green: exact here, as a ring once corners are snapped; blu
 /// The answer in one picture: both groups of coverage on a model, which do the same job, in one panel of this width.
 pub fn coverage_of_model(boards: &[Board], width: f64) -> Drawing {
     let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
-    let mut best = Vec::new();
-    for measure in coverage.first().into_iter().flat_map(|board| board.ranking()) {
-        let all = coverage.iter().flat_map(|board| board.ran(0));
-        best.extend(fastest(all.filter(|choice| choice.is_exact(measure))));
-    }
-    let mut dots = Vec::new();
-    for board in coverage {
-        let best_here: Vec<usize> = best
-            .iter()
-            .filter(|best| best.board.ladder == board.ladder)
-            .map(|best| best.number)
-            .collect();
-        for dot in self::dots(board, 0, &best_here) {
-            dots.push(Dot { label: format!("{} {}", board.ladder.short(), dot.label), ..dot });
-        }
-    }
+    let measures = coverage.first().into_iter().flat_map(|board| board.ranking());
+    let exact = |measure| coverage.iter().flat_map(move |board| board.exact(0, measure));
+    let best: Vec<_> = measures.filter_map(|measure| fastest(exact(measure))).collect();
+    let of_board = |board: &&Board| {
+        let short = board.ladder.short();
+        let dots = dots(board, 0, &best).into_iter();
+        dots.map(move |dot| Dot { label: format!("{short} {}", dot.label), ..dot })
+    };
     let panel = Panel {
         head: String::new(),
         up: "wrong pixels of this view".to_owned(),
-        right: "time in ms".to_owned(),
+        right: "time in ms",
         snapping: None,
-        dots,
+        dots: coverage.iter().flat_map(of_board).collect(),
     };
     drawn("Coverage: error against time", LEGEND, vec![panel], (width, 1))
 }
@@ -117,28 +111,26 @@ fn in_rows_of(in_row: usize) -> (f64, usize) {
 
 /// Pixels that change against time, a dot for each grid and a panel for each engine.
 pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
-    let panel = |engine: &str, time: &dyn Fn(&GridPrice) -> f64| {
+    let panel = |engine: &str, time: fn(&GridPrice) -> f64| {
         let dot = |price: &GridPrice| Dot {
             label: price.bits.map_or("unsnapped".to_owned(), |bits| format!("{bits} bits")),
-            time: time(price),
-            quartiles: [time(price); 2],
+            time: [time(price); 3],
             error: (price.changed > 0).then_some(price.changed as f64),
-            good: price.changed == 0,
-            hollow: false,
-            cracked: false,
-            best: false,
+            ink: if price.changed == 0 { GREEN } else { BLUE },
+            is_hollow: false,
+            around: None,
         };
         Panel {
             head: format!("Coverage by {engine}"),
             up: "px that change".to_owned(),
-            right: "time in ms".to_owned(),
+            right: "time in ms",
             snapping: None,
             dots: prices.iter().map(dot).collect(),
         }
     };
     let panels = vec![
-        panel("scanline", &|price| price.scanline_ms),
-        panel("edge function", &|price| price.edge_function_ms),
+        panel("scanline", |price| price.scanline_ms),
+        panel("edge function", |price| price.edge_function_ms),
     ];
     let legend = "each dot a grid: bits below the pixel; shelf: no pixel changes here\n\
                   up to 8 bits by whole numbers, beyond by the exact engines";
@@ -292,16 +284,8 @@ fn legend(board: &Board) -> &'static str {
     }
 }
 
-/// The cheapest exact choices of a column: of a class by the first measure, of a model by each.
-fn cheapest_exact(board: &Board, column: usize) -> Vec<usize> {
-    let number = |measure: usize| Some(board.cheapest_exact(column, measure)?.number);
-    match board.columns[column].sampling {
-        Some(_) => board.ranking().filter_map(number).collect(),
-        None => number(0).into_iter().collect(),
-    }
-}
-
-fn dots(board: &Board, column: usize, best: &[usize]) -> Vec<Dot> {
+/// The choices of a column, and which of them are the best.
+fn dots(board: &Board, column: usize, best: &[JudgedChoice<'_>]) -> Vec<Dot> {
     let of_model = board.columns[column].sampling.is_some();
     let is_coverage = board.ladder.is_coverage();
     let dot = |choice: JudgedChoice<'_>| {
@@ -312,30 +296,25 @@ fn dots(board: &Board, column: usize, best: &[usize]) -> Vec<Dot> {
         let first = choice.error(0)?;
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
         // vertices as given is the error of snapping, of classes of scenes a line of its own.
-        let is_snapped = match of_model {
-            true => choice.is_exact(1),
-            false => choice.choice().promises.contains(&1),
-        };
-        let hollow = is_coverage && is_snapped && !choice.is_exact(0);
+        let is_snapped = if of_model { choice.is_exact(1) } else { choice.promises(1) };
+        let is_hollow = is_coverage && is_snapped && !choice.is_exact(0);
         // Measures that rank nothing and count pixels of a mesh: cracks.
-        let cracks: f64 = match is_coverage {
-            true => (2..4).filter_map(|measure| choice.error(measure)).sum(),
-            false => 0.0,
-        };
+        let counts = if is_coverage { 2..4 } else { 0..0 };
+        let cracks: f64 = counts.filter_map(|measure| choice.error(measure)).sum();
+        let ink = if is_hollow || choice.is_exact(0) { GREEN } else { BLUE };
+        let is_best = best.iter().any(|best| best.is(&choice));
         let name = choice.name();
         Some(Dot {
-            label: match (hollow && !of_model, cracks > 0.0) {
+            label: match (is_hollow && !of_model, cracks > 0.0) {
                 (true, _) => format!("{name} (snapped)"),
                 (_, true) => format!("{name} ({cracks})"),
                 _ => name.to_owned(),
             },
-            time: spread.median,
-            quartiles: [spread.low, spread.high],
-            error: (first > 0.0 && !hollow).then_some(first),
-            good: hollow || choice.is_exact(0),
-            hollow,
-            cracked: cracks > 0.0,
-            best: best.contains(&choice.number),
+            time: [spread.low, spread.median, spread.high],
+            error: (first > 0.0 && !is_hollow).then_some(first),
+            ink,
+            is_hollow,
+            around: if cracks > 0.0 { Some(RED) } else { is_best.then_some(ink) },
         })
     };
     board.ran(column).filter_map(dot).collect()
@@ -392,7 +371,7 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     let right = format!("right: {}", panel.right);
     drawing.text_before([x1, y1 + shelf + 24.0], &right, SOFT);
     drawing.filled_box([x0, y1], [x1 - x0, shelf], SHELF);
-    let times = dots.iter().flat_map(|d| [d.quartiles[0], d.time, d.quartiles[1]]);
+    let times = dots.iter().flat_map(|dot| dot.time);
     let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
     let snapping = panel.snapping;
     let error = Axis::new(dots.iter().filter_map(|d| d.error).chain(snapping), 0.4, [y1, y0]);
@@ -433,11 +412,11 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
 /// The choices with their places, the fastest first: those without an error stand on the shelf, one below the other.
 fn places<'a>(dots: &'a [Dot], [time, error]: [&Axis; 2], shelf: f64) -> Vec<(&'a Dot, [f64; 2])> {
     let mut all: Vec<&Dot> = dots.iter().collect();
-    all.sort_by(|a, b| a.time.total_cmp(&b.time));
+    all.sort_by(|a, b| a.time[1].total_cmp(&b.time[1]));
     let mut rows = (0..).map(|row| shelf + 10.0 + ROW * f64::from(row));
     let place = |dot: &'a Dot| {
         let y = dot.error.map_or_else(|| rows.next(), |error_of| Some(error.place(error_of)));
-        Some((dot, [time.place(dot.time), y?]))
+        Some((dot, [time.place(dot.time[1]), y?]))
     };
     all.into_iter().filter_map(place).collect()
 }
@@ -448,31 +427,29 @@ fn snapping(board: &Board, column: usize) -> Option<f64> {
     board.error(choice, column, 0).filter(|&error| error > 0.0)
 }
 
+/// Where the first and the last quartile lie.
 fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
-    dot.quartiles.map(|t| if t > 0.0 { time.place(t) } else { time.place(dot.time) })
+    let [low, median, high] = dot.time;
+    [low, high].map(|t| time.place(if t > 0.0 { t } else { median }))
 }
 
+/// Draws a dot, and returns the colour of its label.
 fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
-    let ink = if dot.good { GREEN } else { BLUE };
-    match dot.hollow {
-        true => drawing.ring(at, RADIUS - 0.5, ink),
-        false => drawing.disc(at, RADIUS, ink),
+    match dot.is_hollow {
+        true => drawing.ring(at, RADIUS - 0.5, dot.ink),
+        false => drawing.disc(at, RADIUS, dot.ink),
     }
-    if dot.best {
+    if let Some(ink) = dot.around {
         drawing.ring(at, RADIUS + 3.0, ink);
     }
-    if dot.cracked {
-        drawing.ring(at, RADIUS + 3.0, RED);
-        return RED;
-    }
-    ink
+    dot.around.unwrap_or(dot.ink)
 }
 
 /// Joins the choices to which none is as fast and more accurate: from each there is a step to the next.
 fn frontier(drawing: &mut Drawing, placed: &[(&Dot, [f64; 2])]) {
     let of = |dot: &Dot| dot.error.unwrap_or(0.0);
     let mut before: Option<&(&Dot, [f64; 2])> = None;
-    for next in placed.iter().filter(|(dot, _)| dot.time > 0.0) {
+    for next in placed.iter().filter(|(dot, _)| dot.time[1] > 0.0) {
         if before.is_some_and(|before| of(next.0) >= of(before.0)) {
             continue;
         }
