@@ -73,7 +73,8 @@ pub(super) fn classes<I>(
     let pixels = if options.quick { quick } else { usual };
     scenes(options.seed, Size { side_px, pixels }).into_iter().map(move |mut scene| {
         let made = make(&mut scene);
-        let [items, pixels] = made.as_ref().map_or([0, 0], |(_, counts)| *counts);
+        let none = [scene.triangles.len(), 0];
+        let [items, pixels] = made.as_ref().map_or(none, |(_, counts)| *counts);
         let column = Column::new(scene.name, scene.about, items as u64, pixels as u64);
         (column, made.map(|(input, _)| input))
     })
@@ -85,7 +86,10 @@ pub(super) fn and_no_class<I>(
     columns: impl Iterator<Item = (Column, I)>,
     why: &'static str,
 ) -> impl PreparedColumns<I> {
-    let none = classes(options, (64, [0, 0]), |_| Err(why.to_owned()));
+    let none = classes(options, (64, [0, 0]), |class| {
+        class.triangles.clear();
+        Err(why.to_owned())
+    });
     let own = columns.map(|(column, input)| (column, Ok(input)));
     own.chain(none).collect::<Vec<_>>().into_iter()
 }

@@ -146,6 +146,7 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     let how = (options.seed, if options.quick { 20_000 } else { 300_000 });
     classes(options, (1024, [0, 0]), move |class| {
+        class.triangles.clear();
         let (lines, about) = lines(class.name, how, class.bounds)?;
         class.about = about;
         let truth = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
