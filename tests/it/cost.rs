@@ -1,7 +1,7 @@
 //! What accuracy costs: errors, promises and orderings, which a seed decides. Never times.
 
 use rasterproof_precision::cost::{
-    Board, Cell, CostOptions, Ladder, Recorded, Run, Timing, measure,
+    Board, Cell, CostOptions, Ladder, Ratio, Recorded, Run, Time, Timing, measure,
 };
 use rasterproof_report::json::{pretty, text as as_text};
 use rasterproof_report::{canvas, text};
@@ -176,20 +176,24 @@ fn cost_broken_files_are_refused() {
         let at: usize = at.parse().unwrap();
         assert!((line..=line + 2).contains(&at) && said.contains(what), "{from}, {line}: {told}");
     };
-    refused("\"low\": ", "\"low\": -", "quartiles of times");
-    refused("\"median\": ", "\"median\": -", "quartiles of times");
     refused("\"high\": ", "\"high\": \"?\"", "expected");
     refused("\"group\": \"lines\"", "\"group\": \"stairs\"", "unknown variant `stairs`");
     refused("\"quick\": true", "\"quick\": 1", "invalid type");
     // What concerns a whole board names the place instead.
     type Spoil = fn(&mut Board);
-    let misfits: [(Spoil, &str); 6] = [
+    let misfits: [(Spoil, &str); 9] = [
         (|b| drop(b.cells.pop()), "rows of cells for"),
         (|b| drop(b.cells[1].pop()), "cells of choice"),
         (|b| b.choices[0].promises.push(7), "promises measure 7 of 1"),
         (|b| b.measures.clear(), "0 measures, and at least 1"),
         (|b| first(b).errors.clear(), "has 0 errors for 1 measures"),
         (|b| first(b).errors[0] = Some(-1.0), "has an error of -1"),
+        (|b| time(b).pixel_ns.low = -1.0, "are not the quartiles of times"),
+        (|b| time(b).times.median = 0.0, "are not the interval of a ratio"),
+        (
+            |b| b.columns[0].noise = Some(Ratio { high: 0.5, ..Ratio::ONE }),
+            "1, 1, 0.5 are not the interval",
+        ),
     ];
     for (spoil, what) in misfits {
         // The verdicts of a spoilt board cannot be written, so only the boards are.
@@ -207,6 +211,10 @@ fn cost_broken_files_are_refused() {
     }
     assert!(Recorded::read("").unwrap_err().starts_with("line 1: EOF"));
     assert!(Recorded::read(&good[..good.len() / 2]).is_err());
+}
+
+fn time(board: &mut Board) -> &mut Time {
+    first(board).time.as_mut().unwrap()
 }
 
 fn first(board: &mut Board) -> &mut Run {
