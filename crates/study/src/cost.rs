@@ -56,12 +56,8 @@ pub fn measure(
     Ok(boards)
 }
 
-/// The choices of a group, each with what it gets wrong and what is timed.
-struct Group<'a> {
-    ladder: Ladder,
-    measures: Vec<Measure>,
-    rows: Vec<(Choice, PreparedCell<'a>)>,
-}
+/// A board without columns, and what happens to each of its choices on the model.
+type Group<'a> = (Board, Vec<PreparedCell<'a>>);
 
 /// A group whose choices have entries; `cell` gets the number of each as well.
 fn group<'a, I>(
@@ -70,9 +66,9 @@ fn group<'a, I>(
     entries: Vec<Entry<I>>,
     cell: impl Fn((usize, &Entry<I>)) -> PreparedCell<'a>,
 ) -> Group<'a> {
-    let cells: Vec<_> = entries.iter().enumerate().map(cell).collect();
-    let choices = entries.into_iter().map(|entry| entry.choice);
-    Group { ladder, measures: measures.to_vec(), rows: choices.zip(cells).collect() }
+    let cells = entries.iter().enumerate().map(cell).collect();
+    let choices = entries.into_iter().map(|entry| entry.choice).collect();
+    (Board::new(ladder, 0, measures.to_vec(), choices), cells)
 }
 
 /// The boards of groups that do the same job, with the model as their one column.
@@ -81,12 +77,7 @@ fn boards<'a>(
     sampling: Sampling,
     timing: Timing,
 ) -> Vec<Board> {
-    let (mut boards, mut cells) = (Vec::new(), Vec::new());
-    for Group { ladder, measures, rows } in groups {
-        let (choices, of_group) = rows.into_iter().unzip();
-        boards.push(Board::new(ladder, 0, measures, choices));
-        cells.push(of_group);
-    }
+    let (mut boards, cells): (Vec<Board>, _) = groups.into_iter().unzip();
     add_column(&mut boards, &Column::of_model(sampling), cells, Some(timing), &|_| ());
     boards
 }
@@ -419,8 +410,9 @@ fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
     let (plural, unit) = (sampled.counted(), sampled.unit());
     let title = format!("{plural} that show another piece than exact depths do");
     let measures = vec![Measure::new(title, format!("wrong {unit}"), Some(0.0)).counts(unit)];
-    let rows = DepthFormat::ALL.into_iter().map(row).collect();
-    boards([Group { ladder: Ladder::Depth, measures, rows }], sample.sampling(), timing)
+    let (choices, cells) = DepthFormat::ALL.into_iter().map(row).unzip();
+    let board = Board::new(Ladder::Depth, 0, measures, choices);
+    boards([(board, cells)], sample.sampling(), timing)
 }
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
@@ -509,7 +501,9 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Bo
     let measures = vec![Measure::new(title, "wrong px", Some(0.0))];
     let (pixels, items) = (Part::all(pixels(size)), Part::all(scene.triangles() as u64));
     let sampling = Sampling { items, pixels, judged: pixels, looked_at: None, not_judged: 0 };
-    Ok(boards([Group { ladder: Ladder::Frames, measures, rows }], sampling, timing))
+    let (choices, cells) = rows.into_iter().unzip();
+    let board = Board::new(Ladder::Frames, 0, measures, choices);
+    Ok(boards([(board, cells)], sampling, timing))
 }
 
 /// The most memory of a frame, from the sizes of what it holds: colour and key of each sample, the picture and a copy of it where there is a second buffer, what is noted
@@ -608,12 +602,31 @@ mod tests {
                 ..Sample::of_sizes(&[7], 9).sampling()
             };
             let run = Run { errors: vec![Some(0.0)], ..Run::default() };
-            let rows = vec![(Choice::default(), Ok((run, None)))];
             let measures = vec![Measure::new("", "", Some(0.0))];
-            let group = Group { ladder: Ladder::Depth, measures, rows };
+            let board = Board::new(Ladder::Depth, 0, measures, vec![Choice::default()]);
+            let group = (board, vec![Ok((run, None))]);
             boards([group], sampling, Timing::ONCE)[0].meets(0, 0, 0)
         };
         assert_eq!([is_exact(7), is_exact(0)], [true, false]);
+    }
+
+    #[test]
+    fn sizes_by_hand() {
+        let window = PixelRect::window(10, 10);
+        let of = |choices: Vec<Choice>, name: &str| {
+            let choice = choices.iter().find(|choice| choice.name == name).unwrap();
+            bytes(choice, window, 7)
+        };
+        let edges = || choices_of(coverage::choices(Ladder::EdgeFunction));
+        assert_eq!(of(edges(), "robust"), 400, "32 bits a pixel");
+        assert_eq!(of(edges(), "tiles i32 x 16"), 400 + 7 * 24, "three corners of two numbers");
+        assert_eq!(of(choices_of(interpolation::choices()), "plane"), 400);
+        let of_samples = |name| of(choices_of(antialiasing::choices()), name);
+        assert_eq!([of_samples("4x4 supersample"), of_samples("exact area")], [2400, 800]);
+    }
+
+    fn choices_of<I>(entries: Vec<Entry<I>>) -> Vec<Choice> {
+        entries.into_iter().map(|entry| entry.choice).collect()
     }
 
     #[test]

@@ -243,13 +243,29 @@ pub fn survey_us(scene: &Scene, target: &Target) -> Result<Option<f64>, BadScene
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_render::pipeline::depth::DepthFormat;
+    use rasterproof_render::pipeline::target::Antialias;
+    use rasterproof_render::scene::chapters;
 
     /// Made-up times in which a frame takes half as long without an effect.
     #[test]
-    fn what_does_no_work_saves_nothing() {
+    fn savings_are_shares_of_the_time() {
         let times = Times::of(vec![vec![2.0; 8], vec![1.0; 8]], None);
         let saves = Saves { work: 7, times: times[0].over(&times[1]) };
         assert_eq!(saves.words(), "50% (46 to 53)");
-        assert_eq!(Saves { work: 0, times: None }.words(), "no work");
+    }
+
+    /// Where the work of a frame does not differ, no time is compared.
+    #[test]
+    fn what_does_no_work_saves_nothing() {
+        let scene = chapters::scene("panels", 4.0 / 3.0, 0.0).unwrap();
+        let mut target = Target::new(40, 30, Antialias::None, DepthFormat::Unorm32).unwrap();
+        let subject = (&scene, Drawer::Scanline);
+        let (savings, _) = measure(subject, &mut target, Some(1), false, &|| ()).unwrap();
+        let saves = savings.effects.iter().flat_map(|saving| [saving.alone, saving.last]);
+        let (working, idle): (Vec<_>, Vec<_>) = saves.partition(|saves| saves.work > 0);
+        assert!(working.iter().all(|saves| saves.times.is_some()) && !working.is_empty());
+        assert!(idle.iter().all(|saves| saves.words() == "no work") && !idle.is_empty());
+        assert_eq!(savings.mixtures.len(), working.len());
     }
 }

@@ -1,17 +1,20 @@
 //! A choice with what it does to the input of a column, and the columns of scenes.
 
-use std::cell::{LazyCell, RefCell};
+use std::cell::{OnceCell, RefCell};
 
 use super::scene::{Scene, Size, scenes};
 use super::{Choice, Column, CostOptions, Pass, Run};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 
+type Judge<I> = dyn Fn(&I) -> Result<Run, String>;
+type MakePass<I> = dyn for<'a> Fn(&'a I) -> Result<Pass<'a>, String>;
+
 /// A choice with what it does to the input of a column: any choice of any group.
 pub struct Entry<I> {
     pub choice: Choice,
-    judge: Box<dyn Fn(&I) -> Result<Run, String>>,
-    pass: Box<dyn for<'a> Fn(&'a I) -> Result<Pass<'a>, String>>,
+    judge: Box<Judge<I>>,
+    pass: Box<MakePass<I>>,
 }
 
 impl<I> Entry<I> {
@@ -41,16 +44,19 @@ impl<I> Entry<I> {
 }
 
 /// The frame to which all passes of a column paint, made when the first pass is.
-pub(super) struct Canvas<T>(LazyCell<RefCell<Frame<T>>, Box<dyn FnOnce() -> RefCell<Frame<T>>>>);
+pub(super) struct Canvas<T> {
+    bounds: PixelRect,
+    frame: OnceCell<RefCell<Frame<T>>>,
+}
 
-impl<T: Copy + Default + 'static> Canvas<T> {
+impl<T: Copy + Default> Canvas<T> {
     pub fn new(bounds: PixelRect) -> Self {
-        let frame = move || RefCell::new(Frame::new(bounds, T::default()));
-        Self(LazyCell::new(Box::new(frame)))
+        Self { bounds, frame: OnceCell::new() }
     }
 
     pub fn pass<'a>(&'a self, mut paint: impl FnMut(&mut Frame<T>) + 'a) -> Pass<'a> {
-        let frame = LazyCell::force(&self.0);
+        let new = || RefCell::new(Frame::new(self.bounds, T::default()));
+        let frame = self.frame.get_or_init(new);
         Pass::new(move || paint(&mut frame.borrow_mut()))
     }
 }

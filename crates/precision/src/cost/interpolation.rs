@@ -87,7 +87,7 @@ pub fn input(scene: &Scene, samples: usize) -> Input {
 }
 
 fn entry<T: Real>(
-    name: &'static str,
+    name: impl Into<Name>,
     about: impl Into<Name>,
     bound: Bound,
     body: impl Values + Copy + 'static,
@@ -100,50 +100,34 @@ fn entry<T: Real>(
     })
 }
 
+/// The ways that compute in one float, with the bound of each.
+fn ways<T: Real>() -> Vec<Entry<Input>> {
+    let float = T::NAME;
+    let sixteen = format!("{float}, one division for 16 pixels, as Quake did");
+    let book = format!("{float}, the book's formula with t accumulated");
+    let added_up = format!("{float}, 1/w and v/w accumulated along the row");
+    let direct = format!("{float}, 1/w and v/w at each pixel");
+    let plane = format!("{float}, 1/w and v/w as planes");
+    let offset = (format!("offset {float}"), "exact edge functions as weights");
+    vec![
+        entry::<T>("affine", format!("{float}, w ignored"), Bound::Affine, Affine::<T>::default()),
+        entry::<T>("every 16 px", sixteen, Bound::EverySixteen, EverySixteen::<T>::default()),
+        entry::<T>("book (8)", book, Bound::BookFormula, BookFormula::<T>::default()),
+        entry::<T>("1/w added up", added_up, Bound::Accumulated, Accumulated::<T>::default()),
+        entry::<T>("1/w direct", direct, Bound::Direct, Direct::<T>::default()),
+        entry::<T>("plane", plane, Bound::Plane, Plane::<T>::default()),
+        entry::<T>(offset.0, offset.1, Bound::Offset, Offset::<T>::default()),
+    ]
+}
+
 #[must_use]
 pub fn choices() -> Vec<Entry<Input>> {
-    vec![
-        entry::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
-        entry::<f32>(
-            "every 16 px",
-            "f32, one division for 16 pixels, as Quake did",
-            Bound::EverySixteen,
-            EverySixteen::<f32>::default(),
-        ),
-        entry::<f32>(
-            "book (8)",
-            "f32, the book's formula with t accumulated",
-            Bound::BookFormula,
-            BookFormula::<f32>::default(),
-        ),
-        entry::<f32>(
-            "1/w added up",
-            "f32, 1/w and v/w accumulated along the row",
-            Bound::Accumulated,
-            Accumulated::<f32>::default(),
-        ),
-        entry::<f32>(
-            "1/w direct",
-            "f32, 1/w and v/w at each pixel",
-            Bound::Direct,
-            Direct::<f32>::default(),
-        ),
-        entry::<f32>("plane", "f32, 1/w and v/w as planes", Bound::Plane, Plane::<f32>::default()),
-        entry::<f32>("planes f32 x 16", Planes::default().about(), Bound::Tile, Planes::default()),
-        entry::<f32>(
-            "offset f32",
-            "exact edge functions as weights",
-            Bound::Offset,
-            Offset::<f32>::default(),
-        ),
-        entry::<f64>(
-            "offset f64",
-            "exact edge functions as weights",
-            Bound::Offset,
-            Offset::<f64>::default(),
-        ),
-        entry::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational),
-    ]
+    let planes = Planes::default();
+    let mut choices = ways::<f32>();
+    choices.insert(6, entry::<f32>("planes f32 x 16", planes.about(), Bound::Tile, planes));
+    choices.extend(ways::<f64>().pop());
+    choices.push(entry::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational));
+    choices
 }
 
 /// The span of a row; rows before it may be missing.
@@ -200,23 +184,11 @@ mod tests {
             .fold(0.0, f64::max)
     }
 
-    fn in_both<T: Real>() -> Vec<Entry<Input>> {
-        vec![
-            entry::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
-            entry::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
-            entry::<T>("book", "", Bound::BookFormula, BookFormula::<T>::default()),
-            entry::<T>("accumulated", "", Bound::Accumulated, Accumulated::<T>::default()),
-            entry::<T>("direct", "", Bound::Direct, Direct::<T>::default()),
-            entry::<T>("plane", "", Bound::Plane, Plane::<T>::default()),
-            entry::<T>("offset", "", Bound::Offset, Offset::<T>::default()),
-        ]
-    }
-
     /// Every choice keeps its derived bound, in either float; and none of the bounds is idle.
     #[test]
     fn bounds_are_kept() {
         for (number, choice) in
-            in_both::<f32>().into_iter().chain(in_both::<f64>()).chain(choices()).enumerate()
+            ways::<f32>().into_iter().chain(ways::<f64>()).chain(choices()).enumerate()
         {
             let shares: Vec<f64> = (1..=3).map(|seed| worst(&choice, seed)).collect();
             let name = (number, choice.choice.name);

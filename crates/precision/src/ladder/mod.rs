@@ -29,6 +29,7 @@ use rasterproof_core::triangle::{Corners, FreeCorners, Span};
 pub trait Real:
     Float + Default + AsPrimitive<i32> + AsPrimitive<f64> + Send + Sync + 'static
 {
+    const NAME: &'static str;
     /// Unit roundoff: the largest relative error of one operation.
     const UNIT: f64;
     fn of(value: f64) -> Self;
@@ -36,6 +37,7 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    const NAME: &'static str = "f32";
     const UNIT: f64 = 1.0 / (1u64 << 24) as f64;
     const HALF: Self = 0.5;
     #[inline]
@@ -45,6 +47,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    const NAME: &'static str = "f64";
     const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
     const HALF: Self = 0.5;
     #[inline]
