@@ -12,14 +12,12 @@ use rasterproof::oracle::Oracle;
 use rasterproof::triangle::{Corners, Span};
 use rasterproof_core::frame::Coverage;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_judge::Options;
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::designs::{self, Shares};
 use rasterproof_report::words::thousands;
-use rasterproof_verify::cases::facts::asked::{AskedClasses, DesignShare};
-use rasterproof_verify::cases::facts::{self, Topic};
+use rasterproof_verify::cases::facts;
 use rasterproof_verify::comparison::{Convention, Watch, caught};
-use rasterproof_verify::partition::{self, Coordinates, Family as PolygonFamily};
 
 /// What is wrong of a span that is right: it is changed, or dropped.
 type Fault = fn(&[[i64; 2]; 3], PixelRect, Span) -> Option<Span>;
@@ -168,107 +166,6 @@ fn check_tables(tables: &[PageTable], test: &str) {
     renewal.check(test);
 }
 
-/// What of all pairs and triples is asked.
-struct Shares {
-    whole: DesignShare,
-    /// By 1,000 cases of the design, by the default numbers of `judge` and `verify` (nothing where it does not ask the design), and by
-    /// 100,000 cases.
-    by_design: [Option<AskedClasses>; 4],
-    by_families: AskedClasses,
-}
-
-/// The default numbers of cases of a design, in `judge` and in `verify`.
-type Defaults = [Option<u64>; 2];
-
-/// The numbers of cases by which shares are counted.
-fn counts([of_judge, of_verify]: Defaults) -> [Option<u64>; 4] {
-    [Some(1000), of_judge, of_verify, Some(100_000)]
-}
-
-impl Shares {
-    fn percent(&self, asked: &AskedClasses) -> [f64; 2] {
-        let percent = |part: usize, of: usize| 100.0 * part as f64 / of as f64;
-        [percent(asked.pairs, self.whole.of_pairs), percent(asked.triples, self.whole.of_triples)]
-    }
-
-    fn row(&self) -> String {
-        let DesignShare { family, facts, classes, of_pairs, of_triples, .. } = &self.whole;
-        let share = |asked: Option<&AskedClasses>| {
-            let percent = asked.map(|asked| self.percent(asked));
-            percent.map_or("-".to_owned(), |[pairs, triples]| format!("{pairs:.1}/{triples:.1}"))
-        };
-        let all = self.by_design.iter().map(Option::as_ref).chain([Some(&self.by_families)]);
-        let shares: Vec<String> = all.map(share).collect();
-        format!(
-            "| `{family}` | {facts} | {classes} | {} | {} | {} |\n",
-            thousands(*of_pairs as u64),
-            thousands(*of_triples as u64),
-            shares.join(" | ")
-        )
-    }
-}
-
-/// The families that a design is compared with, and how many cases of each are asked by default.
-fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
-    let all = cases::families().chain(cases::near_plane::FAMILIES);
-    let drawn = all.filter(|family| family.design().is_none());
-    let chosen = drawn.filter(|family| {
-        let name = family.name;
-        let is_of_stages =
-            ["depth-order", "depth-near-tie", "near-plane", "wide-line", "area"].contains(&name);
-        match design {
-            "line-design" => name.starts_with("line-"),
-            "w-design" => name.starts_with("w-"),
-            "depth-design" => name.starts_with("depth-"),
-            "near-design" => name == "near-plane",
-            "wide-line-design" => name == "wide-line",
-            "area-design" => name == "area",
-            "mesh-design" => ["rectangle", "fan", "strip", "mesh-border"].contains(&name),
-            _ => !is_of_stages && !name.starts_with("line-") && !name.starts_with("w-"),
-        }
-    });
-    let of_engines = ["design", "w-design", "line-design"].contains(&design);
-    // Of samples every eighth case of a family is asked.
-    let cases = match design {
-        "sample-design" => 125,
-        _ if of_engines => 20_000,
-        _ => 1000,
-    };
-    (chosen.collect(), cases)
-}
-
-/// What is asked of a topic.
-fn shares_of(topic: &Topic) -> Shares {
-    let limits = Limits::default();
-    let question = |index: u64| facts::design::case(topic, 1, index, &limits);
-    let (families, cases) = families_beside(topic.name);
-    let drawn = families.iter().flat_map(|family| (0..cases).map(|index| family.case(1, index)));
-    let of_judge = Options::default().cases * topic.blocks();
-    let defaults = [Some(of_judge), (cases == 20_000).then_some(cases)];
-    Shares {
-        whole: DesignShare::of(topic, 0..1000, &limits, &question),
-        by_design: counts(defaults).map(|count| {
-            count.map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
-        }),
-        by_families: AskedClasses::by(topic, &limits, drawn),
-    }
-}
-
-/// The same of polygons.
-fn shares_of_polygons() -> Shares {
-    let (topic, limits) = (&partition::design::TOPIC, Coordinates::F64);
-    let question = |index: u64| partition::design::polygon(1, index, limits);
-    let families = PolygonFamily::ALL.into_iter().filter(|of| *of != PolygonFamily::Design);
-    let drawn = families.flat_map(|of| (0..2000).map(move |index| of.polygon(1, index, limits)));
-    Shares {
-        whole: partition::design::asked(1, 0..1000, limits),
-        by_design: counts([Some(2000), None]).map(|count| {
-            count.map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
-        }),
-        by_families: AskedClasses::by(topic, &limits, drawn),
-    }
-}
-
 /// The least share of triples that is asked by default, in percent.
 const LEAST_TRIPLES: f64 = 95.0;
 
@@ -277,8 +174,8 @@ const LEAST_TRIPLES: f64 = 95.0;
 #[test]
 #[ignore = "minutes; .ci/run --all runs it"]
 fn designs_ask_most_of_what_can_be_asked() {
-    let mut all: Vec<Shares> = facts::TOPICS.par_iter().map(shares_of).collect();
-    all.push(shares_of_polygons());
+    let mut all: Vec<Shares> = facts::TOPICS.par_iter().map(designs::of_topic).collect();
+    all.push(designs::of_polygons());
     let rows: String = all.iter().map(Shares::row).collect();
     let impossible: Vec<&String> =
         all.iter().flat_map(|shares| &shares.by_families.impossible).collect();
@@ -421,12 +318,12 @@ fn designs_find_faults_early() {
         let families = if lines { cases::lines::FAMILIES } else { FAMILIES };
         // Windows that do not begin at the origin are for engines alone.
         let families = families.iter().filter(|family| family.name != "far");
-        let (designs, drawn): (Vec<&Family>, Vec<&Family>) =
+        let (by_design, drawn): (Vec<&Family>, Vec<&Family>) =
             families.partition(|family| family.design().is_some());
-        let all: Vec<&Family> = drawn.iter().chain(&designs).copied().collect();
+        let all: Vec<&Family> = drawn.iter().chain(&by_design).copied().collect();
         let found: Vec<[Option<u64>; 3]> = programs
             .par_iter()
-            .map(|(_, is_wrong)| medians([&drawn, &designs, &all], is_wrong))
+            .map(|(_, is_wrong)| medians([&drawn, &by_design, &all], is_wrong))
             .collect();
         let ways = [0, 1, 2]
             .map(|way| summed(&found.iter().map(|each| each[way]).collect::<Vec<_>>()))

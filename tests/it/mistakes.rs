@@ -107,6 +107,31 @@ fn owns([dx, dy]: [i64; 2]) -> bool {
     dy < 0 || (dy == 0 && dx > 0)
 }
 
+/// Whether an exact test by the rule of top and left edges takes a point for inside.
+fn covers(c: Corners, at: [i64; 2]) -> bool {
+    let turns = area(c).signum();
+    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+    turns != 0
+        && (0..3).all(|i| {
+            let (from, to) = (p[i], p[(i + 1) % 3]);
+            let e = turns * exactly(from, to, at);
+            e > 0 || (e == 0 && owns([0, 1].map(|k| turns * (to[k] - from[k]))))
+        })
+}
+
+/// The same, but every point of an edge is inside.
+fn touches(c: Corners, at: [i64; 2]) -> bool {
+    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+    (0..3).all(|i| area(c).signum() * exactly(p[i], p[(i + 1) % 3], at) >= 0)
+}
+
+/// The heights of the corners, the least first.
+fn heights(c: Corners) -> [i32; 3] {
+    let mut y = c.map_array(|p| p.y);
+    y.sort_unstable();
+    y
+}
+
 fn extent(c: Corners, axis: usize) -> [i32; 2] {
     let v = c.map_array(|p| [p.x, p.y][axis]);
     [v.into_iter().min().unwrap(), v.into_iter().max().unwrap()]
@@ -288,15 +313,13 @@ pub const FILLS: &[(&str, Fill)] = &[
         }
     }),
     ("triangles are left out by kind", |c, w, out| {
-        let mut y = c.map_array(|p| p.y);
-        y.sort_unstable();
+        let y = heights(c);
         if y[1] != y[2] || y[0] == y[1] {
             right(c, w, out);
         }
     }),
     ("a half is missing", |c, w, out| {
-        let mut y = c.map_array(|p| p.y);
-        y.sort_unstable();
+        let y = heights(c);
         right(c, w, out);
         only(out, |_, row| row * 256 + 128 >= y[1]);
     }),
@@ -558,20 +581,16 @@ pub const FILLS: &[(&str, Fill)] = &[
     }),
     ("a half is missing", |c, w, out| {
         // The row of the middle corner.
-        let mut y = c.map_array(|p| p.y);
-        y.sort_unstable();
+        let y = heights(c);
         right(c, w, out);
         only(out, |_, row| row != (y[1] + 127).div_euclid(256));
     }),
     ("tiles are skipped", |c, w, out| {
         // Tiles of 4 pixels with no corner inside.
         right(c, w, out);
-        let turns = area(c).signum();
-        let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         only(out, |x, y| {
             [[0, 0], [4, 0], [0, 4], [4, 4]].iter().any(|[dx, dy]| {
-                let at = [(x & !3) + dx, (y & !3) + dy].map(|v| i64::from(v) * 256);
-                (0..3).all(|i| turns * exactly(p[i], p[(i + 1) % 3], at) >= 0)
+                touches(c, [(x & !3) + dx, (y & !3) + dy].map(|v| i64::from(v) * 256))
             })
         });
     }),
@@ -595,8 +614,7 @@ pub const FILLS: &[(&str, Fill)] = &[
         only(out, |x, _| x >= first);
     }),
     ("pixels are drawn twice", |c, w, out| {
-        let mut y = c.map_array(|p| p.y);
-        y.sort_unstable();
+        let y = heights(c);
         let middle = (y[1] + 127).div_euclid(256);
         Scanline.cover(c, w, |s| {
             for _ in 0..if s.y_px == middle { 2 } else { 1 } {
@@ -735,32 +753,16 @@ pub const FILLS: &[(&str, Fill)] = &[
     }),
     ("corners are sorted by whole rows", |mut c, w, out| {
         c.sort_by_key(|p| p.y >> 8);
-        let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
-        for y in first(c[0]).max(0)..first(c[2]).min(w.y1) {
-            let at = |a: SubpixelPoint, b: SubpixelPoint| {
-                let part =
-                    (f64::from(y) + 0.5 - f64::from(a.y) / 256.0) / (f64::from(b.y - a.y) / 256.0);
-                f64::from(a.x) / 256.0 + f64::from(b.x - a.x) / 256.0 * part
-            };
-            let short = if y < first(c[1]) { at(c[0], c[1]) } else { at(c[1], c[2]) };
-            let long = at(c[0], c[2]);
-            let end = |v: f64| (v - 0.5).ceil() as i32;
-            (end(long.min(short)).max(0)..end(long.max(short)).min(w.x1))
-                .for_each(|x| light(out, x, y));
-        }
+        walked_between(c, w, out, &|y, a, b| {
+            let part =
+                (f64::from(y) + 0.5 - f64::from(a.y) / 256.0) / (f64::from(b.y - a.y) / 256.0);
+            f64::from(a.x) / 256.0 + f64::from(b.x - a.x) / 256.0 * part
+        });
     }),
     ("blocks are drawn whole", |c, _, out| {
         // Two rows of four pixels are drawn as their middle is covered.
-        let clockwise = area(c).signum();
-        let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         fill_where(out, |x, y| {
-            let at = [i64::from(x / 4 * 4 + 2) * 256, i64::from(y / 2 * 2 + 1) * 256];
-            let holds = (0..3).all(|i| {
-                let (from, to) = (p[i], p[(i + 1) % 3]);
-                let e = clockwise * exactly(from, to, at);
-                e > 0 || (e == 0 && owns([0, 1].map(|k| clockwise * (to[k] - from[k]))))
-            });
-            clockwise != 0 && holds
+            covers(c, [i64::from(x / 4 * 4 + 2) * 256, i64::from(y / 2 * 2 + 1) * 256])
         });
     }),
     ("the box misses a corner", |c, w, out| {
@@ -1005,14 +1007,11 @@ pub const FILLS: &[(&str, Fill)] = &[
     ("tiles are skipped", |c, w, out| {
         // What does not lie in the triangle with all four corners.
         right(c, w, out);
-        let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-        let sign = area(c).signum();
         only(out, |x, y| {
             let [x, y] = [x & !3, y & !3].map(i64::from);
-            [(0, 0), (3, 0), (0, 3), (3, 3)].iter().all(|(dx, dy)| {
-                let at = [(x + dx) * 256 + 128, (y + dy) * 256 + 128];
-                (0..3).all(|i| sign * exactly(p[i], p[(i + 1) % 3], at) >= 0)
-            })
+            [(0, 0), (3, 0), (0, 3), (3, 3)]
+                .iter()
+                .all(|(dx, dy)| touches(c, [(x + dx) * 256 + 128, (y + dy) * 256 + 128]))
         });
     }),
     ("rows end elsewhere", |c, w, out| {
@@ -1046,6 +1045,16 @@ fn walked(
     at: &dyn Fn(i32, SubpixelPoint, SubpixelPoint) -> f64,
 ) {
     c.sort_by_key(|p| p.y);
+    walked_between(c, w, out, at);
+}
+
+/// The same where the corners are in an order that may be another one.
+fn walked_between(
+    c: Corners,
+    w: PixelRect,
+    out: &mut Coverage,
+    at: &dyn Fn(i32, SubpixelPoint, SubpixelPoint) -> f64,
+) {
     let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
     for y in first(c[0]).max(0)..first(c[2]).min(w.y1) {
         let short = if y < first(c[1]) { at(y, c[0], c[1]) } else { at(y, c[1], c[2]) };
@@ -1077,24 +1086,75 @@ fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32
     }
 }
 
-pub const STROKES: &[(&str, Stroke)] = &[
-    ("the error term is off", |[a, b], _, emit| {
-        // It begins at a quarter of the longer side.
-        let [dx, dy] = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
-        let (steps, less) = (dx.max(dy), dx.min(dy));
-        let [mut x, mut y] = a;
-        let mut error = steps / 4;
-        emit(x, y);
-        for _ in 0..steps {
-            error -= less;
-            let across = error < 0;
-            if across {
-                error += steps;
-            }
-            x += if dx >= dy || across { (b[0] - a[0]).signum() } else { 0 };
-            y += if dy > dx || across { (b[1] - a[1]).signum() } else { 0 };
-            emit(x, y);
+/// Each end that is beyond a side is moved to it along the line as it is then. Of the sum of its place and the way, the fraction
+/// is cut, or of the way alone: as `is_sum` says, which hears whether it is the far end of a line across the window.
+fn cut(
+    [mut p, mut q]: [[i32; 2]; 2],
+    last: [i32; 2],
+    is_sum: &dyn Fn(bool) -> bool,
+    emit: &mut dyn FnMut(i32, i32),
+) {
+    for k in [0, 1] {
+        let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
+        if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
+            return;
         }
+        let across = p[k] < 0 && q[k] > last[k];
+        for (end, is_far_end_across) in [(&mut p, false), (&mut q, across)] {
+            let to = end[k].clamp(0, last[k]);
+            if end[k] != to {
+                let way = slope * f64::from(to - end[k]);
+                end[1 - k] = match is_sum(is_far_end_across) {
+                    true => (f64::from(end[1 - k]) + way) as i32,
+                    false => end[1 - k] + way as i32,
+                };
+                end[k] = to;
+            }
+        }
+    }
+    bresenham([p, q], emit);
+}
+
+/// The longer side and the shorter one.
+fn sides([a, b]: [[i32; 2]; 2]) -> [i32; 2] {
+    let [dx, dy] = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+    [dx.max(dy), dx.min(dy)]
+}
+
+/// A step along the longer side after each pixel, and along the shorter one where `is_across`.
+fn stepped(
+    [a, b]: [[i32; 2]; 2],
+    is_across: &mut dyn FnMut() -> bool,
+    emit: &mut dyn FnMut(i32, i32),
+) {
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let is_steep = dy.abs() > dx.abs();
+    let [mut x, mut y] = a;
+    for _ in 0..=dx.abs().max(dy.abs()) {
+        emit(x, y);
+        let across = is_across();
+        x += if !is_steep || across { dx.signum() } else { 0 };
+        y += if is_steep || across { dy.signum() } else { 0 };
+    }
+}
+
+/// A coordinate of the line after so many of its steps.
+fn part([a, b]: [[i32; 2]; 2], k: usize, step: i32, steps: i32) -> f64 {
+    f64::from(a[k]) + f64::from(b[k] - a[k]) * f64::from(step) / f64::from(steps.max(1))
+}
+
+pub const STROKES: &[(&str, Stroke)] = &[
+    ("the error term is off", |ends, _, emit| {
+        // It begins at a quarter of the longer side.
+        let [long, short] = sides(ends);
+        let mut error = long / 4;
+        let mut is_across = || {
+            error -= short;
+            let across = error < 0;
+            error += if across { long } else { 0 };
+            across
+        };
+        stepped(ends, &mut is_across, emit);
     }),
     ("lines are left out by kind", |[a, b], _, emit| {
         // Upright lines are a loop from the first row up to the last one.
@@ -1117,22 +1177,19 @@ pub const STROKES: &[(&str, Stroke)] = &[
     ("ends overflow", |ends, _, emit| {
         bresenham(ends.map_array(|end| end.map_array(|v| i32::from(v as u8))), emit);
     }),
-    ("each axis is rounded in its own way", |[a, b], _, emit| {
-        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
+    ("each axis is rounded in its own way", |ends, _, emit| {
+        let [steps, _] = sides(ends);
         for i in 0..=steps {
-            let at = |k: usize| {
-                f64::from(a[k]) + f64::from(b[k] - a[k]) * f64::from(i) / f64::from(steps.max(1))
-            };
-            emit((at(0) + 0.5).floor() as i32, at(1).floor() as i32);
+            let [x, y] = [0, 1].map(|k| part(ends, k, i, steps));
+            emit((x + 0.5).floor() as i32, y.floor() as i32);
         }
     }),
-    ("steps without the sign", |[a, b], _, emit| {
+    ("steps without the sign", |ends, _, emit| {
+        let [a, b] = ends;
         let steps = (b[0] - a[0]).max(b[1] - a[1]);
         for i in 0..=steps {
-            let at = |k: usize| {
-                f64::from(a[k]) + f64::from(b[k] - a[k]) * f64::from(i) / f64::from(steps.max(1))
-            };
-            emit((at(0) + 0.5).floor() as i32, (at(1) + 0.5).floor() as i32);
+            let [x, y] = [0, 1].map(|k| (part(ends, k, i, steps) + 0.5).floor() as i32);
+            emit(x, y);
         }
     }),
     ("long lines end early", |ends, _, emit| {
@@ -1327,33 +1384,28 @@ pub const STROKES: &[(&str, Stroke)] = &[
             emit(x, y + 1);
         });
     }),
-    ("the error term is off", |[[mut x, mut y], [x1, y1]], _, emit| {
+    ("the error term is off", |ends, _, emit| {
         // It begins at dy - dx in place of 2 dy - dx.
-        let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
-        let (long, short) = (dx.max(dy), dx.min(dy));
+        let [long, short] = sides(ends);
         let mut error = short - long;
-        for _ in 0..=long {
-            emit(x, y);
+        let mut is_across = || {
             let across = error > 0;
             error += 2 * short - if across { 2 * long } else { 0 };
-            x += if across || dx >= dy { (x1 - x).signum() } else { 0 };
-            y += if across || dx < dy { (y1 - y).signum() } else { 0 };
-        }
+            across
+        };
+        stepped(ends, &mut is_across, emit);
     }),
-    ("the error term overflows", |[[mut x, mut y], [x1, y1]], _, emit| {
+    ("the error term overflows", |ends, _, emit| {
         // Half the steps, in 8 bits.
-        let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
-        let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
-        let (long, short) = (dx.max(dy), dx.min(dy));
+        let [long, short] = sides(ends);
         let mut error = (long / 2) as i8;
-        for _ in 0..=long {
-            emit(x, y);
+        let mut is_across = || {
             error = error.wrapping_sub(short as i8);
             let across = error < 0;
             error = error.wrapping_add(if across { long as i8 } else { 0 });
-            x += if across || dx >= dy { sx } else { 0 };
-            y += if across || dx < dy { sy } else { 0 };
-        }
+            across
+        };
+        stepped(ends, &mut is_across, emit);
     }),
     ("steps are added up in floats", |[a, b], _, emit| {
         // y = m x + b.
@@ -1400,20 +1452,18 @@ pub const STROKES: &[(&str, Stroke)] = &[
         }
         bresenham([a, b], emit);
     }),
-    ("ties by direction", |[a, b], _, emit| {
+    ("ties by direction", |ends, _, emit| {
         // On where lines run up or are steep and run to the left.
-        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-        let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
-        let steep = dy.abs() > dx.abs();
-        let on = dy < 0 || (steep && dx < 0);
-        let (mut error, [mut x, mut y]) = (2 * short - long, a);
-        for _ in 0..=long {
-            emit(x, y);
-            let across = error > 0 || (on && error == 0);
+        let ([a, b], [long, short]) = (ends, sides(ends));
+        let is_steep = (b[1] - a[1]).abs() > (b[0] - a[0]).abs();
+        let is_on = b[1] < a[1] || (is_steep && b[0] < a[0]);
+        let mut error = 2 * short - long;
+        let mut is_across = || {
+            let across = error > 0 || (is_on && error == 0);
             error += 2 * short - if across { 2 * long } else { 0 };
-            x += if !steep || across { dx.signum() } else { 0 };
-            y += if steep || across { dy.signum() } else { 0 };
-        }
+            across
+        };
+        stepped(ends, &mut is_across, emit);
     }),
     ("halved again and again", |[a, b], _, emit| {
         fn halves(a: [i32; 2], b: [i32; 2], emit: &mut dyn FnMut(i32, i32)) {
@@ -1440,62 +1490,17 @@ pub const STROKES: &[(&str, Stroke)] = &[
     ("ends overflow", |[a, b], _, emit| {
         bresenham([a, [0, 1].map(|k| a[k] + i32::from((b[k] - a[k]) as i8))], emit);
     }),
-    ("lines are cut in whole numbers", |[a, b], last, emit| {
+    ("lines are cut in whole numbers", |ends, last, emit| {
         // As gd does: each end is moved by a part that is cut, from itself.
-        let (mut p, mut q) = (a, b);
-        for k in [0, 1] {
-            let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
-            let inside = |v: i32| v.clamp(0, last[k]);
-            if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
-                return;
-            }
-            for end in [&mut p, &mut q] {
-                if end[k] != inside(end[k]) {
-                    end[1 - k] += (slope * f64::from(inside(end[k]) - end[k])) as i32;
-                    end[k] = inside(end[k]);
-                }
-            }
-        }
-        bresenham([p, q], emit);
+        cut(ends, last, &|_| false, emit);
     }),
-    ("lines are cut in whole numbers", |[mut p, mut q], last, emit| {
+    ("lines are cut in whole numbers", |ends, last, emit| {
         // As older versions of gd do, and what was made of them: the sum is cut.
-        for k in [0, 1] {
-            let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
-            if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
-                return;
-            }
-            for end in [&mut p, &mut q] {
-                let to = end[k].clamp(0, last[k]);
-                if end[k] != to {
-                    let sum = f64::from(end[1 - k]) + slope * f64::from(to - end[k]);
-                    (end[k], end[1 - k]) = (to, sum as i32);
-                }
-            }
-        }
-        bresenham([p, q], emit);
+        cut(ends, last, &|_| true, emit);
     }),
-    ("lines are cut in whole numbers", |[mut p, mut q], last, emit| {
+    ("lines are cut in whole numbers", |ends, last, emit| {
         // As gd does: the sum is cut for the far ends of lines across the window, and a part for the others.
-        for k in [0, 1] {
-            let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
-            if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
-                return;
-            }
-            let across = p[k] < 0 && q[k] > last[k];
-            for (end, is_sum) in [(&mut p, false), (&mut q, across)] {
-                let to = end[k].clamp(0, last[k]);
-                if end[k] != to {
-                    let part = slope * f64::from(to - end[k]);
-                    end[1 - k] = match is_sum {
-                        true => (f64::from(end[1 - k]) + part) as i32,
-                        false => end[1 - k] + part as i32,
-                    };
-                    end[k] = to;
-                }
-            }
-        }
-        bresenham([p, q], emit);
+        cut(ends, last, &|is_far_end_across| is_far_end_across, emit);
     }),
     ("steps are added up in floats", |[a, b], last, emit| {
         // Through numbers from -1 to 1, clipped by the four sides in turn, to pixels with a half that is added; from end to end.
@@ -1568,6 +1573,15 @@ fn of_fill_in(
     let found = diagnose(&mut ask, &known, 1);
     let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
     mistakes::of_triangles(&mut ask, &known, Some(&found), &[], Some(learn))
+}
+
+/// What is said of a program that draws right by a convention, in windows of at most this size.
+fn of_convention(convention: &TriangleConvention, window_px: (u32, u32)) -> Option<Mistakes> {
+    of_fill_in(window_px, |corners, window, picture| {
+        if let Some(drawn) = convention.cover(&corners, window) {
+            *picture = drawn;
+        }
+    })
 }
 
 fn of_stroke(
@@ -1702,12 +1716,7 @@ fn mistakes_are_not_named_for_conventions() {
                 ties: Ties::named(rule).unwrap(),
                 ..TriangleConvention::default()
             };
-            let fill = |corners: Corners, window: PixelRect, picture: &mut Coverage| {
-                if let Some(drawn) = convention.cover(&corners, window) {
-                    *picture = drawn;
-                }
-            };
-            let found = of_fill(fill);
+            let found = of_convention(&convention, Declarations::default().window_px);
             let causes = found.map(|found| found.causes).unwrap_or_default();
             assert!(causes.is_empty(), "{convention:?}: {causes:?}");
         }
@@ -1717,10 +1726,7 @@ fn mistakes_are_not_named_for_conventions() {
         ties: Ties::named("strict").unwrap(),
         ..TriangleConvention::default()
     };
-    let found = of_fill_in((1, 1), |corners, window, picture| {
-        *picture = strict.cover(&corners, window).unwrap();
-    });
-    let found = found.unwrap();
+    let found = of_convention(&strict, (1, 1)).unwrap();
     assert!(found.causes.is_empty() && found.to_string().contains("strict rule"), "{found}");
     let strokes = [LineConvention::default(), LineConvention::BEHIND, LineConvention::AHEAD];
     for convention in strokes {
@@ -1765,12 +1771,8 @@ fn mistakes_are_not_named_for_thousands_of_conventions() {
             draws: windings[one_of(3)],
             ..TriangleConvention::default()
         };
-        let fill = |corners: Corners, window: PixelRect, picture: &mut Coverage| {
-            if let Some(drawn) = convention.cover(&corners, window) {
-                *picture = drawn;
-            }
-        };
-        let causes = of_fill(fill).map(|found| found.causes).unwrap_or_default();
+        let found = of_convention(&convention, Declarations::default().window_px);
+        let causes = found.map(|found| found.causes).unwrap_or_default();
         assert!(causes.is_empty(), "{i}, {convention:?}: {causes:?}");
     }
 }
@@ -2186,6 +2188,9 @@ fn more_mistakes_of_values_and_samples_are_named() {
     programs_of_values_and_samples(usize::MAX);
 }
 
+/// Samples that lie in no triangle.
+const FAR: [(i32, i32); 4] = [(1_000_000, 1_000_000); 4];
+
 /// Of each table at most so many programs.
 fn programs_of_values_and_samples(most: usize) {
     type Change = fn(&Triangle, &mut Fragment<DVec2>);
@@ -2320,82 +2325,61 @@ fn programs_of_values_and_samples(most: usize) {
         );
         assert!(said.contains(&format!("values: {wanted}")), "{wanted}: {said}");
     }
-    // Places of samples that no table has, and all four samples of a pixel where any is covered.
-    let places = [(3, 5), (12, 2), (5, 11), (11, 13)];
-    let elsewhere = |mask: u8| mask & 15;
-    let whole = |mask: u8| if mask & 15 == 0 { 0 } else { 15 };
-    let lost = |mask: u8| mask & 11;
-    let filled = |mask: u8| if mask & 15 == 13 { 15 } else { mask & 15 };
+    // Places of samples that no table has, all four samples of a pixel where any is covered, and samples that are wrong in some pixels
+    // alone.
+    type Places = fn(Corners, [i32; 2]) -> [(i32, i32); 4];
     type Gate = fn(u8) -> u8;
-    let cases: [(_, Gate, _); 4] = [
+    let usual: Places = |_, _| SAMPLES;
+    let all: Gate = |mask| mask;
+    let cases: [(Places, Gate, &str); 7] = [
         (
-            SAMPLES,
-            filled,
+            usual,
+            |mask| if mask == 13 { 15 } else { mask },
             "It draws samples 0 and 1 and 2 and 3 for 0 and 2 and 3, whatever the place",
         ),
         (
-            places,
-            elsewhere as Gate,
-            "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
-        ),
-        (
-            SAMPLES,
-            whole,
-            "It draws all four samples of a pixel where any is covered, and not elsewhere",
-        ),
-        (SAMPLES, lost, "It never draws the sample with the number 2"),
-    ];
-    for (places, gate, wanted) in cases.into_iter().take(most) {
-        let said = judged(
-            "samples4",
-            move |question, answer| {
-                let Asked::Samples(corners) = question.of else { return answer };
-                let window = PixelRect::window(question.width, question.height);
-                let masks = masks_at(&Scanline, corners, window, &places).unwrap();
-                let runs = masks.rows().flat_map(|(y_px, row)| {
-                    (0..)
-                        .zip(row)
-                        .map(move |(x, mask)| (Span { y_px, x0_px: x, x1_px: x + 1 }, *mask))
-                });
-                let runs = runs.map(|(run, mask)| (run, gate(mask)));
-                Answer::Samples(runs.filter(|(_, mask)| *mask > 0).collect())
-            },
-            &["uniform", "half-integer"],
-        );
-        assert!(said.contains(&format!("samples: {wanted}")), "{wanted}: {said}");
-    }
-    // Samples that are wrong in some pixels alone.
-    type Wrong = fn(Corners, [i32; 2]) -> Option<[(i32, i32); 4]>;
-    let cases: [(Wrong, &str); 3] = [
-        (
-            |_, [x, _]| (x % 2 == 1).then_some(SAMPLES.map(|(x, y)| (x, 16 - y))),
+            |_, [x, _]| if x % 2 == 1 { SAMPLES.map(|(x, y)| (x, 16 - y)) } else { SAMPLES },
+            all,
             "It tests all four samples mirrored upside down where the column is odd",
         ),
         (
-            |c, _| (area(c) > 0).then_some([(8, 8); 4]),
+            |_, _| [(3, 5), (12, 2), (5, 11), (11, 13)],
+            all,
+            "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
+        ),
+        (
+            usual,
+            |mask| if mask == 0 { 0 } else { 15 },
+            "It draws all four samples of a pixel where any is covered, and not elsewhere",
+        ),
+        (usual, |mask| mask & 11, "It never draws the sample with the number 2"),
+        (
+            |c, _| if area(c) > 0 { [(8, 8); 4] } else { SAMPLES },
+            all,
             "It tests all four samples at the centre of clockwise triangles",
         ),
         (
-            |_, [x, y]| ((x + y) % 2 == 0).then_some([(1_000_000, 1_000_000); 4]),
+            |_, [x, y]| if (x + y) % 2 == 0 { FAR } else { SAMPLES },
+            all,
             "It never draws all four samples where column + row is even",
         ),
     ];
-    for (places, wanted) in cases.into_iter().take(most) {
+    for (places, gate, wanted) in cases.into_iter().take(most.saturating_mul(2)) {
         let said = judged(
             "samples4",
             move |question, answer| {
                 let Asked::Samples(corners) = question.of else { return answer };
                 let window = PixelRect::window(question.width, question.height);
                 let mut runs = Vec::new();
-                for y in window.y0..window.y1 {
-                    for x in window.x0..window.x1 {
-                        let at = places(corners, [x, y]).unwrap_or(SAMPLES);
-                        let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
-                        let is_none = at[0].0 > 16;
-                        let mask = masks_at(&Scanline, corners, pixel, &at).unwrap().get(x, y);
-                        let mask = mask.filter(|mask| *mask > 0 && !is_none);
-                        let run = Span { y_px: y, x0_px: x, x1_px: x + 1 };
-                        runs.extend(mask.map(|mask| (run, mask)));
+                for (y, x) in
+                    (window.y0..window.y1).flat_map(|y| (0..window.x1).map(move |x| (y, x)))
+                {
+                    let at = places(corners, [x, y]);
+                    let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+                    let mask = masks_at(&Scanline, corners, pixel, &at).unwrap().get(x, y);
+                    let mask = if at == FAR { 0 } else { gate(mask.unwrap_or(0) & 15) };
+                    if mask > 0 {
+                        runs.push((Span { y_px: y, x0_px: x, x1_px: x + 1 }, mask));
                     }
                 }
                 Answer::Samples(runs)

@@ -3,6 +3,7 @@
 
 pub mod canvas;
 pub mod chapter;
+pub mod designs;
 pub mod differential;
 pub mod drawn;
 pub mod formats;

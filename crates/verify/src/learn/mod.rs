@@ -12,6 +12,7 @@
 
 mod border;
 mod change;
+mod climb;
 mod drawer;
 mod edges;
 mod fill;

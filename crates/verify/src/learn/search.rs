@@ -2,6 +2,7 @@
 
 use super::border::{self, Crossing, Site, Tie, Toward};
 use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, MOST_PIXELS, Nearness, Rule};
+use super::climb::{GUARDED_FORMULAS, climbed};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
 use super::edges::EdgeTest;
@@ -325,7 +326,7 @@ impl Search<'_> {
             return;
         }
         let rules = self.drawer.conventions();
-        let worth = |test: &EdgeTest| self.worth_of_test(test, &pixels);
+        let worth = |test: &EdgeTest, least: f64| self.worth_of_test(test, &pixels, least);
         let best = climbed(EdgeTest::RIGHT, &|test| test.variants(rules), &worth);
         let base =
             |(_, test): (f64, EdgeTest)| Base { changes: Vec::new(), rule: Rule::Edges(test) };
@@ -347,7 +348,7 @@ impl Search<'_> {
         };
         let (wrong, right) = (short(true, RANKED_BY), short(false, RANKED_BY / 2));
         let base = |walk: &Walk| Base { changes: Vec::new(), rule: Rule::Walk(*walk) };
-        let worth = |walk: &Walk| {
+        let worth = |walk: &Walk, _: f64| {
             let near = change::nearness(&base(walk), &wrong, self.drawer);
             let kept = change::nearness(&base(walk), &right, self.drawer);
             let exact = near.exact as f64 + 0.5 * kept.exact as f64;
@@ -384,8 +385,14 @@ impl Search<'_> {
         all
     }
 
-    /// How many of some wrong pixels a test draws as they are, less a part of the right ones that it breaks.
-    fn worth_of_test(&self, test: &EdgeTest, [wrong, right]: &[Vec<PixelSeen<'_>>; 2]) -> f64 {
+    /// How many of some wrong pixels a test draws as they are, less a part of the right ones that it breaks; what is below `least` is
+    /// not counted to its end.
+    fn worth_of_test(
+        &self,
+        test: &EdgeTest,
+        [wrong, right]: &[Vec<PixelSeen<'_>>; 2],
+        least: f64,
+    ) -> f64 {
         let sample = self.drawer.sample();
         let owned = self.drawer.ties(test.ties);
         let is_drawn = |seen: &PixelSeen<'_>| {
@@ -394,29 +401,45 @@ impl Search<'_> {
         };
         let step = wrong.len().div_ceil(FEW_BORDERS).max(1);
         let few = wrong.iter().step_by(step);
-        match self.drawn_and_broken(EDGES_OF_A_PIXEL, few, [wrong, right], &is_drawn) {
-            Some([drawn, broken]) => drawn - 0.2 * broken - 0.3 * test.changes() as f64,
-            None => f64::MIN,
-        }
+        let price = Price { steps: EDGES_OF_A_PIXEL, broken: 0.2, changes: test.changes() };
+        self.worth_above(least, price, few, [wrong, right], &is_drawn)
     }
 
-    /// How many wrong borders or pixels a formula gives, and how many right ones it breaks; nothing where it gives none of a few of
-    /// the wrong ones, as most formulas do. Each costs so many steps.
-    fn drawn_and_broken<'s, S: 's>(
+    /// How many wrong borders or pixels a formula gives, less its price. Where that is sure to be below `least` it is some number below
+    /// it, so that most formulas are left after a few borders; so are those that give none of a few of the wrong ones.
+    fn worth_above<'s, S: 's>(
         &self,
-        steps: usize,
+        least: f64,
+        price: Price,
         mut few: impl Iterator<Item = &'s S>,
         [wrong, right]: [&'s [S]; 2],
         is_drawn: &dyn Fn(&S) -> bool,
-    ) -> Option<[f64; 2]> {
-        self.drawer.work().spend(steps * FEW_BORDERS);
+    ) -> f64 {
+        self.drawer.work().spend(price.steps * FEW_BORDERS);
         if !few.any(is_drawn) {
-            return None;
+            return f64::MIN;
         }
-        self.drawer.work().spend(steps * (wrong.len() + right.len()));
-        let drawn = wrong.iter().filter(|seen| is_drawn(seen)).count();
-        let broken = right.iter().filter(|seen| !is_drawn(seen)).count();
-        Some([drawn as f64, broken as f64])
+        // What is not looked at yet is taken for drawn.
+        let [mut drawn, mut broken, mut looked_at] = [wrong.len(), 0, 0];
+        let mut worth = price.worth(drawn, broken);
+        for (seen, is_wrong) in
+            wrong.iter().map(|seen| (seen, true)).chain(right.iter().map(|seen| (seen, false)))
+        {
+            if worth < least {
+                break;
+            }
+            looked_at += 1;
+            if !is_drawn(seen) {
+                if is_wrong {
+                    drawn -= 1
+                } else {
+                    broken += 1
+                }
+                worth = price.worth(drawn, broken);
+            }
+        }
+        self.drawer.work().spend(price.steps * looked_at);
+        worth
     }
 
     /// Formulas of borders, one after another, and then pixel rules.
@@ -475,7 +498,7 @@ impl Search<'_> {
             return None;
         }
         let of = |rows: &RowRule| Model { rows: *rows, ..Model::default() };
-        let worth = |rows: &RowRule| {
+        let worth = |rows: &RowRule, _: f64| {
             let [wrong, right] = [&wrong, &right].map(|some| self.worth_of_model(&of(rows), some));
             wrong + 0.5 * right - 0.3 * rows.changes() as f64
         };
@@ -509,16 +532,17 @@ impl Search<'_> {
                 }
                 let ties = ties_of(&seen.right, self.drawer.sample());
                 let start = Crossing { ties, start: [None, heights[number]], ..Crossing::RIGHT };
-                let worth = |crossing: &Crossing| self.worth(crossing, seen);
-                let best = start.neighbours().iter().map(worth).fold(worth(&start), f64::max);
+                let mut best = self.worth(&start, seen, f64::MIN);
+                for crossing in start.neighbours() {
+                    best = best.max(self.worth(&crossing, seen, best));
+                }
                 first.push(Climb { worth: best, crossing: start, number });
             }
             first.sort_by(Climb::highest_first);
             let mut best = Vec::new();
             for Climb { crossing: start, number, .. } in first.into_iter().take(GUARDED_FORMULAS) {
-                for (worth, crossing) in
-                    climbed(start, &Crossing::neighbours, &|c| self.worth(c, &seen[number]))
-                {
+                let worth = |c: &Crossing, least: f64| self.worth(c, &seen[number], least);
+                for (worth, crossing) in climbed(start, &Crossing::neighbours, &worth) {
                     best.push(Climb { worth, crossing, number });
                 }
             }
@@ -535,15 +559,14 @@ impl Search<'_> {
         all
     }
 
-    /// How many of some wrong borders a formula gives, less a part of the right ones that it breaks.
-    fn worth(&self, crossing: &Crossing, seen: &BordersAtEnds<'_, '_>) -> f64 {
+    /// How many of some wrong borders a formula gives, less a part of the right ones that it breaks; what is below `least` is not
+    /// counted to its end.
+    fn worth(&self, crossing: &Crossing, seen: &BordersAtEnds<'_, '_>, least: f64) -> f64 {
         let [wrong, right] = &seen.some;
         let is_drawn = |seen: &&BorderSeen<'_>| seen.is_drawn_by(crossing, self.drawer.sample());
         let few = wrong.iter().take(FEW_BORDERS);
-        match self.drawn_and_broken(BORDER, few, [wrong, right], &is_drawn) {
-            Some([drawn, broken]) => drawn - 0.1 * broken - 0.3 * crossing.changes() as f64,
-            None => f64::MIN,
-        }
+        let price = Price { steps: BORDER, broken: 0.1, changes: crossing.changes() };
+        self.worth_above(least, price, few, [wrong, right], &is_drawn)
     }
 
     /// A formula with where it holds, by the facts of borders that were wrong and right before; nothing where that cannot be
@@ -943,53 +966,24 @@ impl Climb {
     }
 }
 
-/// Formulas of the largest worth: the best of one change, those of the best with another one, and so on while they get better.
-fn climbed<F: Copy + PartialEq>(
-    start: F,
-    neighbours: &dyn Fn(&F) -> Vec<F>,
-    worth: &dyn Fn(&F) -> f64,
-) -> Vec<(f64, F)> {
-    let mut best: Vec<(f64, F)> = vec![(worth(&start), start)];
-    // Of these the neighbours were looked at.
-    let mut done: Vec<F> = Vec::new();
-    for wanted in FORMULAS {
-        let mut more = Vec::new();
-        for (_, formula) in &best {
-            if !done.contains(formula) {
-                more.extend(neighbours(formula));
-                done.push(*formula);
-            }
-        }
-        let before = best[0].0;
-        best.extend(more.into_iter().map(|c| (worth(&c), c)));
-        best.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        best.dedup_by(|(_, a), (_, b)| a == b);
-        few_of_a_worth(&mut best);
-        best.truncate(wanted);
-        if best[0].0 <= before {
-            break;
-        }
+/// What a formula costs.
+#[derive(Clone, Copy)]
+struct Price {
+    /// Steps of [`super::trial::Work`] for a border or a pixel.
+    steps: usize,
+    /// What is taken off for each right one that it breaks.
+    broken: f64,
+    /// Its changed fields, for each of which a little is taken off.
+    changes: usize,
+}
+
+impl Price {
+    /// The worth of a formula that gives so many of the wrong ones and breaks so many of the right ones.
+    fn worth(self, drawn: usize, broken: usize) -> f64 {
+        drawn as f64 - self.broken * broken as f64 - 0.3 * self.changes as f64
     }
-    best.retain(|(_, formula)| *formula != start);
-    best.truncate(GUARDED_FORMULAS);
-    best
 }
 
-/// Formulas of the same worth that are kept: most of them are the same in other words.
-const OF_A_WORTH: usize = 2;
-
-fn few_of_a_worth<F>(best: &mut Vec<(f64, F)>) {
-    let (mut last, mut count) = (f64::NAN, 0);
-    best.retain(|(worth, _)| {
-        count = if *worth == last { count + 1 } else { 1 };
-        last = *worth;
-        count <= OF_A_WORTH
-    });
-}
-
-/// Formulas that are changed in another field, round by round, and those whose guard is learned.
-const FORMULAS: [usize; 6] = [12, 6, 4, 4, 4, 4];
-const GUARDED_FORMULAS: usize = 2;
 /// A formula that breaks at most this part of the borders that it explains needs no guard.
 const FEW_BROKEN: usize = 10;
 /// The most formulas of borders in a model.
