@@ -160,10 +160,19 @@ impl Check {
             Self::Outline => {
                 vec![(missing, "not filled within the outline"), (extra, "filled outside of it")]
             }
-            Self::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
-            Self::Order | Self::Direction => vec![(missing + extra + twice, "pixels differ")],
+            Self::Watertight => {
+                vec![(missing, one(missing, "hole", "holes")), (twice, "drawn by two triangles")]
+            }
+            Self::Order | Self::Direction => {
+                let differ = missing + extra + twice;
+                vec![(differ, one(differ, "pixel differs", "pixels differ"))]
+            }
             Self::Samples | Self::SampleValues => {
-                vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
+                vec![
+                    (missing, one(missing, "sample missing", "samples missing")),
+                    (extra, "extra"),
+                    (twice, "twice"),
+                ]
             }
             Self::Area => vec![
                 (missing, "of a level that is too small"),
@@ -172,20 +181,34 @@ impl Check {
             ],
             Self::Formula => vec![(missing, "missing"), (extra, "too many"), (order, "wrong")],
             Self::Near => vec![
-                (missing, "corners missing"),
-                (extra, "corners that are not there"),
+                (missing, one(missing, "corner missing", "corners missing")),
+                (extra, one(extra, "corner that is not there", "corners that are not there")),
                 (order, "running the other way round"),
             ],
             Self::Carried => vec![
-                (missing, "corners missing, or with another attribute"),
-                (extra, "corners with an attribute that no such corner has, or that are not there"),
+                (
+                    missing,
+                    one(
+                        missing,
+                        "corner missing, or with another attribute",
+                        "corners missing, or with another attribute",
+                    ),
+                ),
+                (
+                    extra,
+                    one(
+                        extra,
+                        "corner with an attribute that no such corner has, or that is not there",
+                        "corners with an attribute that no such corner has, or that are not there",
+                    ),
+                ),
                 (order, "running the other way round"),
             ],
             Self::Depth => vec![
                 (missing, "missing"),
                 (extra, "extra"),
                 (twice, "twice"),
-                (order, "show what lies behind"),
+                (order, one(order, "shows what lies behind", "show what lies behind")),
             ],
             Self::Coverage | Self::Line | Self::Values | Self::Wide => vec![
                 (missing, "missing"),
@@ -806,4 +829,9 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
         }
         Asked::Samples(_) | Asked::SampleValues(_) | Asked::Polygon(_) => None,
     }
+}
+
+/// What stands after 1, or after any other number.
+fn one(number: u64, one: &'static str, several: &'static str) -> &'static str {
+    if number == 1 { one } else { several }
 }
