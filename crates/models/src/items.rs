@@ -44,14 +44,12 @@ pub(crate) fn model(
     for part in &mut contents.parts {
         place(part, turn)?;
     }
-    let mut cameras = std::mem::take(&mut contents.cameras);
-    cameras.iter_mut().for_each(|camera| camera.place(turn));
-    let mut lights = std::mem::take(&mut contents.lights);
-    let mut change = |by: &dyn Fn(PunctualLight) -> PunctualLight| {
-        lights.iter_mut().for_each(|light| *light = by(*light));
-    };
-    change(&|light| light.placed(turn));
     let left_out = broken::leave_out(&mut contents, &mut warnings);
+    let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
+    let mut cameras = std::mem::take(&mut contents.cameras);
+    cameras.iter_mut().for_each(|camera| camera.place(mirror * turn));
+    let lights = contents.lights.iter().map(|light| light.placed(turn).placed(mirror));
+    let mut lights: Vec<PunctualLight> = lights.collect();
     if let Some(power) = to_usual_size(&mut contents.parts) {
         let what = if power > 0 { "small" } else { "large" };
         let text = format!(
@@ -59,13 +57,11 @@ pub(crate) fn model(
              are shown are those after that"
         );
         warnings.add("sizes", &text);
-        let steps = half_powers(power);
-        cameras.iter_mut().for_each(|camera| steps.iter().for_each(|step| camera.scale(*step)));
-        change(&|light| steps.iter().fold(light, |light, step| light.scaled(*step)));
+        for step in half_powers(power) {
+            cameras.iter_mut().for_each(|camera| camera.scale(step));
+            lights.iter_mut().for_each(|light| *light = light.scaled(step));
+        }
     }
-    let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
-    cameras.iter_mut().for_each(|camera| camera.place(mirror));
-    change(&|light| light.placed(mirror));
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
