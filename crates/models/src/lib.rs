@@ -270,24 +270,27 @@ impl Warnings {
 
     /// A warning about a line, from 1; 0 where it concerns none.
     pub(crate) fn add_at(&mut self, line: usize, kind: &str, text: &str) {
-        let place = if line > 0 { format!(":{line}") } else { String::new() };
-        self.add_as_it_is(kind, format!("{}{place}: {text}", printable_path(&self.path)));
+        self.add_of(&self.path.clone(), line, kind, text);
     }
 
-    /// A warning whose text names a file.
+    /// The same of a file that the model names.
+    pub(crate) fn add_of(&mut self, path: &Path, line: usize, kind: &str, text: &str) {
+        let place = if line > 0 { format!(":{line}") } else { String::new() };
+        self.note(path, kind, format!("{}{place}: {text}", printable_path(path)));
+    }
+
+    /// A warning whose text says which file it is about.
     pub(crate) fn add_as_it_is(&mut self, kind: &str, text: String) {
-        let kind = format!("{}: {kind}", printable_path(&self.path));
+        self.note(&self.path.clone(), kind, text);
+    }
+
+    fn note(&mut self, path: &Path, kind: &str, text: String) {
+        let kind = format!("{}: {kind}", printable_path(path));
         let count = self.counts.entry(kind).or_default();
         *count += 1;
         if *count <= Self::MOST {
             self.shown.push(text);
         }
-    }
-
-    /// Takes those about another file over.
-    pub(crate) fn append(&mut self, mut other: Self) {
-        self.shown.append(&mut other.shown);
-        self.counts.append(&mut other.counts);
     }
 
     pub(crate) fn finish(mut self) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! Material files (MTL): the colour and the texture of each material, and what of it is not drawn.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use glam::DVec3;
 use rasterproof_host::text::printable_short;
@@ -43,7 +44,12 @@ const WITHOUT_EFFECT: [&str; 5] = ["", "ni", "sharpness", "map_aat", "halo"];
 const PHYSICAL: [&str; 8] = ["pr", "pm", "ps", "pc", "pcr", "aniso", "anisor", "nr"];
 
 /// Reads the text of a material file. A line that cannot be understood is a warning, which quotes it where it may be quoted.
-pub(crate) fn read(text: &str, is_quoted: bool, warnings: &mut Warnings) -> Vec<MtlMaterial> {
+pub(crate) fn read(
+    path: &Path,
+    text: &str,
+    is_quoted: bool,
+    warnings: &mut Warnings,
+) -> Vec<MtlMaterial> {
     let mut materials = Vec::new();
     // Files of old systems end their lines with a carriage return alone.
     let text = text.replace("\r\n", "\n");
@@ -55,7 +61,7 @@ pub(crate) fn read(text: &str, is_quoted: bool, warnings: &mut Warnings) -> Vec<
                 true => format!("{cause}; the line is left out"),
                 false => format!("the line cannot be read and is left out; it is {NOT_QUOTED}"),
             };
-            warnings.add_at(index + 1, "lines", &text);
+            warnings.add_of(path, index + 1, "lines", &text);
         }
     }
     for material in &mut materials {

@@ -18,7 +18,7 @@ use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
 use crate::records::{self, Records, is_wide, short, without_mark};
 use crate::textures::{Decoded, Textures, find, opacity};
-use crate::{BadFile, Warnings, Wrong};
+use crate::{BadFile, Wrong};
 
 /// Lines of material files that are read: each is looked for in the folder.
 const MOST_LIBRARIES: usize = 1 << 10;
@@ -307,9 +307,7 @@ fn read_libraries(libraries: &[String], contents: &mut Contents) -> (Vec<mtl::Mt
                     left_bytes -= bytes.len() as u64;
                     let text = String::from_utf8_lossy(without_mark(&bytes));
                     let is_quoted = !is_outside(folder, &file);
-                    let mut of_file = Warnings::of(&file);
-                    materials.extend(mtl::read(&text, is_quoted, &mut of_file));
-                    warnings.append(of_file);
+                    materials.extend(mtl::read(&file, &text, is_quoted, warnings));
                 }
                 Err(error) => {
                     all_read = false;
