@@ -42,7 +42,7 @@ fn width_of(form: &str) -> Option<usize> {
 pub(super) struct Data<'a> {
     pub root: Root,
     /// Where the files are that it names.
-    folder: PathBuf,
+    pub folder: PathBuf,
     /// Those of different names.
     buffers: Vec<Cow<'a, [u8]>>,
     /// For each buffer of the document its number among them.
@@ -131,11 +131,6 @@ impl<'a> Data<'a> {
     pub(super) fn is_outside(&self, uri: &str) -> bool {
         let file = if data_of(uri).is_none() { file_of(&self.folder, uri) } else { None };
         file.is_some_and(|file| outside::is_outside(&self.folder, &file))
-    }
-
-    /// The bytes of the file that a URI names.
-    pub(super) fn resource(&self, uri: &str, limit_bytes: u64) -> Result<Vec<u8>, String> {
-        resource(&self.folder, uri, limit_bytes)
     }
 
     /// The bytes of a buffer view, and the distance of its elements where it has one.
@@ -318,7 +313,7 @@ fn most(kind: Kind) -> f64 {
 }
 
 /// The bytes that a URI names: those within a `data:` address, or of a file beside the model.
-fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec<u8>, String> {
+pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec<u8>, String> {
     if let Some(data) = data_of(uri) {
         let Some((head, data)) = data.split_once(',') else {
             return Err("a 'data:' address without a comma".to_owned());

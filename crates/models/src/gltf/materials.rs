@@ -11,7 +11,7 @@ use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity, O
 use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
-use super::data::Data;
+use super::data::{Data, resource};
 use super::document::{
     CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
     Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform, entry,
@@ -56,7 +56,7 @@ impl Images {
             // A TGA has no mark, so its ending is needed.
             let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
             let bytes = |limit| match (&image.uri, image.buffer_view) {
-                (Some(uri), _) => data.resource(uri, limit),
+                (Some(uri), _) => resource(&data.folder, uri, limit),
                 (None, Some(view)) => Ok(data.view(view)?.0.to_vec()),
                 (None, None) => Err("names no picture".to_owned()),
             };
