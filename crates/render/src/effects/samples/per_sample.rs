@@ -1,5 +1,4 @@
-//! Pixels whose samples are apart: written into the target as drawing them would have, and drawn one
-//! by one from then on.
+//! Pixels whose samples are told apart: these are written into the target as drawing them would have, and stay there.
 
 use super::depths::DepthPlane;
 use super::pattern::{Pattern, scaled};
