@@ -14,13 +14,13 @@ pub(crate) struct Identity {
 
 /// Device and number of a file on it: the same for all hard links. Some systems have none.
 #[cfg(unix)]
-fn number(data: &Metadata) -> Option<(u64, u64)> {
+pub(crate) fn number(data: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt as _;
     Some((data.dev(), data.ino()))
 }
 
 #[cfg(not(unix))]
-fn number(_: &Metadata) -> Option<(u64, u64)> {
+pub(crate) fn number(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 

@@ -51,13 +51,8 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
         return Err(refused(path, cause));
     }
     let mut options = OpenOptions::new();
-    options.read(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt as _;
-        // A pipe that has taken the file's place since would be waited for.
-        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
-    }
+    // A pipe that has taken the file's place since would be waited for.
+    without_waiting(options.read(true));
     let file = options.open(path).map_err(|error| failed(path, &error))?;
     let data = file.metadata().map_err(|error| failed(path, &error))?;
     if let Some(cause) = wrong_kind(data.file_type()) {
@@ -68,6 +63,17 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     }
     identity::note(path);
     Ok(file)
+}
+
+/// Lets a pipe or a device be opened, read and written without waiting for who has its other end.
+pub(crate) fn without_waiting(options: &mut OpenOptions) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt as _;
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    }
+    #[cfg(not(unix))]
+    let _ = options;
 }
 
 fn too_large(path: &Path, limit_bytes: u64) -> FileError {
@@ -84,15 +90,9 @@ fn too_large(path: &Path, limit_bytes: u64) -> FileError {
 /// # Errors
 /// As [`open`]; also where a file grows beyond the limit while it is read, as those below `/proc` may.
 pub fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, FileError> {
-    let file = open(path, limit_bytes)?;
-    let expected = file.metadata().map_or(0, |data| data.len());
-    let mut bytes = Vec::with_capacity(usize::try_from(expected).unwrap_or(0));
-    file.take(limit_bytes.saturating_add(1))
-        .read_to_end(&mut bytes)
-        .map_err(|error| failed(path, &error))?;
-    if bytes.len() as u64 > limit_bytes {
-        return Err(too_large(path, limit_bytes));
-    }
+    let mut file = Pieces::open(path, limit_bytes)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(file.length_bytes()).unwrap_or(0));
+    file.read_more(&mut bytes, limit_bytes.saturating_add(1))?;
     Ok(bytes)
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{FileError, refused};
-use crate::identity::place;
+use crate::identity::{number, place};
 use crate::output::{create_folder, remove};
 use crate::text::printable_path;
 
@@ -102,19 +102,11 @@ fn holder(file: &mut File) -> Option<Option<u32>> {
     text.strip_suffix('\n')?.parse().ok().map(Some)
 }
 
+/// Whether a path names an open file. Where files have no numbers, it is enough that it names one.
 fn is_at(file: &File, path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt as _;
-        let (Ok(open), Ok(named)) = (file.metadata(), std::fs::symlink_metadata(path)) else {
-            return false;
-        };
-        (open.dev(), open.ino()) == (named.dev(), named.ino())
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        path.exists()
+    match (file.metadata(), std::fs::symlink_metadata(path)) {
+        (Ok(open), Ok(named)) => number(&open) == number(&named),
+        _ => false,
     }
 }
 

@@ -17,6 +17,7 @@ use std::time::{Duration, Instant};
 
 use crate::error::{FileError, refused};
 use crate::identity::{self, Identity};
+use crate::input::without_waiting;
 use crate::limits::STALLED_WRITE_SECONDS;
 use crate::mark;
 use crate::text::printable_path;
@@ -200,19 +201,16 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// A file that is being written under a random name, and is removed when it goes out of scope, unless it was renamed before.
+/// A file that is being written under a random name, which is gone when this goes out of scope.
 struct Part {
     /// Open, and so locked, until it has its name.
     file: File,
     path: PathBuf,
-    is_renamed: bool,
 }
 
 impl Drop for Part {
     fn drop(&mut self) {
-        if !self.is_renamed {
-            let _ = remove(&self.path);
-        }
+        let _ = remove(&self.path);
     }
 }
 
@@ -221,7 +219,7 @@ fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::
     remove_left_parts(folder_of(target));
     let mut tries = 0;
     loop {
-        let mut part = Part::beside(target)?;
+        let mut part = part_beside(target)?;
         if let Some(old) = old {
             keep_owner(&part.file, old);
             part.file.set_permissions(old.permissions())?;
@@ -231,10 +229,7 @@ fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::
         match std::fs::rename(&part.path, target) {
             // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
             Err(error) if error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
-            result => {
-                part.is_renamed = result.is_ok();
-                return result;
-            }
+            result => return result,
         }
     }
 }
@@ -281,22 +276,20 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     let _ = (file, old);
 }
 
-impl Part {
-    /// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
-    /// its name already, links included, so that nothing of other people is written over.
-    #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
-    fn beside(target: &Path) -> io::Result<Self> {
-        loop {
-            // A number that cannot be foreseen: the standard library seeds its hash maps from the system.
-            let number = RandomState::new().build_hasher().finish();
-            let path = folder_of(target).join(format!(".rasterproof-{number:016x}.part"));
-            match OpenOptions::new().write(true).create_new(true).open(&path) {
-                // Another process may have removed it before it was locked.
-                Ok(file) if file.lock().is_ok() && !path.exists() => {}
-                Ok(file) => return Ok(Self { file, path, is_renamed: false }),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
-            }
+/// A new file under a random name in the folder of `target`, locked where the file system has locks, until it has its name.
+/// `create_new` refuses whatever has its name already, links included, so that nothing of other people is written over.
+#[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
+fn part_beside(target: &Path) -> io::Result<Part> {
+    loop {
+        // A number that cannot be foreseen: the standard library seeds its hash maps from the system.
+        let number = RandomState::new().build_hasher().finish();
+        let path = folder_of(target).join(format!(".rasterproof-{number:016x}.part"));
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            // Another process may have removed it before it was locked.
+            Ok(file) if file.lock().is_ok() && !path.exists() => {}
+            Ok(file) => return Ok(Part { file, path }),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
         }
     }
 }
@@ -305,12 +298,7 @@ impl Part {
 #[allow(clippy::disallowed_methods, reason = "this is the one function that writes to a device")]
 fn write_in_place(path: &Path, mut bytes: &[u8]) -> io::Result<()> {
     let mut options = OpenOptions::new();
-    options.write(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt as _;
-        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
-    }
+    without_waiting(options.write(true));
     let mut file = patiently(|| options.open(path))?;
     while !bytes.is_empty() {
         match patiently(|| file.write(bytes))? {

@@ -1,7 +1,5 @@
 //! Vertices whose numbers are not finite. The faces that use them are left out, so that one of them does not end the file.
 
-use std::path::Path;
-
 use glam::{DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
 use rasterproof_host::text::printable_short;
@@ -14,7 +12,7 @@ const POSITION: &str = "position that is not finite of face";
 const COLOUR: &str = "colour that is not finite of face";
 
 /// Removes the faces of all parts that cannot be drawn, counts them among what is not drawn, and returns how many they are.
-pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut Warnings) -> u64 {
+pub(crate) fn leave_out(contents: &mut Contents, warnings: &mut Warnings) -> u64 {
     let all: u64 = contents.parts.iter().map(|part| part.polygons.len() as u64).sum();
     let (mut counts, mut first, mut before) = ([0; 2], None, 0);
     let mut uvs = 0;
@@ -25,7 +23,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
             let name = printable_short(&part.name, 40);
             let part_of = if name.is_empty() { String::new() } else { format!(" of '{name}'") };
             let place = format!("face {} of the file{part_of}", before + number + 1);
-            first.get_or_insert((Some(line).filter(|&line| line > 0), place));
+            first.get_or_insert((line, place));
             counts = [counts[0] + of_part[0], counts[1] + of_part[1]];
             part.retain(|part, number| is_broken(part, number) == [false; 2]);
         }
@@ -49,7 +47,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
     }
     if uvs > 0 {
         let text = format!("{uvs} texture coordinates are not finite numbers; they are taken as 0");
-        warnings.add(path, None, "texture coordinates", &text);
+        warnings.add("texture coordinates", &text);
     }
     let left_out = counts[0] + counts[1];
     contents.count(POSITION, counts[0]);
@@ -64,7 +62,7 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
             "{left_out} of {all} faces are left out, since {what} of each is not a finite number; the first is {place}: \
              repair it in the program that wrote the file"
         );
-        warnings.add(path, line, "faces", &text);
+        warnings.add_at(line, "faces", &text);
     }
     left_out
 }

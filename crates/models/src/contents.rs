@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::cameras::Camera;
@@ -27,6 +28,8 @@ const MOST_PARTS: usize = 1 << 16;
 
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
+    /// The file itself.
+    pub path: PathBuf,
     pub parts: Vec<FilePart>,
     pub cameras: Vec<Camera>,
     pub lights: Vec<PunctualLight>,
@@ -51,6 +54,16 @@ pub(crate) struct Contents {
 pub(crate) type Kind = (Option<usize>, [bool; 3]);
 
 impl Contents {
+    /// Nothing of a file so far.
+    pub(crate) fn of(path: &Path) -> Self {
+        Self { path: path.to_owned(), warnings: Warnings::of(path), ..Self::default() }
+    }
+
+    /// The folder in which the files are that it names.
+    pub(crate) fn folder(&self) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).to_owned()
+    }
+
     /// Counts what is not drawn, by a key in the singular.
     pub(crate) fn count(&mut self, key: &str, count: u64) {
         if count > 0 {

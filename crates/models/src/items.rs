@@ -2,12 +2,11 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::RangeInclusive;
-use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
-use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Drawn;
@@ -24,50 +23,45 @@ use crate::contents::{
 use crate::gltf::encoded;
 use crate::polygons::{self, Odd, Shape};
 use crate::tangents;
-use crate::{BadFile, Format, LoadOptions, Model, Normals, Origin, Up, Warnings, bad, counted};
+use crate::{Format, LoadOptions, Model, Normals, Origin, Up, Warnings, Wrong, counted};
 
 /// The largest coordinate: products of three stay far below the largest double.
 pub(crate) const MOST_COORDINATE: f64 = 1e38;
 
 /// The model of a file. Files are right-handed and scenes left-handed, so z is negated at the end.
 pub(crate) fn model(
-    path: &Path,
     mut contents: Contents,
     format: Format,
     options: LoadOptions,
-) -> Result<Model, BadFile> {
+) -> Result<Model, Wrong> {
     let up = options.up.unwrap_or(format.usual_up());
     let turn = match up {
         Up::Y => DMat4::IDENTITY,
         // x stays, z becomes y, and y becomes -z.
         Up::Z => DMat4::from_cols(DVec4::X, DVec4::NEG_Z, DVec4::Y, DVec4::W),
     };
-    let mut warnings = Warnings::default();
+    let mut warnings = Warnings::of(&contents.path);
     for part in &mut contents.parts {
-        place(path, part, turn)?;
+        place(part, turn)?;
     }
+    let left_out = broken::leave_out(&mut contents, &mut warnings);
+    let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
     let mut cameras = std::mem::take(&mut contents.cameras);
-    cameras.iter_mut().for_each(|camera| camera.place(turn));
-    let mut lights = std::mem::take(&mut contents.lights);
-    let mut change = |by: &dyn Fn(PunctualLight) -> PunctualLight| {
-        lights.iter_mut().for_each(|light| *light = by(*light));
-    };
-    change(&|light| light.placed(turn));
-    let left_out = broken::leave_out(path, &mut contents, &mut warnings);
+    cameras.iter_mut().for_each(|camera| camera.place(mirror * turn));
+    let lights = contents.lights.iter().map(|light| light.placed(turn).placed(mirror));
+    let mut lights: Vec<PunctualLight> = lights.collect();
     if let Some(power) = to_usual_size(&mut contents.parts) {
         let what = if power > 0 { "small" } else { "large" };
         let text = format!(
             "is so {what} that all positions are multiplied by 2^{power}; the picture is the same, and the coordinates that \
              are shown are those after that"
         );
-        warnings.add_as_it_is(path, "sizes", &format!("{}: {text}", printable_path(path)));
-        let steps = half_powers(power);
-        cameras.iter_mut().for_each(|camera| steps.iter().for_each(|step| camera.scale(*step)));
-        change(&|light| steps.iter().fold(light, |light, step| light.scaled(*step)));
+        warnings.add("sizes", &text);
+        for step in half_powers(power) {
+            cameras.iter_mut().for_each(|camera| camera.scale(step));
+            lights.iter_mut().for_each(|light| *light = light.scaled(step));
+        }
     }
-    let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
-    cameras.iter_mut().for_each(|camera| camera.place(mirror));
-    change(&|light| light.placed(mirror));
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
@@ -85,7 +79,7 @@ pub(crate) fn model(
         first_face += part.polygons.len() as u32;
         let tangents = std::mem::take(&mut part.tangents);
         let second_uvs = std::mem::take(&mut part.second_uvs);
-        let mut mesh = mesh(path, part, &smooth, options.normals, &mut origin, &mut warnings);
+        let mut mesh = mesh(part, &smooth, options.normals, &mut origin, &mut warnings);
         if !second_uvs.is_empty() && material.has_second_uvs() {
             mesh.triangles = mesh.triangles.with_second_uvs(Attribute::OfPositions(second_uvs));
         }
@@ -123,15 +117,15 @@ pub(crate) fn model(
         contents.count("light of the file, without metal and roughness, of primitive", matt);
     }
     let not_drawn = counted(&contents.not_drawn);
-    let mut why_empty = clear_materials(path, &items, &origins, &mut warnings);
+    let mut why_empty = clear_materials(&items, &origins, &mut warnings);
     if items.is_empty() {
         if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
             let why =
                 contents.warnings.shown.first().map_or(String::new(), |why| format!(" ({why})"));
-            return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
+            return Err(format!("has no faces, so there is nothing to draw{why}").into());
         }
         let why = if left_out > 0 { "all its faces are left out" } else { "it has no faces" };
-        warnings.add(path, None, "faces", &format!("{why}, so the picture is empty"));
+        warnings.add("faces", &format!("{why}, so the picture is empty"));
         why_empty = why.to_owned();
     }
     let (file_bytes, animations) = (contents.other_bytes, contents.animations);
@@ -152,12 +146,7 @@ pub(crate) fn model(
 }
 
 /// Says which materials are fully transparent, and returns why the picture is empty where all of them are.
-fn clear_materials(
-    path: &Path,
-    items: &[Item],
-    origins: &[Origin],
-    warnings: &mut Warnings,
-) -> String {
+fn clear_materials(items: &[Item], origins: &[Origin], warnings: &mut Warnings) -> String {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut is_empty = true;
     for (item, origin) in items.iter().zip(origins) {
@@ -173,7 +162,7 @@ fn clear_materials(
              surfaces one by --opacity",
             named(name)
         );
-        warnings.add(path, None, "materials that are fully transparent", &text);
+        warnings.add("materials that are fully transparent", &text);
     }
     match counts.keys().next() {
         Some(name) if is_empty && counts.len() == 1 => {
@@ -204,7 +193,7 @@ fn is_clear(item: &Item) -> bool {
 }
 
 /// Brings a part into the coordinates of the scene, but for the sign of z.
-fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
+fn place(part: &mut FilePart, turn: DMat4) -> Result<(), String> {
     part.place(turn * part.to_file);
     // Faces with others are left out.
     let is_far =
@@ -212,14 +201,11 @@ fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
     let is_far_corner = |&corner: &u32| is_far(&part.positions[corner as usize]);
     let far = parallel::first(&part.positions, is_far);
     match far.and_then(|_| parallel::first(&part.corners, is_far_corner)) {
-        Some(corner) => {
-            let cause = format!(
-                "position {} of part '{}' is larger than 1e38: scale the model down in the program that wrote the file",
-                part.corners[corner] + 1,
-                printable_short(&part.name, 40)
-            );
-            Err(bad(path, None, cause))
-        }
+        Some(corner) => Err(format!(
+            "position {} of part '{}' is larger than 1e38: scale the model down in the program that wrote the file",
+            part.corners[corner] + 1,
+            printable_short(&part.name, 40)
+        )),
         None => Ok(()),
     }
 }
@@ -356,7 +342,6 @@ impl SmoothNormals {
 
 /// The triangles of a part; where each comes from is added to the origin.
 fn mesh(
-    path: &Path,
     mut part: FilePart,
     smooth: &SmoothNormals,
     normals: Normals,
@@ -366,7 +351,7 @@ fn mesh(
     let normals = part_normals(&mut part, smooth, normals);
     let uvs = attribute(std::mem::take(&mut part.uvs), DVec2::ZERO);
     let colours = attribute(std::mem::take(&mut part.colours), DVec3::ONE);
-    let cut = (!part.polygons.are_triangles()).then(|| cut(path, &part, origin, warnings));
+    let cut = (!part.polygons.are_triangles()).then(|| cut(&part, origin, warnings));
     let corners = match &cut {
         Some(cut) => cut.iter().map(|&corner| part.corners[corner as usize]).collect(),
         None => {
@@ -393,7 +378,7 @@ fn mirrored(v: DVec3) -> DVec3 {
 }
 
 /// The corners of all polygons as corners of triangles, by their numbers in the part.
-fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
+fn cut(part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
     let most = part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2);
     let mut triangles: Vec<u32> = Vec::with_capacity(3 * most);
     let (mut points, mut faces) = (Vec::new(), Vec::new());
@@ -422,12 +407,9 @@ fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warning
                 Odd::Folded => ("is not planar", "faces that are not planar"),
                 Odd::TooManyCorners => ("has more than 65536 corners", "faces of many corners"),
             };
-            let (line, face) = match line {
-                0 => (None, format!("face {face}")),
-                line => (Some(line as usize), "the face".to_owned()),
-            };
+            let face = if line > 0 { "the face".to_owned() } else { format!("face {face}") };
             let drawn = "so it is drawn as triangles around its first corner: split it";
-            warnings.add(path, line, kind, &format!("{face} {what}, {drawn}"));
+            warnings.add_at(line as usize, kind, &format!("{face} {what}, {drawn}"));
         }
     }
     origin.faces = Some(faces);

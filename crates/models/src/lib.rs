@@ -23,13 +23,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use rasterproof_host::input::Pieces;
+use rasterproof_host::error::FileError;
 use rasterproof_host::text::{printable_path, printable_short};
-use rasterproof_host::{input, limits};
 use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::scene::{Item, Shading};
 
 pub use cameras::{Camera, Lens};
+use contents::Contents;
 pub use format::Format;
 use records::Records;
 pub use textures::load_texture;
@@ -55,13 +55,41 @@ impl fmt::Display for BadFile {
 
 impl std::error::Error for BadFile {}
 
-pub(crate) fn bad(path: &Path, line: Option<usize>, cause: impl Into<String>) -> BadFile {
-    BadFile { path: path.to_owned(), line, cause: cause.into() }
+/// What is wrong with the file that is read. [`load`] adds which file that is.
+#[derive(Debug)]
+pub(crate) struct Wrong {
+    /// The line, from 1; 0 where it concerns none.
+    pub line: usize,
+    pub cause: String,
 }
 
-/// The bytes of a file of at most so many.
-pub(crate) fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
-    input::read(path, limit_bytes).map_err(|error| bad(path, None, error.cause))
+impl Wrong {
+    /// It as an error about this file.
+    pub(crate) fn of(self, path: &Path) -> BadFile {
+        BadFile {
+            path: path.to_owned(),
+            line: Some(self.line).filter(|&line| line > 0),
+            cause: self.cause,
+        }
+    }
+}
+
+impl From<String> for Wrong {
+    fn from(cause: String) -> Self {
+        Self { line: 0, cause }
+    }
+}
+
+impl From<&str> for Wrong {
+    fn from(cause: &str) -> Self {
+        cause.to_owned().into()
+    }
+}
+
+impl From<FileError> for Wrong {
+    fn from(error: FileError) -> Self {
+        error.cause.into()
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,9 +205,6 @@ impl Origin {
     }
 }
 
-/// Bytes of a file that are read at once, where not all of them are kept.
-pub(crate) const PIECE_BYTES: u64 = 1 << 20;
-
 /// Reads a model with its materials and textures.
 ///
 /// # Errors
@@ -187,26 +212,26 @@ pub(crate) const PIECE_BYTES: u64 = 1 << 20;
 /// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
 /// warning: the surface is drawn in its colour, or grey.
 pub fn load(path: &Path, options: LoadOptions) -> Result<Model, BadFile> {
-    let failed = |error: rasterproof_host::error::FileError| bad(path, None, error.cause);
-    let mut file = Pieces::open(path, limits::MODEL_BYTES).map_err(failed)?;
+    read(path, options).map_err(|wrong| wrong.of(path))
+}
+
+fn read(path: &Path, options: LoadOptions) -> Result<Model, Wrong> {
+    let mut file = Records::open(path)?;
     let length = file.length_bytes();
-    let mut bytes = Vec::new();
-    file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
-    let format = Format::of(path, &bytes, length).map_err(|cause| bad(path, None, cause))?;
-    let is_text = stl::is_text(&bytes);
-    // Each reader gets the bytes for good, since what it makes of them needs the memory.
-    let mut file = Records::new(path, bytes, file);
-    let contents = match format {
-        Format::Obj => obj::read(path, file)?,
-        Format::Stl if is_text => stl::text(path, file)?,
-        Format::Stl => stl::binary(path, file)?,
-        Format::Ply => ply::read(path, file)?,
+    let format = Format::of(path, &file.bytes, length)?;
+    let mut contents = Contents::of(path);
+    // Each reader gets the file for good, since what it makes of the bytes needs the memory.
+    match format {
+        Format::Obj => obj::read(file, &mut contents)?,
+        Format::Stl if stl::is_text(&file.bytes) => stl::text(file, &mut contents)?,
+        Format::Stl => stl::binary(file, &mut contents)?,
+        Format::Ply => ply::read(file, &mut contents)?,
         Format::Gltf | Format::Glb => {
             file.read_all()?;
-            gltf::read(path, &file.bytes, options.pose)?
+            gltf::read(&file.bytes, options.pose, &mut contents)?;
         }
-    };
-    let mut model = items::model(path, contents, format, options)?;
+    }
+    let mut model = items::model(contents, format, options)?;
     model.file_bytes += length;
     Ok(model)
 }
@@ -222,9 +247,10 @@ pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Warnings of one file, of which there may be as many as lines.
+/// Warnings of a model, of which there may be as many as lines.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings {
+    path: PathBuf,
     shown: Vec<String>,
     counts: BTreeMap<String, u64>,
 }
@@ -233,19 +259,37 @@ impl Warnings {
     /// Warnings of one kind that are shown; of the rest the number is.
     const MOST: u64 = 8;
 
-    /// A warning about a file, and about a line of it, from 1, where it has lines. Its kind is in the plural.
-    pub(crate) fn add(&mut self, path: &Path, line: Option<usize>, kind: &str, text: &str) {
-        let place = line.map_or(String::new(), |line| format!(":{line}"));
-        self.add_as_it_is(path, kind, &format!("{}{place}: {text}", printable_path(path)));
+    pub(crate) fn of(path: &Path) -> Self {
+        Self { path: path.to_owned(), ..Self::default() }
     }
 
-    /// The same with a text that names the file, or another one.
-    pub(crate) fn add_as_it_is(&mut self, path: &Path, kind: &str, text: &str) {
+    /// A warning about the model. Its kind is in the plural.
+    pub(crate) fn add(&mut self, kind: &str, text: &str) {
+        self.add_at(0, kind, text);
+    }
+
+    /// A warning about a line, from 1; 0 where it concerns none.
+    pub(crate) fn add_at(&mut self, line: usize, kind: &str, text: &str) {
+        self.add_of(&self.path.clone(), line, kind, text);
+    }
+
+    /// The same of a file that the model names.
+    pub(crate) fn add_of(&mut self, path: &Path, line: usize, kind: &str, text: &str) {
+        let place = if line > 0 { format!(":{line}") } else { String::new() };
+        self.note(path, kind, format!("{}{place}: {text}", printable_path(path)));
+    }
+
+    /// A warning whose text says which file it is about.
+    pub(crate) fn add_as_it_is(&mut self, kind: &str, text: String) {
+        self.note(&self.path.clone(), kind, text);
+    }
+
+    fn note(&mut self, path: &Path, kind: &str, text: String) {
         let kind = format!("{}: {kind}", printable_path(path));
         let count = self.counts.entry(kind).or_default();
         *count += 1;
         if *count <= Self::MOST {
-            self.shown.push(text.to_owned());
+            self.shown.push(text);
         }
     }
 

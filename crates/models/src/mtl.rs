@@ -61,7 +61,7 @@ pub(crate) fn read(
                 true => format!("{cause}; the line is left out"),
                 false => format!("the line cannot be read and is left out; it is {NOT_QUOTED}"),
             };
-            warnings.add(path, Some(index + 1), "lines", &text);
+            warnings.add_of(path, index + 1, "lines", &text);
         }
     }
     for material in &mut materials {

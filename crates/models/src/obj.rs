@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::{input, limits};
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
 use crate::records::{self, Records, is_wide, short, without_mark};
 use crate::textures::{Decoded, Textures, find, opacity};
-use crate::{BadFile, Warnings, bad, read_bytes};
+use crate::{BadFile, Wrong};
 
 /// Lines of material files that are read: each is looked for in the folder.
 const MOST_LIBRARIES: usize = 1 << 10;
@@ -93,8 +93,6 @@ struct Lines {
     libraries: Vec<String>,
     /// Those names, to find one again.
     known: HashSet<String>,
-    /// What is not drawn, and warnings.
-    contents: Contents,
     /// Vectors that cannot be read, by kind and index, with the line and what is wrong: a vector that no face uses
     /// does no harm.
     broken: BTreeMap<(usize, u32), (usize, String)>,
@@ -129,17 +127,16 @@ struct State {
     is_new: bool,
 }
 
-pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> {
-    let mut lines = lines(path, file)?;
-    check_faces(path, &mut lines)?;
-    let Lines { vectors, runs, libraries, mut contents, .. } = lines;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let (described, all_read) = read_libraries(path, &libraries, &mut contents.warnings);
+pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> {
+    let mut lines = lines(file, contents)?;
+    check_faces(&mut lines, contents)?;
+    let Lines { vectors, runs, libraries, .. } = lines;
+    let (described, all_read) = read_libraries(&libraries, contents);
     let mut numbers: HashMap<&str, usize> = HashMap::new();
     for (number, material) in described.iter().enumerate() {
         numbers.insert(&material.name, number);
     }
-    let mut textures = Textures::new(folder);
+    let mut textures = Textures::new(&contents.folder());
     // The number in `contents` of each material that is used.
     let mut used: HashMap<usize, usize> = HashMap::new();
     let mut unknown = HashSet::new();
@@ -157,7 +154,7 @@ pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> 
                     let text =
                         format!("no material file describes '{name}'; its faces are drawn grey");
                     let kind = "materials that no file describes";
-                    contents.warnings.add(path, Some(*line), kind, &text);
+                    contents.warnings.add_at(*line, kind, &text);
                 }
                 number
             }
@@ -167,7 +164,7 @@ pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> 
         if let Some(number) = number {
             let material = &described[number];
             part.material = Some(*used.entry(number).or_insert_with(|| {
-                let surface = surface(path, material, &mut textures, &mut contents);
+                let surface = surface(material, &mut textures, contents);
                 contents.materials.push(surface);
                 contents.materials.len() - 1
             }));
@@ -177,9 +174,9 @@ pub(crate) fn read(path: &Path, file: Records<'_>) -> Result<Contents, BadFile> 
                 }
             }
         }
-        contents.add(part).map_err(|cause| bad(path, None, cause))?;
+        contents.add(part)?;
     }
-    Ok(contents)
+    Ok(())
 }
 
 /// Makes parts with lists of their own, which hold what they use.
@@ -232,26 +229,25 @@ impl Cutter {
 }
 
 fn surface(
-    path: &Path,
     material: &mtl::MtlMaterial,
     textures: &mut Textures,
     contents: &mut Contents,
 ) -> Surface {
-    let folder = path.parent().unwrap_or(Path::new(""));
+    let folder = contents.folder();
     for key in &material.not_drawn {
         contents.count(key, 1);
     }
     let mut failed = |error: BadFile, without: &str| {
         let name = printable_short(&material.name, 40);
         let error = match material.is_quoted {
-            true => outside::of_picture(folder, error).to_string(),
+            true => outside::of_picture(&folder, error).to_string(),
             false => format!(
                 "{}: a picture that a material file names cannot be read; its name is {NOT_QUOTED}",
-                printable_path(path)
+                printable_path(&contents.path)
             ),
         };
         let text = format!("{error}; the material '{name}' is drawn {without}");
-        contents.warnings.add_as_it_is(path, "textures", &text);
+        contents.warnings.add_as_it_is("textures", text);
     };
     let texture = material.texture.as_ref().and_then(|texture| {
         let read = textures.get(&texture.name, texture.clamp);
@@ -281,17 +277,14 @@ fn surface(
 
 /// The materials of the files that a model names, in their order, and whether all files were read. A file that
 /// cannot be read is a warning.
-fn read_libraries(
-    path: &Path,
-    libraries: &[String],
-    warnings: &mut Warnings,
-) -> (Vec<mtl::MtlMaterial>, bool) {
-    let folder = path.parent().unwrap_or(Path::new(""));
+fn read_libraries(libraries: &[String], contents: &mut Contents) -> (Vec<mtl::MtlMaterial>, bool) {
+    let folder = &*contents.folder();
+    let Contents { path, warnings, .. } = contents;
     let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
     let (mut seen, mut all_read) = (HashSet::new(), true);
     if libraries.len() > MOST_LIBRARIES {
         let text = format!("only the first {MOST_LIBRARIES} material files are read");
-        warnings.add(path, None, "material files", &text);
+        warnings.add("material files", &text);
     }
     for names in libraries.iter().take(MOST_LIBRARIES) {
         for name in library_names(folder, names) {
@@ -304,12 +297,12 @@ fn read_libraries(
                 let (name, file) = (printable_short(&name, 60), printable_path(&file));
                 let text =
                     format!("there is no material file '{name}'; {file} is read in its place");
-                warnings.add(path, None, "material files", &text);
+                warnings.add("material files", &text);
             }
             if !seen.insert(file.clone()) {
                 continue;
             }
-            match read_bytes(&file, left_bytes) {
+            match input::read(&file, left_bytes) {
                 Ok(bytes) => {
                     left_bytes -= bytes.len() as u64;
                     let text = String::from_utf8_lossy(without_mark(&bytes));
@@ -320,7 +313,7 @@ fn read_libraries(
                     all_read = false;
                     let text =
                         format!("{error}; what it describes is drawn grey until the file is there");
-                    warnings.add_as_it_is(path, "material files", &text);
+                    warnings.add_as_it_is("material files", text);
                 }
             }
         }
@@ -374,11 +367,11 @@ const NOT_DRAWN: [(&str, &str); 10] = [
 ];
 
 /// What is wrong with a line, and what to do about it.
-fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
-    bad(path, Some(line), format!("{cause}: repair the line, or export the model again"))
+fn refused(line: usize, cause: &str) -> Wrong {
+    Wrong { line, cause: format!("{cause}: repair the line, or export the model again") }
 }
 
-fn lines(path: &Path, mut file: Records<'_>) -> Result<Lines, BadFile> {
+fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
     let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
     let mut state = State { is_new: true, ..State::default() };
@@ -398,23 +391,24 @@ fn lines(path: &Path, mut file: Records<'_>) -> Result<Lines, BadFile> {
             joined.extend_from_slice(line);
             line = &joined;
         }
-        let result = read_line(line, first, &mut read, &mut state);
-        if let Some(cause) = result.map_err(|cause| refused(path, first, &cause))? {
-            read.contents.warnings.add(path, Some(first), "lines", &cause);
+        let result = read_line(line, first, &mut read, &mut state, contents);
+        if let Some(cause) = result.map_err(|cause| refused(first, &cause))? {
+            contents.warnings.add_at(first, "lines", &cause);
         }
     }
-    if read.runs.is_empty() && read.contents.not_drawn.is_empty() {
+    if read.runs.is_empty() && contents.not_drawn.is_empty() {
         let hint = if is_wide {
             "it begins like text in UTF-16: save it as UTF-8"
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
         };
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let ending =
+            contents.path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         let ending = ending.filter(|ending| ending != "obj").map_or(String::new(), |ending| {
             format!(", and its name ends in .{}", printable_short(&ending, 10))
         });
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
-        return Err(bad(path, None, format!("{what}{ending}; {hint}")));
+        return Err(format!("{what}{ending}; {hint}").into());
     }
     // Some programs write bytes.
     let is_large = |colour: &DVec3| colour.is_finite() && colour.max_element() > 1.0;
@@ -433,10 +427,11 @@ fn read_line(
     number: usize,
     read: &mut Lines,
     state: &mut State,
+    contents: &mut Contents,
 ) -> Result<Option<String>, String> {
     if let Some(colours) = line.strip_prefix(b"#MRGB") {
         let count = colours.iter().filter(|byte| byte.is_ascii_hexdigit()).count() / 8;
-        read.contents.count(ZBRUSH_COLOUR, count as u64);
+        contents.count(ZBRUSH_COLOUR, count as u64);
         return Ok(None);
     }
     let mut words = words(line);
@@ -445,7 +440,7 @@ fn read_line(
         b"v" => return vector(&KINDS[0], words, number, read),
         b"vt" => return vector(&KINDS[1], words, number, read),
         b"vn" => return vector(&KINDS[2], words, number, read),
-        b"f" | b"fo" => return face(words, number, read, state),
+        b"f" | b"fo" => return face(words, number, read, state, contents),
         b"o" => {
             state.object = records::name(&rest(line, kind)).into();
             state.group = Arc::default();
@@ -479,10 +474,10 @@ fn read_line(
             // Some programs write capitals.
             if READ.contains(&&*word) {
                 let line = [word.as_bytes(), &line[kind.len()..]].concat();
-                return read_line(&line, number, read, state);
+                return read_line(&line, number, read, state, contents);
             }
             if let Some((_, key)) = NOT_DRAWN.iter().find(|(name, _)| *name == word) {
-                read.contents.count(key, 1);
+                contents.count(key, 1);
             } else if !WITHOUT_EFFECT.contains(&&*word) {
                 let what = format!("'{}' does not begin a line of an OBJ", short(kind));
                 return Ok(Some(format!("{what}; the line is left out")));
@@ -599,6 +594,7 @@ fn face<'a>(
     number: usize,
     read: &mut Lines,
     state: &mut State,
+    contents: &mut Contents,
 ) -> Result<Option<String>, String> {
     if state.is_new {
         state.is_new = false;
@@ -616,7 +612,7 @@ fn face<'a>(
     if part.end_polygon(start, number, state.smoothing) {
         return Ok(None);
     }
-    read.contents.count(INCOMPLETE_FACE, 1);
+    contents.count(INCOMPLETE_FACE, 1);
     Ok(Some("a face needs three corners or more; the line is left out".to_owned()))
 }
 
@@ -657,8 +653,8 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
 
 /// Looks whether what faces name is there. Takes away texture coordinates and normals that are not, and faces without all of their
 /// positions. Faces may come before what they name, so this is done at the end.
-fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
-    let Lines { vectors, runs, broken, contents, .. } = lines;
+fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> {
+    let Lines { vectors, runs, broken, .. } = lines;
     let counts = vectors.counts();
     let Contents { warnings, .. } = contents;
     // Vectors that faces are drawn without, by kind and index.
@@ -710,7 +706,7 @@ fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
                     _ => format!("the face is drawn without {name}s of the file"),
                 };
                 let text = format!("{of_vector}; {of_faces}");
-                warnings.add(path, Some(of_face), &format!("faces without their {name}s"), &text);
+                warnings.add_at(of_face, &format!("faces without their {name}s"), &text);
                 used.extend(named.into_iter().map(|index| (kind, index)));
                 if kind == 0 {
                     refusal.get_or_insert((line, cause));
@@ -728,7 +724,7 @@ fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
     if let Some((line, cause)) = refusal
         && runs.iter().all(|run| run.part.polygons.len() == 0)
     {
-        return Err(refused(path, line, &cause));
+        return Err(refused(line, &cause));
     }
     for (place @ (kind, _), (line, cause)) in &*broken {
         let what = match (used.contains(place), kind) {
@@ -736,7 +732,7 @@ fn check_faces(path: &Path, lines: &mut Lines) -> Result<(), BadFile> {
             (true, _) => "the faces that use it are drawn without it",
             (false, _) => "no face uses it",
         };
-        warnings.add(path, Some(*line), "lines", &format!("{cause}; {what}"));
+        warnings.add_at(*line, "lines", &format!("{cause}; {what}"));
     }
     contents.count(WITHOUT_POSITION, all_left_out);
     Ok(())

@@ -4,7 +4,6 @@
 //! are known beforehand, and their errors name no line of the body.
 
 use std::ops::Range;
-use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use rasterproof_core::parallel::{self, SHARE};
@@ -14,7 +13,7 @@ use rayon::prelude::*;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, Vectors};
 use crate::records::{Kind, Records, expected_number, without_mark};
 use crate::textures::{Textures, opacity};
-use crate::{BadFile, bad, outside};
+use crate::{Wrong, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
@@ -88,8 +87,8 @@ struct Header {
 }
 
 /// The elements of a file, number after number.
-struct Body<'a> {
-    file: Records<'a>,
+struct Body {
+    file: Records,
     form: Form,
     /// Where what is left of the line of text is.
     words: Range<usize>,
@@ -101,13 +100,13 @@ struct Body<'a> {
     comma: Option<usize>,
 }
 
-impl Body<'_> {
-    fn bad(&self, cause: &str) -> BadFile {
-        self.file.bad(&format!("{cause}: export the model again"))
+impl Body {
+    fn wrong(&self, cause: &str) -> Wrong {
+        self.file.wrong(format!("{cause}: export the model again"))
     }
 
     /// Where the next line is. Behind the last line break there is none.
-    fn next_line(&mut self) -> Result<Option<Range<usize>>, BadFile> {
+    fn next_line(&mut self) -> Result<Option<Range<usize>>, Wrong> {
         let line = self.file.find_line()?;
         let is_behind = self.file.at > self.file.bytes.len();
         if is_behind && line.as_ref().is_some_and(Range::is_empty) {
@@ -118,14 +117,13 @@ impl Body<'_> {
     }
 
     /// Goes to the next element: a line in text.
-    fn next_element(&mut self) -> Result<(), String> {
+    fn next_element(&mut self) -> Result<(), Wrong> {
         if self.form != Form::Text {
-            return self.file.read_all().map_err(|error| error.cause);
+            return self.file.read_all();
         }
         self.end_element();
         loop {
-            let line = self.next_line().map_err(|error| error.cause)?;
-            self.words = line.ok_or("the file is cut off")?;
+            self.words = self.next_line()?.ok_or("the file is cut off")?;
             if !self.file.bytes[self.words.clone()].trim_ascii().is_empty() {
                 return Ok(());
             }
@@ -188,19 +186,19 @@ impl Body<'_> {
 }
 
 /// Reads the lines up to `end_header`.
-fn header(body: &mut Body<'_>) -> Result<Header, BadFile> {
+fn header(body: &mut Body) -> Result<Header, Wrong> {
     let (elements, textures, unknown) = (Vec::new(), Vec::new(), Vec::new());
     let mut header = Header { form: Form::Text, elements, textures, unknown };
     let mut is_known = false;
     loop {
         let line = body.next_line()?;
-        let line = line.ok_or_else(|| body.bad("the file ends inside its header"))?;
+        let line = line.ok_or_else(|| body.wrong("the file ends inside its header"))?;
         let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
         // Some programs write capitals.
         let lower = line.to_ascii_lowercase();
         let words: Vec<&str> = lower.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
-        let wrong = || body.bad(&format!("'{shown}' is no line of a header"));
+        let wrong = || body.wrong(&format!("'{shown}' is no line of a header"));
         let as_written = |at| line.split_whitespace().nth(at).unwrap_or_default().to_owned();
         match words[..] {
             [] | ["ply" | "obj_info", ..] => {}
@@ -235,7 +233,7 @@ fn header(body: &mut Body<'_>) -> Result<Header, BadFile> {
                 element.properties.push(Property { name, kind, length: None });
             }
             ["end_header"] if is_known => return Ok(header),
-            ["end_header"] => return Err(body.bad("the header names no format")),
+            ["end_header"] => return Err(body.wrong("the header names no format")),
             ["element" | "property", ..] => return Err(wrong()),
             // Some programs leave out the word `comment`.
             _ => header.unknown.push((body.file.line, shown)),
@@ -266,7 +264,7 @@ const FIRST_COLOUR: usize = 8;
 const ALPHA: usize = 11;
 
 /// Reads the text or the bytes of a PLY.
-pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
+pub(crate) fn read(mut file: Records, contents: &mut Contents) -> Result<(), Wrong> {
     let line_break = file.left().iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     let line_break = &file.left()[line_break.unwrap_or(0)..];
     file.is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
@@ -279,46 +277,45 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         // A header may end the file.
         body.file.at = body.file.at.min(body.file.bytes.len());
     }
-    let mut contents = Contents::default();
     let mut part = FilePart::default();
     for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
         body.element = 0;
         let result = match element.name.to_ascii_lowercase().as_str() {
-            "vertex" => vertices(&mut body, element, &mut part, &mut contents),
-            "face" => faces(&mut body, element, &mut part, &mut contents),
+            "vertex" => vertices(&mut body, element, &mut part, contents),
+            "face" => faces(&mut body, element, &mut part, contents),
             "tristrips" => strips(&mut body, element, &mut part),
-            "edge" => others(&mut body, element, "edge", &mut contents),
+            "edge" => others(&mut body, element, "edge", contents),
             _ => {
                 let key = format!("element {}", printable_short(&element.name, 40));
-                others(&mut body, element, &key, &mut contents)
+                others(&mut body, element, &key, contents)
             }
         };
-        result.map_err(|cause| {
+        result.map_err(|Wrong { cause, .. }| {
             let name = printable_short(&element.name, 40);
-            body.bad(&format!("{name} {} of {}: {cause}", body.element + 1, element.count))
+            body.wrong(&format!("{name} {} of {}: {cause}", body.element + 1, element.count))
         })?;
     }
     let warnings = &mut contents.warnings;
     for (line, shown) in &header.unknown {
         let text = format!("'{shown}' is no line of a header; it is left out");
-        warnings.add(path, Some(*line), "lines of the header", &text);
+        warnings.add_at(*line, "lines of the header", &text);
     }
     body.end_element();
     body.file.read_all()?;
     let left = body.file.left().trim_ascii().len();
     if left > 0 {
         let text = format!("{left} bytes follow the last element; they are left out");
-        warnings.add(path, None, "bytes", &text);
+        warnings.add("bytes", &text);
     }
     if body.long > 0 {
         let what = "lines have more numbers than the header says; the rest of them is left out";
-        warnings.add(path, None, "lines", &format!("{} {what}", body.long));
+        warnings.add("lines", &format!("{} {what}", body.long));
     }
     if let Some(line) = body.comma {
         let text = "from this line on, a comma in a number is taken as a decimal point";
-        warnings.add(path, Some(line), "commas", text);
+        warnings.add_at(line, "commas", text);
     }
-    check(path, &part)?;
+    check(&part)?;
     if part.normals.values.len() == part.positions.len() {
         part.normals.numbers = Numbers::OfPositions;
     }
@@ -332,18 +329,18 @@ pub(crate) fn read(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
     if part.polygons.len() == 0 {
         contents.count("point", part.positions.len() as u64);
     }
-    surface(path, &header, &mut part, &mut contents);
+    surface(&header, &mut part, contents);
     contents.parts.push(part);
-    Ok(contents)
+    Ok(())
 }
 
 /// Counts elements that are not drawn, and moves past them.
 fn others(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     key: &str,
     contents: &mut Contents,
-) -> Result<(), String> {
+) -> Result<(), Wrong> {
     contents.count(key, element.count);
     while body.element < element.count {
         body.next_element()?;
@@ -366,11 +363,11 @@ const NO_VALUES: Vertex = {
 };
 
 fn vertices(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
-) -> Result<(), String> {
+) -> Result<(), Wrong> {
     let place = |property: &Property| {
         let is = |name: &&str| property.name.eq_ignore_ascii_case(name);
         let is_named = |names: &&[&str]| names.iter().any(is);
@@ -379,7 +376,7 @@ fn vertices(
     let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
     let has = |range: Range<usize>| range.clone().all(|at| places.contains(&Some(at)));
     if !has(0..3) {
-        return Err("the header gives vertices no x, y and z".to_owned());
+        return Err("the header gives vertices no x, y and z".into());
     }
     let (has_normals, has_uvs, has_colours) = (has(3..6), has(6..8), has(FIRST_COLOUR..ALPHA));
     for (property, place) in element.properties.iter().zip(&places) {
@@ -433,7 +430,7 @@ fn vertices(
             }
             bytes.len() / size
         });
-        body.element = whole.map_err(|error| error.cause)?;
+        body.element = whole?;
     }
     while body.element < element.count {
         body.next_element()?;
@@ -486,13 +483,13 @@ enum Role {
 }
 
 fn faces(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
-) -> Result<(), String> {
+) -> Result<(), Wrong> {
     if !element.properties.iter().any(is_corners) {
-        return Err("the header gives faces no list 'vertex_indices'".to_owned());
+        return Err("the header gives faces no list 'vertex_indices'".into());
     }
     // The colours of vertices are finer.
     let of_vertices = !part.colours.values.is_empty() && part.colours.numbers == Numbers::Nothing;
@@ -585,11 +582,11 @@ fn faces(
 /// Reads the next faces of a binary file as long as they are triangles in the form that is usual, and returns how many they are.
 /// Everything else is left to the caller.
 fn triangles(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     most: u64,
     part: &mut FilePart,
-) -> Result<u64, String> {
+) -> Result<u64, Wrong> {
     const RECORD: usize = 13;
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
@@ -628,9 +625,8 @@ fn triangles(
         }
         records.len()
     });
-    let count = count.map_err(|error| error.cause)?;
     part.push_triangles(read);
-    Ok(count)
+    count
 }
 
 /// Whether an index names a vertex is checked at the end, since vertices may follow.
@@ -642,7 +638,7 @@ fn corner(count: usize, value: f64) -> Result<u32, String> {
 }
 
 /// Strips of triangles, each ended by -1.
-fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result<(), String> {
+fn strips(body: &mut Body, element: &Element, part: &mut FilePart) -> Result<(), Wrong> {
     while body.element < element.count {
         body.next_element()?;
         for property in &element.properties {
@@ -676,27 +672,27 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result
 }
 
 /// Whether all vertices that faces name are there.
-fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
+fn check(part: &FilePart) -> Result<(), Wrong> {
     let count = part.positions.len();
     let wrong = parallel::first(&part.corners, |&corner| corner as usize >= count);
     let Some(wrong) = wrong else { return Ok(()) };
     let face = part.polygons.of_corner(wrong);
-    let line = Some(part.polygons.line(face) as usize).filter(|&line| line > 0);
+    let line = part.polygons.line(face) as usize;
     let index = part.corners[wrong];
     let cause = format!("face {} names vertex {index}, and the file has {count}, from 0", face + 1);
-    Err(bad(path, line, format!("{cause}: export the model again")))
+    Err(Wrong { line, cause: format!("{cause}: export the model again") })
 }
 
 /// The texture that a comment names.
-fn surface(path: &Path, header: &Header, part: &mut FilePart, contents: &mut Contents) {
+fn surface(header: &Header, part: &mut FilePart, contents: &mut Contents) {
     let Some((name, others)) = header.textures.split_first() else { return };
     contents.count("other texture", others.len() as u64);
     if part.uvs.values.is_empty() {
         contents.count("texture without coordinates", 1);
         return;
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
-    match Textures::new(folder).get(name, false) {
+    let folder = contents.folder();
+    match Textures::new(&folder).get(name, false) {
         Ok(decoded) => {
             part.material = Some(contents.materials.len());
             contents.materials.push(Surface {
@@ -707,9 +703,9 @@ fn surface(path: &Path, header: &Header, part: &mut FilePart, contents: &mut Con
             });
         }
         Err(error) => {
-            let error = outside::of_picture(folder, error);
+            let error = outside::of_picture(&folder, error);
             let text = format!("{error}; the model is drawn without it");
-            contents.warnings.add_as_it_is(path, "textures", &text);
+            contents.warnings.add_as_it_is("textures", text);
         }
     }
 }

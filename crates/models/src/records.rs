@@ -6,12 +6,14 @@ use std::path::Path;
 
 use memchr::memchr2;
 use rasterproof_core::parallel;
-use rasterproof_host::error::FileError;
 use rasterproof_host::input::Pieces;
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 
-use crate::{BadFile, PIECE_BYTES, bad};
+use crate::Wrong;
+
+/// How many bytes of lines are read at once.
+const PIECE_BYTES: u64 = 1 << 20;
 
 /// How many bytes of records are read at once: enough for several threads.
 const RECORD_PIECE_BYTES: u64 = 1 << 22;
@@ -124,8 +126,7 @@ impl Kind {
 }
 
 /// A file whose records are read one after the other.
-pub(crate) struct Records<'a> {
-    path: &'a Path,
+pub(crate) struct Records {
     file: Pieces,
     /// What was read and is not used up.
     pub bytes: Vec<u8>,
@@ -141,23 +142,27 @@ pub(crate) struct Records<'a> {
     pub is_old: bool,
 }
 
-impl<'a> Records<'a> {
-    /// A file whose first bytes were read already. A mark before a text is no part of it.
-    pub(crate) fn new(path: &'a Path, bytes: Vec<u8>, file: Pieces) -> Self {
+impl Records {
+    /// A file with its first bytes. A mark before a text is no part of it.
+    pub(crate) fn open(path: &Path) -> Result<Self, Wrong> {
+        let mut file = Pieces::open(path, limits::MODEL_BYTES)?;
+        let mut bytes = Vec::new();
+        file.read_more(&mut bytes, PIECE_BYTES)?;
         let at = bytes.len() - without_mark(&bytes).len();
-        Self { path, file, bytes, at, before: 0, ended: false, line: 0, is_old: false }
+        Ok(Self { file, bytes, at, before: 0, ended: false, line: 0, is_old: false })
     }
 
     /// An error at the line that was read last, or at the next byte where there are no lines.
-    pub(crate) fn bad(&self, cause: &str) -> BadFile {
+    pub(crate) fn wrong(&self, cause: String) -> Wrong {
         match self.line {
-            0 => bad(self.path, None, format!("byte {}: {cause}", self.before + self.at)),
-            line => bad(self.path, Some(line), cause),
+            0 => format!("byte {}: {cause}", self.before + self.at).into(),
+            line => Wrong { line, cause },
         }
     }
 
-    fn unread(&self, error: FileError) -> BadFile {
-        bad(self.path, None, error.cause)
+    /// The length that the file has now.
+    pub(crate) fn length_bytes(&self) -> u64 {
+        self.file.length_bytes()
     }
 
     pub(crate) fn left(&self) -> &[u8] {
@@ -166,31 +171,30 @@ impl<'a> Records<'a> {
 
     /// The length that the file has now, without what is used up.
     pub(crate) fn left_bytes(&self) -> u64 {
-        self.file.length_bytes().saturating_sub((self.before + self.at) as u64)
+        self.length_bytes().saturating_sub((self.before + self.at) as u64)
     }
 
     /// Reads what is left of the file, for readers that cannot say how long an element is.
-    pub(crate) fn read_all(&mut self) -> Result<(), BadFile> {
+    pub(crate) fn read_all(&mut self) -> Result<(), Wrong> {
         if self.ended {
             return Ok(());
         }
         let more = self.left_bytes().saturating_sub(self.left().len() as u64);
         self.bytes.reserve_exact(usize::try_from(more).unwrap_or(0));
-        let read = self.file.read_more(&mut self.bytes, u64::MAX);
-        read.map_err(|error| self.unread(error))?;
+        self.file.read_more(&mut self.bytes, u64::MAX)?;
         self.ended = true;
         Ok(())
     }
 
     /// The next line without its end; nothing after the last one. Lines end with a line feed, a carriage return or both; some
     /// files have all of them.
-    pub(crate) fn next_line(&mut self) -> Result<Option<&[u8]>, BadFile> {
+    pub(crate) fn next_line(&mut self) -> Result<Option<&[u8]>, Wrong> {
         let line = self.find_line()?;
         Ok(line.map(|line| &self.bytes[line]))
     }
 
     /// Where the next line is among the bytes, until the one after it is read.
-    pub(crate) fn find_line(&mut self) -> Result<Option<Range<usize>>, BadFile> {
+    pub(crate) fn find_line(&mut self) -> Result<Option<Range<usize>>, Wrong> {
         let mut searched = self.at;
         loop {
             let rest = self.bytes.get(searched..).unwrap_or_default();
@@ -210,8 +214,7 @@ impl<'a> Records<'a> {
             searched = self.bytes.len().saturating_sub(1);
             // As much again as is left of a line, so that a long one is not moved often.
             let more = PIECE_BYTES.max(self.bytes.len() as u64);
-            let read = self.file.read_more(&mut self.bytes, more);
-            self.ended = read.map_err(|error| self.unread(error))? == 0;
+            self.ended = self.file.read_more(&mut self.bytes, more)? == 0;
         }
     }
 
@@ -223,7 +226,7 @@ impl<'a> Records<'a> {
         size: usize,
         most: u64,
         mut read: impl FnMut(&[u8]) -> usize + Send,
-    ) -> Result<u64, BadFile> {
+    ) -> Result<u64, Wrong> {
         let (mut taken, mut next) = (0, Vec::new());
         loop {
             let whole = (self.left().len() / size) as u64;
@@ -241,7 +244,7 @@ impl<'a> Records<'a> {
             next.extend_from_slice(rest);
             let (more, used) =
                 parallel::join(|| file.read_more(&mut next, RECORD_PIECE_BYTES), || read(records));
-            let more = more.map_err(|error| self.unread(error))?;
+            let more = more?;
             self.ended = more == 0;
             taken += used as u64;
             if used < count {

@@ -16,9 +16,9 @@ use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
+use crate::Wrong;
 use crate::contents::{Contents, Coordinate, FilePart, Polygons};
 use crate::records::{self, Records, is_wide, without_mark};
-use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -165,19 +165,16 @@ fn renumber(old: &[u32], new: &[u32], to: &mut Vec<u32>) {
 }
 
 /// Reads triangles in records, and counts those that have an attribute, which is not drawn.
-pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
+pub(crate) fn binary(mut file: Records, contents: &mut Contents) -> Result<(), Wrong> {
     file.at = 0;
     let length = file.left_bytes();
-    let truncated = |cause: String| {
-        bad(path, None, format!("is truncated: {cause}: copy it or export the model again"))
-    };
-    let Some(announced) = counted(&file.bytes) else {
-        let cause = format!("an STL without text begins with {HEADER} bytes, and it has {length}");
-        return Err(truncated(cause));
-    };
+    let truncated =
+        |cause: String| format!("is truncated: {cause}: copy it or export the model again");
+    let announced = counted(&file.bytes).ok_or_else(|| {
+        truncated(format!("an STL without text begins with {HEADER} bytes, and it has {length}"))
+    })?;
     file.at = HEADER;
     let there = file.left_bytes() / RECORD as u64;
-    let mut contents = Contents::default();
     let warnings = &mut contents.warnings;
     // Programs that write before they know the number leave one of these.
     let count = match announced {
@@ -185,12 +182,12 @@ pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, Bad
             let text = format!(
                 "its header announces {announced} triangles, and it has {there}, which are read"
             );
-            warnings.add(path, None, "headers", &text);
+            warnings.add("headers", &text);
             there
         }
         announced if announced > there => {
             let cause = format!("its header announces {announced} triangles, and it has {there}");
-            return Err(truncated(cause));
+            return Err(truncated(cause).into());
         }
         announced => announced,
     };
@@ -198,7 +195,7 @@ pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, Bad
     if more > 0 {
         let text =
             format!("{more} bytes follow the last of its {count} triangles; they are left out");
-        warnings.add(path, None, "bytes", &text);
+        warnings.add("bytes", &text);
     }
     let (mut all, mut with_attribute) = (Vec::new(), 0);
     let read = file.records(RECORD, count, |bytes| {
@@ -210,15 +207,14 @@ pub(crate) fn binary(path: &Path, mut file: Records<'_>) -> Result<Contents, Bad
         records.len()
     });
     if read? < count {
-        let cause = "the file is cut off: it became shorter while it was read";
-        return Err(bad(path, None, cause));
+        return Err("the file is cut off: it became shorter while it was read".into());
     }
     drop(file);
     contents.count("attribute of triangle", with_attribute);
     let (positions, corners) = merged(&all);
     let polygons = Polygons::triangles(count as usize);
     contents.parts.push(FilePart { positions, corners, polygons, ..FilePart::default() });
-    Ok(contents)
+    Ok(())
 }
 
 /// A number of triangles that stands for one which is not known.
@@ -242,8 +238,7 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
 }
 
 /// Reads triangles in text, of which each `solid` becomes a part.
-pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFile> {
-    let mut contents = Contents::default();
+pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wrong> {
     let warnings = &mut contents.warnings;
     let mut parts: Vec<FilePart> = Vec::new();
     // Those of the last part.
@@ -283,7 +278,7 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
                         [Some(x), Some(y), Some(z)] if is_last => {
                             points.push([x, y, z]);
                             if let Some(word) = numbers.iter().find(|word| word.contains(&b',')) {
-                                warnings.add(path, Some(number), "lines", &records::comma(word));
+                                warnings.add_at(number, "lines", &records::comma(word));
                             }
                         }
                         _ => {
@@ -331,7 +326,7 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
                 _ => {
                     let text =
                         format!("'{}' is no line of an STL; the line is left out", shown(line));
-                    warnings.add(path, Some(number), "lines", &text);
+                    warnings.add_at(number, "lines", &text);
                     break;
                 }
             }
@@ -341,7 +336,7 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
         if file.next_line()?.is_some() {
-            return Err(bad(path, Some(number), cause));
+            return Err(Wrong { line: number, cause });
         }
         open = open.or(Some(number));
         break;
@@ -350,18 +345,18 @@ pub(crate) fn text(path: &Path, mut file: Records<'_>) -> Result<Contents, BadFi
         let cause = format!(
             "the file ends inside this facet: it is truncated, with {triangles} whole triangles before; copy it or export the model again"
         );
-        return Err(bad(path, Some(line), cause));
+        return Err(Wrong { line, cause });
     }
     if is_open && triangles > 0 {
         let text =
             format!("ends without 'endsolid' after {triangles} triangles: it may be truncated");
-        warnings.add(path, None, "ends", &text);
+        warnings.add("ends", &text);
     }
     end(parts.last_mut(), &mut corners);
     for part in parts {
-        contents.add(part).map_err(|cause| bad(path, None, cause))?;
+        contents.add(part)?;
     }
-    Ok(contents)
+    Ok(())
 }
 
 /// A text STL has these words beside numbers and the names of solids.

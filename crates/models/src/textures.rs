@@ -10,12 +10,12 @@ use std::sync::Arc;
 use glam::DVec2;
 use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
 use rasterproof_core::grid::MAX_SIDE_PX;
-use rasterproof_host::limits;
+use rasterproof_host::{input, limits};
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use sha2::{Digest as _, Sha256};
 
-use crate::{BadFile, bad, read_bytes};
+use crate::{BadFile, Wrong};
 
 /// Entries of a folder that are compared with a name: more than a folder of models has.
 const MOST_ENTRIES: usize = 1 << 16;
@@ -52,9 +52,11 @@ pub(crate) fn opacity(factor: f64, map: Option<Arc<OpacityMap>>) -> Option<Opaci
 /// # Errors
 /// [`BadFile`] where it cannot be read or decoded, or a side exceeds the largest one.
 pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
-    let bytes = read_bytes(path, limits::TEXTURE_BYTES)?;
-    let decoded = decode(path, &bytes, &mut 0).map_err(|cause| bad(path, None, cause))?;
-    Ok(decoded.texture)
+    let read = || {
+        let bytes = input::read(path, limits::TEXTURE_BYTES)?;
+        Ok(decode(path, &bytes, &mut 0)?.texture)
+    };
+    read().map_err(|wrong: Wrong| wrong.of(path))
 }
 
 /// The pictures that materials name, each decoded once, however often and by however many names it is named.
@@ -348,8 +350,8 @@ impl Textures {
         let path = found.unwrap_or_else(|| self.folder.join(name.replace('\\', "/")));
         let Self { read, pictures, .. } = self;
         let read = read.entry(path).or_insert_with_key(|path| {
-            let bytes = |limit| read_bytes(path, limit).map_err(|error| error.cause);
-            pictures.get(path, bytes).cloned().map_err(|cause| bad(path, None, cause))
+            let bytes = |limit| input::read(path, limit).map_err(|error| error.cause);
+            pictures.get(path, bytes).cloned().map_err(|cause| Wrong::from(cause).of(path))
         });
         read.as_ref().map_err(BadFile::clone)
     }

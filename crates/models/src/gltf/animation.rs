@@ -4,7 +4,7 @@ use glam::DQuat;
 use serde::Deserialize;
 
 use super::data::Data;
-use super::document::Node;
+use super::document::{Node, entry};
 use crate::Pose;
 
 #[derive(Deserialize)]
@@ -43,8 +43,7 @@ pub(super) fn apply(data: &mut Data<'_>, pose: Pose) -> Result<(), String> {
     let animation: Animation =
         serde_json::from_value(animation.clone()).map_err(|error| format!("{place}: {error}"))?;
     for Channel { sampler: number, target } in &animation.channels {
-        let sampler = animation.samplers.get(*number);
-        let sampler = sampler.ok_or_else(|| format!("{place}.samplers[{number}] is not there"))?;
+        let sampler = entry(&animation.samplers, &format!("{place}.samplers"), *number)?;
         let (Some(node), path) = (target.node, target.path.as_str()) else { continue };
         let value = value(data, sampler, path, pose.time_s).map_err(|e| format!("{place}: {e}"))?;
         let missing = || format!("{place}: nodes[{node}] is not there");

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
+use rasterproof_host::{input, limits};
 
-use super::document::{Accessor, Compressed, Root};
+use super::document::{Accessor, Compressed, Root, entry};
 use super::meshopt;
+use crate::outside;
 use crate::records::Kind;
 use crate::textures::find;
-use crate::{outside, read_bytes};
 
 /// Elements of an accessor without bytes, which are zeros.
 const MOST_ZEROS: usize = 1 << 24;
@@ -41,6 +41,8 @@ fn width_of(form: &str) -> Option<usize> {
 /// A document with the bytes that it names.
 pub(super) struct Data<'a> {
     pub root: Root,
+    /// Where the files are that it names.
+    pub folder: PathBuf,
     /// Those of different names.
     buffers: Vec<Cow<'a, [u8]>>,
     /// For each buffer of the document its number among them.
@@ -62,7 +64,7 @@ struct Column<'a> {
 
 impl<'a> Data<'a> {
     /// Reads the buffers of a document; `bin` is the second chunk of a GLB.
-    pub(super) fn new(root: Root, folder: &Path, bin: Option<&'a [u8]>) -> Result<Self, String> {
+    pub(super) fn new(root: Root, folder: PathBuf, bin: Option<&'a [u8]>) -> Result<Self, String> {
         let mut buffers: Vec<Cow<'_, [u8]>> = Vec::new();
         // By its name the number of a buffer among those that were read.
         let mut read: HashMap<&str, usize> = HashMap::new();
@@ -75,7 +77,7 @@ impl<'a> Data<'a> {
                 (Some(_), _) if known.is_some() => continue,
                 (Some(uri), _) => {
                     let failed = |cause| format!("buffers[{number}]: {cause}");
-                    let bytes = resource(folder, uri, left_bytes).map_err(failed)?;
+                    let bytes = resource(&folder, uri, left_bytes).map_err(failed)?;
                     left_bytes = left_bytes.saturating_sub(bytes.len() as u64);
                     read.insert(uri, buffers.len());
                     Cow::Owned(bytes)
@@ -86,7 +88,7 @@ impl<'a> Data<'a> {
             };
             buffers.push(bytes);
         }
-        let mut data = Self { root, buffers, numbers, decoded: HashMap::new() };
+        let mut data = Self { root, folder, buffers, numbers, decoded: HashMap::new() };
         data.decode()?;
         Ok(data)
     }
@@ -120,15 +122,20 @@ impl<'a> Data<'a> {
     }
 
     /// Whether some of the bytes are those of a file outside the folder of the model.
-    pub(super) fn has_outside_buffer(&self, folder: &Path) -> bool {
+    pub(super) fn has_outside_buffer(&self) -> bool {
         let mut uris = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
-        uris.any(|uri| is_outside(folder, uri))
+        uris.any(|uri| self.is_outside(uri))
+    }
+
+    /// Whether a URI names a file outside the folder of the model, so that no message may quote it.
+    pub(super) fn is_outside(&self, uri: &str) -> bool {
+        let file = if data_of(uri).is_none() { file_of(&self.folder, uri) } else { None };
+        file.is_some_and(|file| outside::is_outside(&self.folder, &file))
     }
 
     /// The bytes of a buffer view, and the distance of its elements where it has one.
     pub(super) fn view(&self, number: usize) -> Result<(&[u8], Option<usize>), String> {
-        let missing = || format!("bufferViews[{number}] is not there");
-        let view = self.root.buffer_views.get(number).ok_or_else(missing)?;
+        let view = entry(&self.root.buffer_views, "bufferViews", number)?;
         let bytes = match self.decoded.get(&number) {
             Some(bytes) => bytes,
             None => self.bytes(number, view.buffer, view.byte_offset, view.byte_length)?,
@@ -144,8 +151,7 @@ impl<'a> Data<'a> {
         start: u64,
         length: u64,
     ) -> Result<&[u8], String> {
-        let all = self.numbers.get(buffer).map(|&number| &self.buffers[number]);
-        let all = all.ok_or_else(|| format!("buffers[{buffer}] is not there"))?;
+        let all = &self.buffers[*entry(&self.numbers, "buffers", buffer)?];
         let bytes = start
             .checked_add(length)
             .and_then(|end| all.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
@@ -159,8 +165,7 @@ impl<'a> Data<'a> {
     }
 
     fn accessor(&self, number: usize) -> Result<&Accessor, String> {
-        let accessor = self.root.accessors.get(number);
-        accessor.ok_or_else(|| format!("accessors[{number}] is not there"))
+        entry(&self.root.accessors, "accessors", number)
     }
 
     fn column(&self, number: usize) -> Result<Column<'_>, String> {
@@ -339,7 +344,7 @@ pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec
     let Some(file) = file_of(folder, uri) else {
         return Err(format!("there is no file '{shown}' beside the model: put it there"));
     };
-    read_bytes(&file, limit_bytes).map_err(|error| error.to_string())
+    input::read(&file, limit_bytes).map_err(|error| error.to_string())
 }
 
 /// What follows `data:` in an address that contains its bytes.
@@ -354,12 +359,6 @@ fn file_of(folder: &Path, uri: &str) -> Option<PathBuf> {
     // What follows these signs is for servers.
     let name = plain.split(['?', '#']).next().unwrap_or_default();
     find(folder, &plain).or_else(|| find(folder, uri)).or_else(|| find(folder, name))
-}
-
-/// Whether a URI names a file outside the folder of the model, so that no message may quote it.
-pub(super) fn is_outside(folder: &Path, uri: &str) -> bool {
-    data_of(uri).is_none()
-        && file_of(folder, uri).is_some_and(|file| outside::is_outside(folder, &file))
 }
 
 /// Text in which `%20` stands for a space.

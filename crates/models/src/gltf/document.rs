@@ -7,6 +7,11 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
 
+/// An entry of a list of the document, by its number.
+pub(super) fn entry<'a, T>(list: &'a [T], name: &str, number: usize) -> Result<&'a T, String> {
+    list.get(number).ok_or_else(|| format!("{name}[{number}] is not there"))
+}
+
 /// The version of a document, where it says one.
 pub(super) fn version(json: &[u8]) -> Option<String> {
     #[derive(Deserialize)]

@@ -11,10 +11,10 @@ use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity, O
 use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
-use super::data::{Data, is_outside, resource};
+use super::data::{Data, resource};
 use super::document::{
     CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
-    Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform,
+    Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform, entry,
 };
 use crate::contents::{Contents, Sides, Surface};
 use crate::outside;
@@ -42,25 +42,21 @@ pub(crate) fn encoded(linear: f64) -> f64 {
 }
 
 /// The pictures of a document, by their numbers.
-pub(super) struct Images<'a> {
-    path: &'a Path,
+#[derive(Default)]
+pub(super) struct Images {
     pictures: Pictures,
     read: HashMap<usize, Result<Decoded, String>>,
 }
 
-impl<'a> Images<'a> {
-    pub(super) fn new(path: &'a Path) -> Self {
-        Self { path, pictures: Pictures::default(), read: HashMap::new() }
-    }
-
+impl Images {
     fn get(&mut self, data: &Data<'_>, number: usize) -> Result<Decoded, String> {
-        let Self { path, pictures, read } = self;
+        let Self { pictures, read } = self;
         let new = || {
             let image = data.root.images.get(number).ok_or("is not there")?;
             // A TGA has no mark, so its ending is needed.
             let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
             let bytes = |limit| match (&image.uri, image.buffer_view) {
-                (Some(uri), _) => resource(path.parent().unwrap_or(Path::new("")), uri, limit),
+                (Some(uri), _) => resource(&data.folder, uri, limit),
                 (None, Some(view)) => Ok(data.view(view)?.0.to_vec()),
                 (None, None) => Err("names no picture".to_owned()),
             };
@@ -68,11 +64,10 @@ impl<'a> Images<'a> {
         };
         let read = read.entry(number).or_insert_with(new);
         read.clone().map_err(|cause| {
-            let folder = path.parent().unwrap_or(Path::new(""));
             let image = data.root.images.get(number);
             let is_outside = match image.and_then(|image| image.uri.as_deref()) {
-                Some(uri) => is_outside(folder, uri),
-                None => data.has_outside_buffer(folder),
+                Some(uri) => data.is_outside(uri),
+                None => data.has_outside_buffer(),
             };
             let cause = if is_outside { outside::without_details(&cause) } else { cause };
             format!("images[{number}] {cause}")
@@ -86,7 +81,7 @@ impl<'a> Images<'a> {
 pub(super) fn describe(
     data: &Data<'_>,
     number: Option<usize>,
-    images: &mut Images<'_>,
+    images: &mut Images,
     contents: &mut Contents,
 ) -> Option<Described> {
     let mut missing = Material::default();
@@ -142,7 +137,7 @@ pub(super) fn describe(
             Err(cause) => {
                 let name = printable_short(&name, 40);
                 let text = format!("{cause}; the material '{name}' is drawn in its colour");
-                warnings.add(images.path, None, "textures", &text);
+                warnings.add("textures", &text);
                 None
             }
         }
@@ -158,7 +153,7 @@ pub(super) fn describe(
             let name = printable_short(&name, 40);
             let text =
                 format!("{cause}; the material '{name}' is drawn without its {}", named(map));
-            warnings.add(images.path, None, "textures", &text);
+            warnings.add("textures", &text);
         };
         (linear, Arc::new(physical(data, material, images, &mut count, &mut missing)))
     });
@@ -285,7 +280,7 @@ fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) 
 fn physical(
     data: &Data<'_>,
     material: &Material,
-    images: &mut Images<'_>,
+    images: &mut Images,
     count: &mut impl FnMut(&str),
     missing: &mut dyn FnMut(Map, String),
 ) -> Physical {
@@ -337,10 +332,9 @@ fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
 }
 
 /// The picture of a texture with its sampler.
-fn texture(data: &Data<'_>, info: &Info, images: &mut Images<'_>) -> Result<Decoded, String> {
+fn texture(data: &Data<'_>, info: &Info, images: &mut Images) -> Result<Decoded, String> {
     let number = info.index;
-    let missing = || format!("textures[{number}] is not there");
-    let texture = data.root.textures.get(number).ok_or_else(missing)?;
+    let texture = entry(&data.root.textures, "textures", number)?;
     let webp = texture.extensions.webp.as_ref().and_then(|webp| webp.source);
     let source = texture.source.or(webp).filter(|&source| source < data.root.images.len());
     let missing = || format!("textures[{number}] has no picture that is read");
@@ -399,8 +393,8 @@ mod tests {
         ]}"#;
         let root = read(json).unwrap();
         assert!(root.nodes[0].children.is_empty());
-        let data = Data::new(root, Path::new(""), None).unwrap();
-        let mut images = Images::new(Path::new("a.gltf"));
+        let data = Data::new(root, Path::new("").into(), None).unwrap();
+        let mut images = Images::default();
         let mut described = |number| {
             describe(&data, Some(number), &mut images, &mut Contents::default()).unwrap().surface
         };

@@ -14,7 +14,6 @@ mod meshopt;
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
-use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
@@ -30,11 +29,11 @@ use serde_json::Value;
 use crate::cameras::{Camera, Lens};
 use crate::contents::{Contents, FilePart, Polygons, Surface, Vectors, of_normals};
 use crate::records::{self, without_mark};
-use crate::{BadFile, Pose, bad};
+use crate::{Pose, Wrong};
 use data::Data;
 use document::{
     Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
-    TRIANGLE_STRIP, TRIANGLES,
+    TRIANGLE_STRIP, TRIANGLES, entry,
 };
 pub(crate) use materials::encoded;
 use materials::{Described, Images};
@@ -94,47 +93,42 @@ pub(crate) fn is_glb(bytes: &[u8]) -> bool {
 }
 
 /// Reads a document, as JSON with files beside it or as one GLB.
-pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Contents, BadFile> {
-    let failed = |cause: String| bad(path, None, cause);
+pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) -> Result<(), Wrong> {
     let Chunks { json, bin, odd } = match is_glb(bytes) {
-        true => chunks(bytes).map_err(failed)?,
+        true => chunks(bytes)?,
         false => Chunks { json: bytes, bin: None, odd: None },
     };
     // Some programs fill a chunk with zeros.
     let is_filling = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
     let end = json.iter().rposition(|byte| !is_filling(byte)).map_or(0, |last| last + 1);
     let json = without_mark(&json[..end]);
-    let mut contents = Contents::default();
-    let no_gltf = |error: serde_json::Error| {
-        let line = (!is_glb(bytes)).then(|| error.line()).filter(|&line| line > 0);
-        bad(path, line, format!("is no glTF that can be read: {error}"))
+    let no_gltf = |error: serde_json::Error| Wrong {
+        line: if is_glb(bytes) { 0 } else { error.line() },
+        cause: format!("is no glTF that can be read: {error}"),
     };
     let is_first = document::version(json).is_some_and(|version| version.trim().starts_with('1'));
     let json = match is_first {
-        true => Cow::Owned(first::upgraded(json, &mut contents).map_err(no_gltf)?),
+        true => Cow::Owned(first::upgraded(json, contents).map_err(no_gltf)?),
         false => Cow::Borrowed(json),
     };
     let root = document::read(&json).map_err(no_gltf)?;
     let compressed = root.extensions_required.iter().find(|name| COMPRESSED.contains(&&***name));
     if let Some(name) = compressed {
         let remedy = "export the model without compression";
-        return Err(failed(format!(
-            "its triangles are compressed by {name}, which is not read: {remedy}"
-        )));
+        let cause = "its triangles are compressed by";
+        return Err(format!("{cause} {name}, which is not read: {remedy}").into());
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut data = Data::new(root, folder, bin).map_err(failed)?;
+    let mut data = Data::new(root, contents.folder(), bin)?;
     if let Some(pose) = pose {
-        animation::apply(&mut data, pose).map_err(failed)?;
+        animation::apply(&mut data, pose)?;
     }
     let name =
         |animation: &Value| records::name(animation["name"].as_str().unwrap_or("")).to_owned();
     contents.animations = data.root.animations.iter().map(name).collect();
     let mut reader = Reader {
-        path,
         data: &data,
         contents,
-        images: Images::new(path),
+        images: Images::default(),
         described: HashMap::new(),
         see_through: HashMap::new(),
         opacities: None,
@@ -145,11 +139,10 @@ pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Cont
     if let Some(odd) = odd {
         reader.warn("lengths", &odd);
     }
-    reader.scene().map_err(failed)?;
+    reader.scene()?;
     reader.count_the_rest();
-    let mut contents = reader.contents;
     contents.other_bytes = data.len();
-    Ok(contents)
+    Ok(())
 }
 
 /// What a GLB consists of.
@@ -215,10 +208,9 @@ const LEAST_GLB_BYTES: usize = 12 + CHUNK_HEAD_BYTES;
 type UsedMaterial = (usize, [Option<materials::Coordinates>; 2]);
 
 struct Reader<'a> {
-    path: &'a Path,
     data: &'a Data<'a>,
-    contents: Contents,
-    images: Images<'a>,
+    contents: &'a mut Contents,
+    images: Images,
     /// By the numbers of the materials that are used; nothing is that of primitives that name none.
     described: HashMap<Option<usize>, Option<UsedMaterial>>,
     /// The surfaces of primitives whose vertices have opacities, by that of their material and the one opacity.
@@ -237,12 +229,8 @@ impl Reader<'_> {
         self.contents.count(key, count);
     }
 
-    fn has_outside_buffer(&self) -> bool {
-        self.data.has_outside_buffer(self.path.parent().unwrap_or(Path::new("")))
-    }
-
     fn warn(&mut self, kind: &str, text: &str) {
-        self.contents.warnings.add(self.path, None, kind, text);
+        self.contents.warnings.add(kind, text);
     }
 
     /// Reads the meshes of all nodes of the scene.
@@ -260,8 +248,7 @@ impl Reader<'_> {
         let mut open: Vec<(usize, DMat4, usize)> =
             roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY, 1)).collect();
         while let Some((number, parent, depth)) = open.pop() {
-            let missing = || format!("nodes[{number}] is not there");
-            let node = root.nodes.get(number).ok_or_else(missing)?;
+            let node = entry(&root.nodes, "nodes", number)?;
             if depth > root.nodes.len() {
                 return Err(format!("nodes[{number}] contains itself: nodes have to form a tree"));
             }
@@ -279,8 +266,7 @@ impl Reader<'_> {
             self.camera(number, node, world);
             self.light(node, world);
             let Some(mesh) = node.mesh else { continue };
-            let missing = || format!("meshes[{mesh}] is not there");
-            let primitives = &root.meshes.get(mesh).ok_or_else(missing)?.primitives;
+            let primitives = &entry(&root.meshes, "meshes", mesh)?.primitives;
             let copies = self.instances(node).map_err(|cause| format!("nodes[{number}]: {cause}"));
             for copy in copies? {
                 for (at, primitive) in primitives.iter().enumerate() {
@@ -482,7 +468,7 @@ impl Reader<'_> {
         let compressed = compressed.map_err(|cause| {
             // What is behind the colon may be a number of the file.
             let before = cause.split_once(':').map(|(before, _)| before.to_owned());
-            before.filter(|_| self.has_outside_buffer()).unwrap_or(cause)
+            before.filter(|_| self.data.has_outside_buffer()).unwrap_or(cause)
         })?;
         let vertices = Vertices { data: self.data, primitive, compressed };
         let Some(positions) = vertices.read("POSITION") else {
@@ -626,7 +612,7 @@ impl Reader<'_> {
             opacity.map = Some(self.opacities.get_or_insert_with(materials::opacities).clone());
         }
         let key = (number, if is_one { first.to_bits() } else { u64::MAX });
-        let Contents { materials, .. } = &mut self.contents;
+        let Contents { materials, .. } = &mut *self.contents;
         *self.see_through.entry(key).or_insert_with(|| {
             let surface = Surface { opacity: Some(opacity), ..materials[number].clone() };
             materials.push(surface);
@@ -683,7 +669,7 @@ impl Reader<'_> {
         if wrong > 0 {
             let named = list.iter().copied().max().unwrap_or(0);
             // The index is what stands in the file.
-            let named = match self.has_outside_buffer() {
+            let named = match self.data.has_outside_buffer() {
                 true => String::new(),
                 false => format!(", as {named} of {count}"),
             };
@@ -719,7 +705,7 @@ impl Reader<'_> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
-        let (images, contents) = (&mut self.images, &mut self.contents);
+        let (images, contents) = (&mut self.images, &mut *self.contents);
         let described = materials::describe(self.data, number, images, contents);
         let known = described.map(|Described { surface, uvs }| {
             self.contents.materials.push(surface);
@@ -765,17 +751,14 @@ impl Reader<'_> {
 
     /// Where each joint of a skin brings what is bound to it.
     fn joints(&self, number: usize, worlds: &[DMat4]) -> Result<Vec<DMat4>, String> {
-        let missing = || format!("skins[{number}] is not there");
-        let skin = self.data.root.skins.get(number).ok_or_else(missing)?;
+        let skin = entry(&self.data.root.skins, "skins", number)?;
         let bound: Vec<[f64; 16]> = match skin.inverse_bind_matrices {
             Some(accessor) => self.data.vectors(accessor)?,
             None => Vec::new(),
         };
         let matrix = |(at, &joint): (usize, &usize)| {
-            let world = worlds.get(joint);
-            let world = world.ok_or_else(|| format!("nodes[{joint}] is not there"))?;
             let inverse = bound.get(at).map_or(DMat4::IDENTITY, DMat4::from_cols_array);
-            Ok(*world * inverse)
+            Ok(*entry(worlds, "nodes", joint)? * inverse)
         };
         skin.joints.iter().enumerate().map(matrix).collect()
     }

@@ -20,7 +20,7 @@ mod sample_masks;
 use std::ops::Range;
 
 use self::depths::DepthPlane;
-use self::pattern::{Pattern, PixelRow};
+use self::pattern::{Pattern, PixelRow, scaled};
 use self::pixel::{EMPTY, Interval, Meeting, Pixel, Pool, State, meet};
 use self::sample_masks::SampleMask;
 use super::plan::{PiecePlan, Samples};
@@ -95,13 +95,12 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let depth = plan.depth;
+        let (depth, bare, stage) = (plan.depth, bare(piece), &mut each(|_, _| colour));
+        let way = Way { affine: true, depth_test: depth, ..Way::default() };
         let rect = touched(&piece.corners(), target.antialias());
         if self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, depth, target, counters) {
-                let way = Way { affine: true, depth_test: true, ..Way::default() };
-                let (bounds, stage) = (target.bounds(), &mut each(|_, _| colour));
-                fill(engine, &bare(piece), target, bounds, way, stage, counters);
+                fill(engine, &bare, target, target.bounds(), way, stage, counters);
             }
             return;
         }
@@ -109,12 +108,9 @@ impl OnDemand {
         self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
-        for &run in &runs {
-            if depth {
-                self.test_samples(engine, &bare(piece), run, colour, target, counters);
-            } else {
-                self.fill_samples(run, colour, target, counters);
-            }
+        for run in &runs {
+            let block = scaled(run.rect(), self.pattern.scale);
+            fill(engine, &bare, target, block, way, stage, counters);
         }
         self.runs = runs;
     }

@@ -1,5 +1,4 @@
-//! Pixels whose samples are apart: written into the target as drawing them would have, and drawn one
-//! by one from then on.
+//! Pixels whose samples are told apart: these are written into the target as drawing them would have, and stay there.
 
 use super::depths::DepthPlane;
 use super::pattern::{Pattern, scaled};
@@ -98,57 +97,6 @@ impl OnDemand {
                     }
                 }
                 divide(states, was_apart, run, counters);
-            }
-        }
-    }
-
-    /// Tests and writes the samples of a run of pixels that are apart.
-    pub(super) fn test_samples(
-        &self,
-        engine: &impl Interpolate,
-        piece: &DepthPiece,
-        run: Run,
-        colour: Colour,
-        target: &mut Target,
-        counters: &mut Counters,
-    ) {
-        let (block, format) = (scaled(run.rect(), self.pattern.scale), target.format);
-        let (mut emitted, mut visible) = (0, 0);
-        for (i, plane) in target.planes.iter_mut().enumerate() {
-            let Some(moved) = self.pattern.moved(piece, i) else { continue };
-            engine.runs(&moved, block, true, &mut |run| {
-                let (x0, x1) = (run.x0_px, run.x1_px());
-                let stored = plane.depth.span_mut(run.y_px, x0, x1);
-                let nearer = format.test_and_write(run.depths, stored);
-                emitted += run.depths.len() as u64;
-                visible += u64::from(nearer.count_ones());
-                for (i, drawn) in plane.colour.span_mut(run.y_px, x0, x1).iter_mut().enumerate() {
-                    *drawn = if nearer >> i & 1 != 0 { colour } else { *drawn };
-                }
-            });
-        }
-        counters.fragments += emitted;
-        counters.depth_tests += emitted;
-        counters.depth_failed += emitted - visible;
-    }
-
-    /// Writes the covered samples of a run of pixels that are apart.
-    pub(super) fn fill_samples(
-        &self,
-        run: Run,
-        colour: Colour,
-        target: &mut Target,
-        counters: &mut Counters,
-    ) {
-        let (block, planes) = (scaled(run.rect(), self.pattern.scale), self.pattern.planes);
-        for y in block.y0..block.y1 {
-            let rows = &self.rows[y as usize * planes..];
-            for (plane, &(x0, x1)) in target.planes.iter_mut().zip(rows) {
-                let (x0, x1) = (x0.max(block.x0), x1.min(block.x1));
-                if x0 < x1 {
-                    plane.colour.span_mut(y, x0, x1).fill(colour);
-                    counters.fragments += u64::from(x0.abs_diff(x1));
-                }
             }
         }
     }
