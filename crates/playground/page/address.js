@@ -125,7 +125,7 @@ function command() {
   if (!state.snap && !names.offFamilies.some(({ name }) => name === state.generated?.family)) words.push('--exact');
   const [x0, y0, x1, y1] = state.window;
   // A recorded input has a screen of its own; what is larger than a panel was cut.
-  const isWhole = side() < MOST_PX && !names.recorded.some(({ name }) => name === state.named);
+  const isWhole = side() < FARTHEST_PX && !names.recorded.some(({ name }) => name === state.named);
   if (!(isWhole && String(state.own) === String(state.window) && (state.named || state.generated))) {
     words.push(`--window ${x0},${y0},${x1 - x0}x${y1 - y0}`);
   }

@@ -53,8 +53,6 @@ function lookAt(x, y) {
 
 /** Pixels along the longer side of the panels. */
 const side = () => Math.max(state.window[2] - state.window[0], state.window[3] - state.window[1]);
-/** The largest window. */
-const MOST_PX = 128;
 
 function keepPixel() {
   const [x0, y0, x1, y1] = state.window;

@@ -33,8 +33,7 @@ function drawTools() {
 function pressTools() {
   for (const follow of sliding) follow();
   for (const button of $('tools').querySelectorAll('[data-by]')) {
-    const pressed = String(state.by?.[1] === button.dataset.by);
-    if (button.getAttribute('aria-pressed') !== pressed) button.setAttribute('aria-pressed', pressed);
+    mark(button, 'aria-pressed', state.by?.[1] === button.dataset.by);
   }
 }
 

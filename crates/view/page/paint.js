@@ -96,8 +96,9 @@ export function paintMarks(sheet, markAt) {
   paintSigns(sheet, signs);
 }
 
-/** Glyphs and rings; where the sample has a dot, the glyph stands beside it. */
+/** Glyphs and rings; where the sample has a dot, the glyph stands beside it. A font is set only where there are some: for that the browser styles the page. */
 function paintSigns(sheet, signs) {
+  if (signs.length === 0) return;
   const { g, unit } = sheet;
   const isAside = unit >= DOTS_FROM;
   const size = isAside ? Math.min(24, unit * 0.45) : unit * 0.75;
