@@ -282,10 +282,7 @@ for (const font of fs.readdirSync(path.join(dist, 'fonts')).filter((name) => nam
   fs.copyFileSync(path.join(dist, 'fonts', font), path.join(site, 'katex/fonts', font));
 }
 
-/**
- * What is above a chapter, without what only the contents need: the script that fills them, which is as large as all style sheets of
- * mdBook, and what it prepares for. It comes behind the text, which is seen that much earlier.
- */
+// What only the contents need comes behind the text, which is seen that much earlier: their script is as large as the style sheets.
 function withoutContents(head) {
   const parts = [/ *<script src="[./]*toc-[^"]*"><\/script>\n/, / *<!-- Apply ARIA attributes[^]*?<\/script>\n/].map((pattern) => head.match(pattern)[0]);
   return [parts.reduce((rest, part) => once(rest, part, ''), head), parts.join('')];
@@ -391,18 +388,13 @@ vm.runInContext(`
   search.index = index.toJSON();
 `, world);
 write(indexFile, `window.search = Object.assign(window.search, ${JSON.stringify(world.window.search)});\n`);
-const teaser = (text) => once(text, 'function makeTeaser(body, searchterms) {', `function makeTeaser(body, searchterms) {
+const instead = (text, head, body) => once(text, `function ${head} {`, `function ${head} {\n${body}\n`);
+edit(asset('zh', /^searcher-.*\.js$/), (text) => instead(instead(text, 'makeTeaser(body, searchterms)', `
         const at = body.toLowerCase().indexOf(searchterms[0].toLowerCase());
         if (at < 0) return body.slice(0, 90);
         const end = at + searchterms[0].length;
         return body.slice(Math.max(0, at - 30), at) + '<em>' + body.slice(at, end) + '</em>' + body.slice(end, end + 60);
-    }
-    function unusedTeaser(body, searchterms) {`);
-const metric = (text) => once(text, 'function formatSearchMetric(count, searchterm) {', `function formatSearchMetric(count, searchterm) {
-        return '“' + searchterm + '”：' + count + ' 处';
-    }
-    function unusedMetric(count, searchterm) {`);
-edit(asset('zh', /^searcher-.*\.js$/), (text) => metric(teaser(text)));
+`), 'formatSearchMetric(count, searchterm)', "return '“' + searchterm + '”：' + count + ' 处';"));
 
 // One compiled module for the whole site, in a script, since a page on disk may load nothing else: the pages in `try` load it
 // at once, live figures when the first is seen.

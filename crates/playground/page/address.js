@@ -16,9 +16,7 @@ function address() {
     words.set('seed', state.generated.seed);
   }
   else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
-  else if (state.triangles) {
-    words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
-  }
+  else if (state.triangles) words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
   for (const key of ['window', 'by', 'px']) if (state[key]) words.set(key, state[key].join(','));
   if (!state.snap || state.named) words.set('snap', Number(state.snap));
   if (state.numbers) words.set('numbers', '1');

@@ -6,10 +6,7 @@ function redraw() {
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
-    const begun = performance.now();
     drawFrame();
-    frames.push(performance.now() - begun);
-    if (frames.length > 1000) frames.shift();
   });
   keepAddress();
 }

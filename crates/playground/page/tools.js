@@ -1,8 +1,12 @@
 // Tools and the table of corners.
 
+/** What brings sliders and boxes to where their values are, which change elsewhere too. */
+let sliding = [];
+
 function check(label, key, then = () => {}) {
   const box = make('input', { type: 'checkbox', checked: state[key], 'data-state': key });
   box.addEventListener('change', () => { state[key] = box.checked; then(); redraw(); });
+  sliding.push(() => { box.checked = state[key]; });
   return make('label', {}, box, ` ${label}`);
 }
 
@@ -20,9 +24,6 @@ function slide(label, get, [low, high, step], set) {
   });
   return make('label', { className: 'group' }, `${label} `, range, ' ', says);
 }
-
-/** What brings the sliders to where their values are, which are dragged elsewhere too. */
-let sliding = [];
 
 function drawTools() {
   sliding = [];

@@ -55,6 +55,9 @@ export function renew(element, ...children) {
   become(element, next);
 }
 
+/** A number with what it counts. */
+export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
+
 /** The language of the page, one of two. */
 export const pageLanguage = () => (document.documentElement.lang.startsWith('zh') ? 'zh' : 'en');
 

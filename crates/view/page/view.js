@@ -400,6 +400,7 @@ class View extends HTMLElement {
     };
     for (const ends of ['pointerup', 'pointercancel']) frame.addEventListener(ends, release);
     frame.addEventListener('focusin', ({ target }) => { if (target.matches('.knob')) this.source.onHold?.(Number(target.dataset.index)); });
+    const acts = { '+': () => this.zoom(-1), '=': () => this.zoom(-1), '-': () => this.zoom(1), 0: () => this.fit(), f: () => this.enlarge() };
     frame.addEventListener('keydown', (event) => {
       const grip = this.grips()[event.target.closest('.knob')?.dataset.index];
       const step = arrowOf(event);
@@ -410,10 +411,7 @@ class View extends HTMLElement {
       else if (step && event.target === canvas) {
         const from = cursor ?? [(this.seen[0] + this.seen[2]) / 2 - step[0], (this.seen[1] + this.seen[3]) / 2 - step[1]];
         this.point([0, 1].map((axis) => from[axis] + step[axis] * (event.shiftKey ? 8 : 1)), true);
-      } else if (event.key === '+' || event.key === '=') this.zoom(-1);
-      else if (event.key === '-') this.zoom(1);
-      else if (event.key === '0') this.fit();
-      else if (event.key === 'f') this.enlarge();
+      } else acts[event.key]?.();
     });
   }
 
