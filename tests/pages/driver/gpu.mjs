@@ -121,7 +121,7 @@ function plant(fault) {
   if (fault === 'lost') {
     instead(HTMLCanvasElement.prototype, 'getContext', (get, ...values) => {
       const context = get(...values), extension = context?.getExtension?.('WEBGL_lose_context');
-      lose = () => extension.loseContext();
+      if (extension) lose = () => extension.loseContext();
       return context;
     });
     instead(Adapter?.prototype, 'requestDevice', async (get) => {
