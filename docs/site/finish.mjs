@@ -343,8 +343,7 @@ for (const file of shown) {
   } else filePage(file);
 }
 
-// What is found in a lesson comes before what is found in a page to look up, and the history of the project comes last: the
-// parts of the summary stand in this order.
+// What is found in a lesson comes before what is found in a page to look up, by the parts of the summary; the changelog comes last.
 const WEIGHTS = [4, 7, 1.5, 1.2, 1, 0.5, 0.5, 0.1];
 for (const book of ['en', 'zh']) {
   const [summary, ...inParts] = read(path.join(stage, book, 'SUMMARY.md')).split(/^# /m).slice(1);
@@ -357,7 +356,8 @@ for (const book of ['en', 'zh']) {
   edit(asset(book, /^searcher-.*\.js$/), (text) => once(text, search, `${search}
         const weights = ${JSON.stringify(weights)};
         for (const result of results) result.score *= weights[doc_urls[result.ref].split('#')[0]] ?? 1;
-        results.sort((a, b) => b.score - a.score);`));
+        const isLast = ({ ref }) => doc_urls[ref].startsWith('CHANGELOG.');
+        results.sort((a, b) => isLast(a) - isLast(b) || b.score - a.score);`));
 }
 
 edit(asset('zh', /^book-.*\.js$/), (text) => text.replaceAll('Copy to clipboard', '复制'));
