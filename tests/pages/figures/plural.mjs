@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 
 import { answer, figures, inFigure } from '../driver/figures.mjs';
+import { none } from '../driver/site.mjs';
 
 /** For the page: what a figure says wherever its grips stand, in a dozen steps along each way that one may go. */
 function saidAnywhere(figure, ends, fault) {
@@ -32,15 +33,17 @@ export default {
   says: 'Wherever its grips stand, a figure calls one pixel a pixel and one centre a centre; where it does not, that is seen',
   page: 'made figures en',
   async check(tab) {
+    const wrong = [];
     let seen = 0, count = 0;
     for (const { name, ends } of await figures()) {
       await answer(tab, name);
       const texts = await inFigure(tab, name, saidAnywhere, ends, false);
       count += texts.length;
-      assert.deepEqual(wrongNumbers(texts), [], name);
+      wrong.push(...wrongNumbers(texts).slice(0, 1).map((text) => `${name}: ${text}`));
       seen += wrongNumbers(await inFigure(tab, name, saidAnywhere, ends, true)).length;
     }
     console.log(`${count} texts of figures`);
+    none(wrong);
     assert(seen > 3, `a plural of one is seen ${seen} times`);
   },
 };
