@@ -63,6 +63,8 @@ export default {
         const [seen, moved] = await tab.value('[window.seen, window.moved]');
         console.log(`${page} at ${width} px: ${isCompressed ? compressed : plain} bytes before the first picture, which is seen after ${seen} ms`);
         assert(moved < 0.02, `${page} at ${width} px moves by ${moved}`);
+        // It asks for no picture any more.
+        await tab.call('Page.navigate', { url: 'about:blank' });
         server.close();
       }
     }
