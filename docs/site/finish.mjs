@@ -158,12 +158,12 @@ const hasEngines = fs.existsSync(modulePath);
 const { instantiate, ask } = vm.runInThisContext(`${read('crates/playground/page/engines.js')}; ({ instantiate, ask })`);
 if (hasEngines) instantiate(new WebAssembly.Module(fs.readFileSync(modulePath)));
 
-/** The beginning of a live figure behind its first answer on a light and on a dark page: it is painted with that, however slowly the page is read. */
+/** The beginning of a live figure behind its first answer, with its pictures on a light and on a dark page: it is painted with that, however slowly the page is read. */
 function withFirstAnswer(page, book, start, name, open) {
   if (!hasEngines) return start;
-  const of = (isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark });
-  const first = { light: of(false), dark: of(true) };
-  if (first.light.error) wrong.push(`${page}: the figure ${name}: ${first.light.error}`);
+  const [first, { svg }] = [false, true].map((isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark }));
+  if (first.error) wrong.push(`${page}: the figure ${name}: ${first.error}`);
+  first.svg = [first.svg, svg];
   return `<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>${start}`;
 }
 
@@ -244,6 +244,7 @@ function inTabs(page, main) {
 function finished(book, page, place, main, others) {
   const away = (where) => path.posix.relative(path.posix.dirname(place), where);
   let pictures = 0;
+  const hasFigure = main.includes('<rp-figure');
   // A break between two lines would be seen as a space, which Chinese does not have.
   const joined = inTabs(page, main).split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
     at % 2 ? part : part.replace(/(?<=[\u3000-\u9fff\uff00-\uffef])\n(?=[\u3000-\u9fff\uff00-\uffef])/g, '')).join('');
@@ -266,7 +267,7 @@ function finished(book, page, place, main, others) {
         return whole;
       }
       pictures += 1;
-      return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 ? ' loading="lazy"' : ''}`;
+      return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 || hasFigure ? ' loading="lazy"' : ''}`;
     })
     // Code has its look from the beginning: mdBook's script would give it the class later, and all below would move.
     .replace(/<a class="header"[^]*?<\/a>|<code(?: class="([^"]*)")?>/g, (whole, others = '') => (
@@ -279,6 +280,12 @@ write(path.join(site, 'katex/katex.css'), read(path.join(dist, 'katex.min.css'))
 for (const font of fs.readdirSync(path.join(dist, 'fonts')).filter((name) => name.endsWith('.woff2'))) {
   fs.mkdirSync(path.join(site, 'katex/fonts'), { recursive: true });
   fs.copyFileSync(path.join(dist, 'fonts', font), path.join(site, 'katex/fonts', font));
+}
+
+// What only the contents need comes behind the text, which is seen that much earlier: their script is as large as the style sheets.
+function withoutContents(head) {
+  const parts = [/ *<script src="[./]*toc-[^"]*"><\/script>\n/, / *<!-- Apply ARIA attributes[^]*?<\/script>\n/].map((pattern) => head.match(pattern)[0]);
+  return [parts.reduce((rest, part) => once(rest, part, ''), head), parts.join('')];
 }
 
 const TEXT_IS_READ = "<script>document.documentElement.classList.add('is-read'); document.dispatchEvent(new Event('text-is-read'));</script>";
@@ -305,13 +312,15 @@ for (const book of ['en', 'zh']) {
     const [, otherMain] = parts[place.replace(/^../, book === 'en' ? 'zh' : 'en')] ?? ['', ''];
     const text = finished(book, page, place, main, headings(otherMain));
     const away = (where) => path.posix.relative(path.posix.dirname(place), where);
-    let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
+    // The style of formulas stands before the first one: what is above it is painted without.
+    const styled = formulas > before ? text.replace('<span class="katex', `<link rel="stylesheet" fetchpriority="low" href="${away('katex/katex.css')}">$&`) : text;
     // Before the text is read, so that no figure is shown first as its still picture.
-    if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
+    const more = text.includes('<rp-figure') ? `<script src="${away('try/figure.js')}"></script>\n` : '';
     // What stands below the text, search and copying, leaves the line to what the first view needs.
-    const below = once(foot, '</main>', `</main>\n${TEXT_IS_READ}`).replaceAll('<script src="', '<script fetchpriority="low" src="');
+    const [above, contents] = withoutContents(reachable(head));
+    const below = once(foot, '</main>', `</main>\n${contents}${TEXT_IS_READ}`).replaceAll('<script src="', '<script fetchpriority="low" src="');
     const translated = book === 'zh' ? inChinese : (html) => html;
-    write(path.join(site, place), translated(reachable(head).replace('</head>', `${more}</head>`)) + text + translated(below));
+    write(path.join(site, place), translated(above.replace('</head>', `${more}</head>`)) + styled + translated(below));
   }
   // The headings of a page come into the contents when the text is there, before these are shown, and not after the last script.
   edit(asset(book, /^toc-.*\.js$/), (text) => text.replaceAll("addEventListener('DOMContentLoaded'", "addEventListener('text-is-read'"));
@@ -334,8 +343,7 @@ for (const file of shown) {
   } else filePage(file);
 }
 
-// What is found in a lesson comes before what is found in a page to look up, and the history of the project comes last: the
-// parts of the summary stand in this order.
+// What is found in a lesson comes before what is found in a page to look up, by the parts of the summary; the changelog comes last.
 const WEIGHTS = [4, 7, 1.5, 1.2, 1, 0.5, 0.5, 0.1];
 for (const book of ['en', 'zh']) {
   const [summary, ...inParts] = read(path.join(stage, book, 'SUMMARY.md')).split(/^# /m).slice(1);
@@ -348,7 +356,8 @@ for (const book of ['en', 'zh']) {
   edit(asset(book, /^searcher-.*\.js$/), (text) => once(text, search, `${search}
         const weights = ${JSON.stringify(weights)};
         for (const result of results) result.score *= weights[doc_urls[result.ref].split('#')[0]] ?? 1;
-        results.sort((a, b) => b.score - a.score);`));
+        const isLast = ({ ref }) => doc_urls[ref].startsWith('CHANGELOG.');
+        results.sort((a, b) => isLast(a) - isLast(b) || b.score - a.score);`));
 }
 
 edit(asset('zh', /^book-.*\.js$/), (text) => text.replaceAll('Copy to clipboard', '复制'));
@@ -379,18 +388,13 @@ vm.runInContext(`
   search.index = index.toJSON();
 `, world);
 write(indexFile, `window.search = Object.assign(window.search, ${JSON.stringify(world.window.search)});\n`);
-const teaser = (text) => once(text, 'function makeTeaser(body, searchterms) {', `function makeTeaser(body, searchterms) {
+const instead = (text, head, body) => once(text, `function ${head} {`, `function ${head} {\n${body}\n`);
+edit(asset('zh', /^searcher-.*\.js$/), (text) => instead(instead(text, 'makeTeaser(body, searchterms)', `
         const at = body.toLowerCase().indexOf(searchterms[0].toLowerCase());
         if (at < 0) return body.slice(0, 90);
         const end = at + searchterms[0].length;
         return body.slice(Math.max(0, at - 30), at) + '<em>' + body.slice(at, end) + '</em>' + body.slice(end, end + 60);
-    }
-    function unusedTeaser(body, searchterms) {`);
-const metric = (text) => once(text, 'function formatSearchMetric(count, searchterm) {', `function formatSearchMetric(count, searchterm) {
-        return '“' + searchterm + '”：' + count + ' 处';
-    }
-    function unusedMetric(count, searchterm) {`);
-edit(asset('zh', /^searcher-.*\.js$/), (text) => metric(teaser(text)));
+`), 'formatSearchMetric(count, searchterm)', "return '“' + searchterm + '”：' + count + ' 处';"));
 
 // One compiled module for the whole site, in a script, since a page on disk may load nothing else: the pages in `try` load it
 // at once, live figures when the first is seen.

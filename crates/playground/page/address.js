@@ -16,9 +16,7 @@ function address() {
     words.set('seed', state.generated.seed);
   }
   else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
-  else if (state.triangles) {
-    words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
-  }
+  else if (state.triangles) words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
   for (const key of ['window', 'by', 'px']) if (state[key]) words.set(key, state[key].join(','));
   if (!state.snap || state.named) words.set('snap', Number(state.snap));
   if (state.numbers) words.set('numbers', '1');
@@ -125,7 +123,7 @@ function command() {
   if (!state.snap && !names.offFamilies.some(({ name }) => name === state.generated?.family)) words.push('--exact');
   const [x0, y0, x1, y1] = state.window;
   // A recorded input has a screen of its own; what is larger than a panel was cut.
-  const isWhole = side() < MOST_PX && !names.recorded.some(({ name }) => name === state.named);
+  const isWhole = side() < FARTHEST_PX && !names.recorded.some(({ name }) => name === state.named);
   if (!(isWhole && String(state.own) === String(state.window) && (state.named || state.generated))) {
     words.push(`--window ${x0},${y0},${x1 - x0}x${y1 - y0}`);
   }

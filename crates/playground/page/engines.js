@@ -12,25 +12,15 @@ function instantiate(module = compiled) {
   return engines;
 }
 
-/**
- * Asks the engines; an answer, or an error as its text. Pixels are bytes of ASCII, and
- * become the text `pixels` of the question without being copied through one.
- */
-function ask(question, pixels) {
-  let text = new TextEncoder().encode(JSON.stringify(question));
-  if (pixels) {
-    const before = new TextEncoder().encode(`${JSON.stringify(question).slice(0, -1)},"pixels":"`);
-    text = new Uint8Array(before.length + pixels.length + 2);
-    text.set(before);
-    text.set(pixels, before.length);
-    text.set([0x22, 0x7d], before.length + pixels.length);
-  }
+/** Asks the engines; an answer, or an error as its text. Pixels are bytes of ASCII. */
+function ask(question, bytes) {
+  const pixels = bytes && new TextDecoder().decode(bytes);
+  const text = new TextEncoder().encode(JSON.stringify({ ...question, pixels }));
   try {
     const at = engines.room(text.length);
     new Uint8Array(engines.memory.buffer, at, text.length).set(text);
     const length = engines.answer();
-    const bytes = new Uint8Array(engines.memory.buffer, engines.text(), length);
-    return JSON.parse(new TextDecoder().decode(bytes));
+    return JSON.parse(new TextDecoder().decode(new Uint8Array(engines.memory.buffer, engines.text(), length)));
   } catch (error) {
     instantiate();
     return { error: `The engine stopped, and was started again. 引擎停了，已重新启动。 (${error.message})` };

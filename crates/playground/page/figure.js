@@ -3,7 +3,7 @@
 // loaded before the first figure comes into view, from engines.js beside this script, which calls
 // rasterproofEngines with the module in base64: so it works from disk, too. data-playground on the script's own
 // element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
-// before a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
+// before a figure holds their first answer, with its pictures on a light and on a dark page: with it the question is there before the engines are.
 // A figure that is `open` begins with its answer.
 import { arrowOf, button, make, say } from './dom.js';
 
@@ -153,7 +153,7 @@ class Figure extends HTMLElement {
 
   /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
   answer() {
-    if (!this.exports) return this.first[this.isDark ? 'dark' : 'light'];
+    if (!this.exports) return { ...this.first, svg: this.first.svg[Number(this.isDark)] };
     return ask({
       ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: this.isDark,
     });

@@ -6,10 +6,7 @@ function redraw() {
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
-    const begun = performance.now();
     drawFrame();
-    frames.push(performance.now() - begun);
-    if (frames.length > 1000) frames.shift();
   });
   keepAddress();
 }
@@ -21,24 +18,20 @@ function drawFrame() {
     last.answer = answer;
     view.show(shownOf(answer));
   }
-  pressTools();
-  const wait = Math.max(0, explained + 100 - performance.now());
-  explainLater(() => explain(answer), wait);
-  cornersLater(drawCorners, wait + 30);
+  explainSoon(answer);
   settleLater(settled, 100);
 }
 
-/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag ten times a second. */
-let explained = 0;
-const [explainLater, cornersLater] = [delayed(), delayed()];
+/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag some times a second. */
+const explainSoon = paced(explain, 100);
 function explain(answer) {
-  explained = performance.now();
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
     last.look = look.error ? null : look;
   }
-  renew($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+  const beside = scene().look && !answer.error ? scene().look(answer) : [];
+  [() => renew($('look'), beside), pressTools, drawCorners].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
 }
 
 /** What is said once nothing moves: the command, and what a screen reader reads aloud. */

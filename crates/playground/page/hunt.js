@@ -12,8 +12,6 @@ function load(found, from) {
   const { window, snap } = drawn;
   const places = kind === 'line' ? { lines: drawn.lines } : { triangles: drawn.triangles };
   Object.assign(state, by && { by }, places, from, { window, snap, chosen: 0, px: middle(window), step: 999, own: window });
-  const box = document.querySelector('[data-state="snap"]');
-  if (box) box.checked = state.snap;
   if ($('named')) {
     $('named').value = from.named ?? '';
     $('named-about').textContent = about(entry(from.named ?? ''));

@@ -31,30 +31,22 @@ function shownOf(answer) {
     title: `${word('title')}: ${word(state.scene)}`, high: 0.8, most: 64, fine: state.lines ? 1 : 1 / SUB,
     panels: scene().panels(answer).map((panel, i) => panelOf(panel, i, answer)),
     grips, cursor: state.px ?? null, hovers: state.hover,
-    legend: scene().choices === painters ? ['agrees', 'missing', 'extra', 'twice'].map((kind) => [kind, SIGNS[kind], word(kind)]) : [],
+    legend: scene().choices === painters ? ['agrees', 'missing', 'extra', 'twice'].map((kind) => [kind, GLYPHS[kind], word(kind)]) : [],
     onSeen: isFixed ? null : (window) => { state.window = window; keepPixel(); redraw(); },
-    onPoint: (x, y, byKeys) => { if (byKeys && state.px) { state.px = [x, y]; redraw(); } else lookAt(x, y); },
+    onPoint: isFixed ? null : lookAt,
     // A click keeps the pixel, another one lets it follow the mouse again.
     onTap: (type) => { state.hover = type !== 'mouse' || state.hover === false; },
     onHold: (index) => { state.chosen = index; },
   };
 }
-const SIGNS = { agrees: '', missing: '\u2212', extra: '+', twice: '2' };
 
-function lookAt(x, y) {
-  if (scene().handles) return;
-  const [px, py] = [Math.floor(x), Math.floor(y)];
-  const [x0, y0, x1, y1] = state.window;
-  if (px < x0 || py < y0 || px >= x1 || py >= y1) return;
-  if (state.px?.[0] === px && state.px?.[1] === py) return;
-  state.px = [px, py];
+function lookAt(...px) {
+  state.px = px.slice(0, 2);
   redraw();
 }
 
 /** Pixels along the longer side of the panels. */
 const side = () => Math.max(state.window[2] - state.window[0], state.window[3] - state.window[1]);
-/** The largest window. */
-const MOST_PX = 128;
 
 function keepPixel() {
   const [x0, y0, x1, y1] = state.window;

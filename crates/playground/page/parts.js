@@ -40,12 +40,14 @@ function difference({ panels: [a, b] }) {
   };
 }
 
+/** Buttons behind the word for what they choose. */
+const choices = (key, buttons) => make('span', { className: 'group', role: 'group', 'aria-label': word(key) }, `${word(key)} `, ...buttons);
+
 /** The rules, to choose for the second panel at one press. */
 const RULES = { 'exclusive-edges': 'strict', 'inclusive-edges': 'inclusive', 'edge-function': 'tl' };
 function rules() {
   const choose = (name) => () => { state.by[1] = name; redraw(); };
-  const buttons = Object.entries(RULES).map(([name, key]) => button(word(key), choose(name), { id: `rule-${key}`, 'data-by': name }));
-  return make('span', { className: 'group', role: 'group', 'aria-label': word('ruleOf') }, `${word('ruleOf')} `, ...buttons);
+  return choices('ruleOf', Object.entries(RULES).map(([name, key]) => button(word(key), choose(name), { id: `rule-${key}`, 'data-by': name })));
 }
 
 const SQUARE = [[at(2.5, 2.5), at(10.5, 2.5), at(10.5, 10.5)], [at(2.5, 10.5), at(2.5, 2.5), at(10.5, 10.5)]];
@@ -57,8 +59,7 @@ const SHAPES = {
 };
 function shapes() {
   const take = (name) => () => { load({ picture: { window: [0, 0, 14, 14], snap: true, triangles: structuredClone(SHAPES[name]) } }, {}); };
-  const buttons = Object.keys(SHAPES).map((name) => button(word(name), take(name), { id: `shape-${name}` }));
-  return make('span', { className: 'group', role: 'group', 'aria-label': word('shape') }, `${word('shape')} `, ...buttons);
+  return choices('shape', Object.keys(SHAPES).map((name) => button(word(name), take(name), { id: `shape-${name}` })));
 }
 
 /** Shows four panels, the last two by the first of these that are not shown, or two. */

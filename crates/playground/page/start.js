@@ -10,7 +10,6 @@ function drawAll() {
   $('keys').textContent = viewWords().keys;
   view.speak();
   cornersFor = '';
-  explained = 0;
   hunt = null;
   drawTools();
   drawBreak();

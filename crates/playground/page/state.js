@@ -5,7 +5,6 @@ const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ';
 const state = { lang: 'en', scene: 'triangle' };
 let names = null; // what there is to choose from
 let last = { answer: null, look: null };
-const frames = []; // milliseconds that each frame took
 
 function begin(scene, from = {}) {
   clearInterval(state.playing);

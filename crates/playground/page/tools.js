@@ -1,8 +1,12 @@
 // Tools and the table of corners.
 
+/** What brings sliders and boxes to where their values are, which change elsewhere too. */
+let sliding = [];
+
 function check(label, key, then = () => {}) {
   const box = make('input', { type: 'checkbox', checked: state[key], 'data-state': key });
   box.addEventListener('change', () => { state[key] = box.checked; then(); redraw(); });
+  sliding.push(() => { box.checked = state[key]; });
   return make('label', {}, box, ` ${label}`);
 }
 
@@ -21,9 +25,6 @@ function slide(label, get, [low, high, step], set) {
   return make('label', { className: 'group' }, `${label} `, range, ' ', says);
 }
 
-/** What brings the sliders to where their values are, which are dragged elsewhere too. */
-let sliding = [];
-
 function drawTools() {
   sliding = [];
   fill($('tools'), scene().tools?.() ?? []);
@@ -33,8 +34,7 @@ function drawTools() {
 function pressTools() {
   for (const follow of sliding) follow();
   for (const button of $('tools').querySelectorAll('[data-by]')) {
-    const pressed = String(state.by?.[1] === button.dataset.by);
-    if (button.getAttribute('aria-pressed') !== pressed) button.setAttribute('aria-pressed', pressed);
+    mark(button, 'aria-pressed', state.by?.[1] === button.dataset.by);
   }
 }
 

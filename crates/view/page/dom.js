@@ -20,6 +20,11 @@ export function fill(element, ...children) {
   if (focused) $(focused)?.focus();
 }
 
+/** Gives an element an attribute, where it is another one: what is set anew is styled anew. */
+export function mark(element, name, value) {
+  if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
+}
+
 /** Says a text, where it is another one: what is set anew is laid out anew. */
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
@@ -31,7 +36,7 @@ export function say(element, text) {
  */
 export function become(old, next) {
   for (const { name } of [...old.attributes]) if (!next.hasAttribute(name)) old.removeAttribute(name);
-  for (const { name, value } of next.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+  for (const { name, value } of next.attributes) mark(old, name, value);
   const [before, after] = [old, next].map(({ childNodes }) => [...childNodes]);
   after.forEach((made, i) => {
     const there = before[i];
@@ -49,6 +54,9 @@ export function renew(element, ...children) {
   fill(next, ...children);
   become(element, next);
 }
+
+/** A number with what it counts. */
+export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 
 /** The language of the page, one of two. */
 export const pageLanguage = () => (document.documentElement.lang.startsWith('zh') ? 'zh' : 'en');
@@ -91,6 +99,20 @@ export function delayed() {
   return (act, ms) => {
     clearTimeout(timer);
     timer = setTimeout(act, ms);
+  };
+}
+
+/** What does a thing soon, but not again before so many milliseconds are over: then as it was asked for last. */
+export function paced(act, ms) {
+  let [due, asked] = [0, null];
+  const run = () => {
+    const now = asked;
+    [due, asked] = [performance.now() + ms, null];
+    act(...now);
+  };
+  return (...next) => {
+    if (!asked) setTimeout(run, Math.max(0, due - performance.now()));
+    asked = next;
   };
 }
 

@@ -16,17 +16,17 @@ export function readColours(element) {
   bits.clear();
 }
 
-/** What a pixel is by its hits and what they should be; the sign says it without colour. */
+/** What a pixel says without colour. */
+export const GLYPHS = { agrees: '', missing: '\u2212', extra: '+', twice: '2', overlap: '*' };
+const [AGREES, MISSING, EXTRA, , OVERLAP] = Object.entries(GLYPHS).map(([fill, glyph]) => ({ fill, glyph }));
+
+/** What a pixel is by its hits and what they should be. */
 export function judge(hits, right) {
   if (hits === 0 && right === 0) return null;
   if (hits < right) return hits ? { fill: 'missing', glyph: String(hits) } : MISSING;
   if (hits > right) return hits > 1 ? { fill: 'twice', glyph: String(hits) } : EXTRA;
   return hits === 1 ? AGREES : OVERLAP;
 }
-const MISSING = { fill: 'missing', glyph: '\u2212' };
-const EXTRA = { fill: 'extra', glyph: '+' };
-const AGREES = { fill: 'agrees', glyph: '' };
-const OVERLAP = { fill: 'overlap', glyph: '*' };
 
 /** The smallest box of pixels around places with a margin, inside of another box. */
 export function boxAround(places, margin, box) {
@@ -72,7 +72,7 @@ function bitsOf(colour) {
 /** All pixels as one small picture, enlarged: a rectangle for each of them takes most of a frame. A mark is {fill, glyph, ring} or nothing. */
 let small = null;
 export function paintMarks(sheet, markAt) {
-  const { g, unit } = sheet;
+  const { unit } = sheet;
   const [left, top, right, bottom] = seenOf(sheet);
   const [width, height] = [right - left, bottom - top];
   const image = new ImageData(width, height);
@@ -91,13 +91,13 @@ export function paintMarks(sheet, markAt) {
   small ??= make('canvas').getContext('2d');
   Object.assign(small.canvas, { width, height });
   small.putImageData(image, 0, 0);
-  g.imageSmoothingEnabled = unit < 1;
-  g.drawImage(small.canvas, ...placed(sheet, [left, top]), width * unit, height * unit);
+  paintImage(sheet, small.canvas, [left, top]);
   paintSigns(sheet, signs);
 }
 
-/** Glyphs and rings; where the sample has a dot, the glyph stands beside it. */
+/** Glyphs and rings; where the sample has a dot, the glyph stands beside it. A font is set only where there are some: for that the browser styles the page. */
 function paintSigns(sheet, signs) {
+  if (signs.length === 0) return;
   const { g, unit } = sheet;
   const isAside = unit >= DOTS_FROM;
   const size = isAside ? Math.min(24, unit * 0.45) : unit * 0.75;
@@ -123,10 +123,10 @@ function paintSigns(sheet, signs) {
   }
 }
 
-/** A picture whose first pixel is at (x, y). */
-export function paintImage(sheet, image, x = 0, y = 0) {
+/** A picture whose first pixel is at a place, the first one unless another is given. */
+export function paintImage(sheet, image, from = [0, 0]) {
   sheet.g.imageSmoothingEnabled = sheet.unit < 1;
-  sheet.g.drawImage(image, ...placed(sheet, [x, y]), image.width * sheet.unit, image.height * sheet.unit);
+  sheet.g.drawImage(image, ...placed(sheet, from), image.width * sheet.unit, image.height * sheet.unit);
 }
 
 export function paintGrid(sheet) {

@@ -10,11 +10,14 @@
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
 //   high      the largest share of the window's height, and `most`, the largest pixel
-import { arrowOf, become, button, clamp, fill, make, pageLanguage, say } from './dom.js';
+import { arrowOf, become, button, clamp, fill, make, mark, paced, pageLanguage, say } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
 /** Pixels along the longer side, from the nearest view to the farthest. */
 const SIDES = [4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096, 8192, 16384];
+
+/** Pixels along the longer side of an endless plane at most. */
+export const FARTHEST_PX = 128;
 
 const VIEW_WORDS = {
   en: {
@@ -28,12 +31,15 @@ const VIEW_WORDS = {
 };
 export const viewWords = () => VIEW_WORDS[pageLanguage()];
 
+/** How long what is said stays, at least. */
+const TELLS_MS = 100;
+
 const sideOf = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
 
 class View extends HTMLElement {
   connectedCallback() {
     if (this.body) return;
-    Object.assign(this, { shown: [], seen: null, source: null, laidOut: '', isWide: false });
+    Object.assign(this, { shown: [], seen: null, source: null, laidOut: '', isWide: false, tellSoon: paced(() => this.tell(), TELLS_MS) });
     const act = (word, label, then) => button(label, then, { 'data-tool': word });
     this.scale = make('output', { 'aria-live': 'off' });
     this.larger = act('enlarge', '\u2922', () => this.enlarge());
@@ -75,7 +81,7 @@ class View extends HTMLElement {
     const { panels } = source;
     while (this.shown.length > panels.length) this.shown.pop().figure.remove();
     panels.forEach((panel, i) => {
-      this.shown[i] ??= this.newPanel(i);
+      this.shown[i] ??= this.newPanel();
       this.caption(this.shown[i], panel);
     });
     Object.assign(this.body.dataset, { count: panels.length });
@@ -89,31 +95,41 @@ class View extends HTMLElement {
     this.paint();
   }
 
-  newPanel(i) {
+  newPanel() {
     const panel = { caption: make('figcaption'), above: make('canvas', { className: 'above' }), beside: make('canvas', { className: 'beside' }), grips: [], key: null };
     panel.canvas = make('canvas', { className: 'pixels', tabIndex: 0, role: 'application' });
     panel.frame = make('div', { className: 'frame' }, panel.canvas);
     panel.figure = make('figure', { className: 'panel' }, panel.caption, panel.above, panel.beside, panel.frame);
     for (const axis of [panel.above, panel.beside]) axis.setAttribute('aria-hidden', 'true');
     this.body.append(panel.figure);
-    this.listen(panel, i);
+    this.listen(panel);
     return panel;
   }
 
-  /** What stands above a panel: its head is made anew only when it is another one, what it says follows. */
+  /** What stands above a panel: its head is made anew only when it is another one. */
   caption(shown, panel) {
     shown.of = panel;
-    if (shown.key !== panel.key) {
-      shown.key = panel.key;
-      // What it says is said once, by the live region of the page.
-      shown.says = make('output', { 'aria-live': 'off' });
-      fill(shown.caption, panel.head?.() ?? panel.label, shown.says);
+    if (shown.key === panel.key) return;
+    shown.key = panel.key;
+    // What it says is said once, by the live region of the page.
+    shown.says = make('output', { 'aria-live': 'off' }, panel.says);
+    fill(shown.caption, panel.head?.() ?? panel.label, shown.says);
+  }
+
+  /** What is said of the picture, in captions, of grips, and to who does not see it: the page is laid out anew for that, so it follows a drag some times a second. */
+  tell() {
+    say(this.scale, this.source.isPicture ? `${Math.round(100 * this.unit)}%` : `${Math.round(this.unit * 10) / 10} : 1`);
+    const grips = this.grips();
+    for (const { of: { label, says = '', isBad }, says: said, canvas, grips: knobs } of this.shown) {
+      say(said, says);
+      said.className = isBad === undefined ? '' : isBad ? 'bad' : 'good';
+      mark(canvas, 'aria-label', [label, says].filter(Boolean).join(': '));
+      for (const knob of knobs) {
+        const { name, x, y, low = -4096, high = 4096, now = x, says: place = `${x}, ${y}` } = grips[knob.dataset.index] ?? {};
+        const attributes = { label: name, valuemin: low, valuemax: high, valuenow: now, valuetext: place };
+        for (const [attribute, value] of Object.entries(attributes)) mark(knob, `aria-${attribute}`, value);
+      }
     }
-    const says = panel.says ?? '';
-    say(shown.says, says);
-    shown.says.className = panel.isBad === undefined ? '' : panel.isBad ? 'bad' : 'good';
-    const label = [panel.label, says].filter(Boolean).join(': ');
-    if (shown.canvas.getAttribute('aria-label') !== label) shown.canvas.setAttribute('aria-label', label);
   }
 
   resized() {
@@ -161,9 +177,8 @@ class View extends HTMLElement {
   paint() {
     const { bounds, covers = [] } = this.source;
     const grips = this.grips();
-    const cell = String(Math.round(this.unit * 1000) / 1000);
-    if (this.dataset.cell !== cell) this.dataset.cell = cell;
-    say(this.scale, this.source.isPicture ? `${Math.round(100 * this.unit)}%` : `${Math.round(this.unit * 10) / 10} : 1`);
+    mark(this, 'data-cell', Math.round(this.unit * 1000) / 1000);
+    this.tellSoon();
     const canMove = !bounds || this.seen[0] > bounds[0] || this.seen[1] > bounds[1] || this.seen[2] < bounds[2] || this.seen[3] < bounds[3];
     this.shown.forEach((shown, i) => {
       shown.frame.style.touchAction = canMove ? 'none' : 'pan-y';
@@ -226,23 +241,17 @@ class View extends HTMLElement {
     const [x0, y0, x1, y1] = this.seen;
     const place = `translate(${(x - x0) * this.unit}px, ${(y - y0) * this.unit}px)`;
     if (element.style.transform !== place) element.style.transform = place;
-    element.hidden = x < x0 || y < y0 || x > x1 || y > y1;
+    const isOut = x < x0 || y < y0 || x > x1 || y > y1;
+    if (element.hidden !== isOut) element.hidden = isOut;
   }
 
   placeGrips(shown, own, tabIndex) {
     while (shown.grips.length > own.length) shown.grips.pop().remove();
     own.forEach(({ grip, index }, i) => {
-      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { className: 'knob', role: 'slider', 'aria-valuenow': 0 })));
-      if (made.dataset.name !== grip.name) Object.assign(made.dataset, { name: grip.name, label: own.length > 26 ? '' : grip.name });
-      made.dataset.index = index;
-      made.tabIndex = tabIndex;
-      made.classList.toggle('is-value', Boolean(grip.nudge));
-      made.classList.toggle('is-painted', Boolean(grip.isPainted));
-      const { low = -4096, high = 4096, now = grip.x } = grip;
-      const attributes = { label: grip.name, valuemin: low, valuemax: high, valuenow: now, valuetext: grip.says ?? `${grip.x}, ${grip.y}` };
-      for (const [name, value] of Object.entries(attributes)) {
-        if (made.getAttribute(`aria-${name}`) !== String(value)) made.setAttribute(`aria-${name}`, value);
-      }
+      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { role: 'slider', 'aria-valuenow': 0 })));
+      const className = ['knob', grip.nudge && 'is-value', grip.isPainted && 'is-painted'].filter(Boolean).join(' ');
+      const attributes = { class: className, 'data-name': grip.name, 'data-label': own.length > 26 ? '' : grip.name, 'data-index': index, tabindex: tabIndex };
+      for (const [name, value] of Object.entries(attributes)) mark(made, name, value);
       this.over(made, grip.x, grip.y);
     });
   }
@@ -279,12 +288,12 @@ class View extends HTMLElement {
   }
 
   zoomTo(wanted, about) {
-    const { bounds, cursor, farthest = 128, isFixed } = this.source;
-    const all = bounds ? Math.max(sideOf(bounds), sideOf(this.source.part)) : farthest;
+    const { bounds, cursor, part: begun } = this.source;
+    const all = bounds ? Math.max(sideOf(bounds), sideOf(begun)) : FARTHEST_PX;
     const side = Math.min(wanted, all);
     const [x0, y0, x1, y1] = this.seen;
     const part = side / sideOf(this.seen);
-    if (isFixed || part === 1) return;
+    if (part === 1) return;
     const isSeen = cursor && cursor[0] >= x0 && cursor[0] < x1 && cursor[1] >= y0 && cursor[1] < y1;
     const [x, y] = about ?? (bounds && isSeen ? [cursor[0] + 0.5, cursor[1] + 0.5] : [(x0 + x1) / 2, (y0 + y1) / 2]);
     const size = [x1 - x0, y1 - y0].map((length) => (bounds ? length * part : Math.max(1, Math.round(length * part))));
@@ -391,6 +400,7 @@ class View extends HTMLElement {
     };
     for (const ends of ['pointerup', 'pointercancel']) frame.addEventListener(ends, release);
     frame.addEventListener('focusin', ({ target }) => { if (target.matches('.knob')) this.source.onHold?.(Number(target.dataset.index)); });
+    const acts = { '+': () => this.zoom(-1), '=': () => this.zoom(-1), '-': () => this.zoom(1), 0: () => this.fit(), f: () => this.enlarge() };
     frame.addEventListener('keydown', (event) => {
       const grip = this.grips()[event.target.closest('.knob')?.dataset.index];
       const step = arrowOf(event);
@@ -401,10 +411,7 @@ class View extends HTMLElement {
       else if (step && event.target === canvas) {
         const from = cursor ?? [(this.seen[0] + this.seen[2]) / 2 - step[0], (this.seen[1] + this.seen[3]) / 2 - step[1]];
         this.point([0, 1].map((axis) => from[axis] + step[axis] * (event.shiftKey ? 8 : 1)), true);
-      } else if (event.key === '+' || event.key === '=') this.zoom(-1);
-      else if (event.key === '-') this.zoom(1);
-      else if (event.key === '0') this.fit();
-      else if (event.key === 'f') this.enlarge();
+      } else acts[event.key]?.();
     });
   }
 

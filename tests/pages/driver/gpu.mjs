@@ -36,9 +36,126 @@ export const PARTS = [
   ...numbered('near-plane', 4),
 ];
 
+/**
+ * For the page: plants a fault between the judge and the device, and takes back the one that was planted before. Faults of positions change a
+ * vertex, given {v, at, side, index, kind, name, move, step}, as a wrong vertex stage would.
+ */
+function plant(fault) {
+  const POSITIONS = {
+    moved: ({ move }) => move(1 / 256, 1 / 256),
+    nudged: ({ move, step }) => move(step, step),
+    'samples-moved': ({ move, kind }) => kind === 'samples' && move(1 / 16, 0),
+    'first-corner': ({ move, step, index, kind }) => kind !== 'lines' && index % 3 === 0 && move(step, 0),
+    'lines-moved': ({ move, kind }) => kind === 'lines' && move(2, 0),
+    coarse: ({ v, at, side }) => {
+      for (const axis of [0, 1]) v[at + axis] = (Math.round((v[at + axis] / v[at + 3]) * side * 4) / (side * 4)) * v[at + 3];
+    },
+    'w-ignored': ({ v, at }) => {
+      const w = v[at + 3];
+      if (w > 0) for (const i of [0, 1, 2, 3]) v[at + i] /= w;
+    },
+    'no-near-plane': ({ v, at, name }) => { v[at + 2] = Math.max(v[at + 2], name === 'webgl2' ? -v[at + 3] : 0); },
+    // Smaller than half a square pixel.
+    dropped: ({ v, at, index, side, kind }) => {
+      if (kind === 'lines' || index % 3 !== 0) return;
+      const [a, b, c] = [0, 6, 12].map((next) => [v[at + next] / v[at + next + 3], v[at + next + 1] / v[at + next + 3]]);
+      const twice = Math.abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * (side / 2) ** 2;
+      if (twice < 1) v.copyWithin(at + 6, at, at + 6);
+    },
+  };
+  const spoil = POSITIONS[fault];
+  const spoiled = ({ vertices, side, kind }, { name, bits }) => {
+    const v = numbers(vertices);
+    for (let at = 0, index = 0; at < v.length; at += 6, index += 1) {
+      const move = (x, y) => {
+        v[at] += ((2 * x) / side) * v[at + 3];
+        v[at + 1] += ((name === 'webgl2' ? 2 : -2) * y / side) * v[at + 3];
+      };
+      spoil({ v, at, index, side, kind, name, move, step: 2 ** -Math.min(bits ?? 4, 8) });
+    }
+    return new TextDecoder().decode(base64(new Uint8Array(v.buffer)));
+  };
+
+  window.takeBack?.();
+  const before = [];
+  window.takeBack = () => { for (const [of, name, value] of before) of[name] = value; };
+  /** Calls another function in the place of a method, which is given what it replaces. */
+  const instead = (of, name, make) => {
+    if (!of) return;
+    const old = of[name];
+    before.push([of, name, old]);
+    of[name] = function replaced(...values) { return make.call(this, (...all) => old.apply(this, all), ...values); };
+  };
+  const { WebGL2RenderingContext: Gl, GPUDevice: Device, GPURenderPassEncoder: Pass, GPUCommandEncoder: Encoder, GPUAdapter: Adapter } = window;
+  if (fault === 'twice') {
+    instead(Gl.prototype, 'drawArrays', function twice(_, mode, first, count) { this.drawArraysInstanced(mode, first, count, 2); });
+    instead(Pass?.prototype, 'draw', (draw, count, times, first = 0) => draw(count, 2, first));
+  }
+  if (fault === 'winding') {
+    instead(Gl.prototype, 'cullFace', (cull) => cull(Gl.FRONT));
+    instead(Device?.prototype, 'createRenderPipeline', (make, { primitive, ...more }) => (
+      make({ ...more, primitive: { ...primitive, cullMode: primitive.cullMode === 'back' ? 'front' : 'none' } })));
+  }
+  if (fault === 'farther') {
+    instead(Gl.prototype, 'depthFunc', (set) => set(Gl.GREATER));
+    instead(Gl.prototype, 'clearDepth', (set) => set(0));
+    instead(Device?.prototype, 'createRenderPipeline', (make, { depthStencil, ...more }) => (
+      make({ ...more, ...(depthStencil && { depthStencil: { ...depthStencil, depthCompare: 'greater' } }) })));
+    instead(Encoder?.prototype, 'beginRenderPass', (begin, { depthStencilAttachment: depth, ...more }) => (
+      begin({ ...more, ...(depth && { depthStencilAttachment: { ...depth, depthClearValue: 0 } }) })));
+  }
+  // Noise against fingerprinting: pixels that differ from one drawing to the next, or slightly in every drawing.
+  let pictures = 0;
+  if (fault === 'noise' || fault === 'faint-noise') {
+    instead(window, 'hits', (read, bytes, ...more) => {
+      pictures += 1;
+      const first = bytes.findIndex((byte) => byte > 0);
+      if (fault === 'noise' && pictures % 2 === 0 && first >= 0) bytes[first] = 0;
+      if (fault === 'faint-noise') for (let at = 0; at < bytes.length; at += 97) if (bytes[at] > 0) bytes[at] ^= 1;
+      return read(bytes, ...more);
+    });
+  }
+  // The interface goes away before its second picture, once.
+  const isLost = {};
+  let lose;
+  if (fault === 'lost') {
+    instead(HTMLCanvasElement.prototype, 'getContext', (get, ...values) => {
+      const context = get(...values), extension = context?.getExtension?.('WEBGL_lose_context');
+      if (extension) lose = () => extension.loseContext();
+      return context;
+    });
+    instead(Adapter?.prototype, 'requestDevice', async (get) => {
+      const device = await get();
+      lose = () => device.destroy();
+      return device;
+    });
+  }
+  for (const name of Object.keys(APIS)) {
+    instead(APIS, name, async (open) => {
+      const api = await open();
+      if (api.refused) return api;
+      const { draw } = api;
+      let drawn = 0;
+      api.draw = async (batch) => {
+        drawn += 1;
+        if (fault === 'lost' && drawn === 2 && !isLost[name]) {
+          isLost[name] = true;
+          lose();
+        }
+        return draw(spoil ? { ...batch, vertices: spoiled(batch, api) } : batch);
+      };
+      return api;
+    });
+  }
+}
+
+/** Plants a fault on the page, or none. */
+export const plantOn = (tab, fault) => tab.value(plant, fault);
+
 /** Judges with a fault, or none; the rows of each interface as {check: [word, sentence]}. */
-export async function rows(tab, plant, options) {
-  await tab.value(`(state.plant = ${JSON.stringify(plant)}, judgeAll(${JSON.stringify(options)}), null)`);
+export async function rows(tab, fault, options) {
+  await plantOn(tab, fault);
+  await tab.value(`(judgeAll(${JSON.stringify(options)}), null)`);
   await tab.when('!state.running');
   const rows = await tab.value(`state.results.map(result => Object.fromEntries(Object.entries(result.rows).map(
     ([check, row]) => [check, [row.word, word('details')[check](row.tally, row.facts)]])))`);

@@ -9,6 +9,10 @@ import { ours, ROOT } from './program.mjs';
 /** The page whose cases most checks are about. */
 export const VERDICT = 'verify --cases 60 --seed 3 --report --json';
 
+/** The cases in which the rule, computed by the page at every pixel, differs from the oracle. */
+export const audit = (tab) => tab.value(() => items.filter((item) => item.isCase && byRule(item).hits.some((n, i) => n !== item.layers[item.oracle].hits[i]))
+  .map(({ name }) => name));
+
 export const namesListed = (tab) => tab.value('[...document.querySelectorAll("#list .name")].map(n => n.textContent)');
 
 export const picture = (tab) => tab.value('document.querySelector("rp-view .pixels").toDataURL()');

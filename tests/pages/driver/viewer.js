@@ -110,7 +110,7 @@ const CHECKS = {
     pointer(view, 'pointerup', [7, 5]);
     near(view.seen[0], Math.min(4, before + 2), 0.05);
   },
-  'a grip follows the mouse, keys move it by one and finely, and it says where it is': () => {
+  'a grip follows the mouse, keys move it by one and finely, and it says where it is': async () => {
     const { view, grip } = fresh({ fine: 1 / 256 });
     const [target] = view.shown[0].grips;
     pointer(view, 'pointerdown', [5, 5], { target });
@@ -121,6 +121,7 @@ const CHECKS = {
     key(target, 'ArrowRight');
     key(target, 'ArrowUp', { shiftKey: true });
     is([grip.x, grip.y], [x + 1, y - 1 / 256]);
+    await new Promise((done) => { setTimeout(done, 250); });
     is([target.getAttribute('aria-label'), target.getAttribute('aria-valuetext')], ['A', `${grip.x}, ${grip.y}`]);
     // The keyboard stops at it once, though three panels show it.
     is(view.querySelectorAll('.knob[tabindex="0"]').length, 1);

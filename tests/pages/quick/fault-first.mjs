@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 
-import { countsEqualTheJson, thousands } from '../driver/report.mjs';
+import { audit, countsEqualTheJson, thousands } from '../driver/report.mjs';
 
 export default {
   says: 'A planted fault is the first thing on the page: the verdict, the worst family, its failing case, who drew it, and the difference',
@@ -43,6 +43,6 @@ export default {
         role !== 'specimen' && tally.missing + tally.extra + tally.twice > 0)).map(({ name }) => name));
     assert.deepEqual(close, []);
     // A wrong rasterizer does not fool the rule as the page computes it.
-    assert.deepEqual(await tab.value('rasterproof.audit()'), []);
+    assert.deepEqual(await audit(tab), []);
   },
 };

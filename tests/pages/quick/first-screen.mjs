@@ -32,7 +32,7 @@ export default {
       assert(cell >= 16, `${cell}`);
     }
     await tab.resize(1280, 900);
-    const png = await tab.value('rasterproof.snapshot()');
+    const png = await tab.value('view.picture().toDataURL()');
     assert(png.startsWith('data:image/png;base64,') && png.length > 5000, `${png.length}`);
   },
 };

@@ -35,6 +35,9 @@ export default {
     assert.equal(printed.status, 0, printed.errors);
     const file = reportOf('study', printed), page = fs.readFileSync(file, 'utf8');
     await tab.open('', file);
+    // A model that is fine is not called wrong because its view has hard cases.
+    assert.doesNotMatch(await tab.text('header'), /\u2717|hard cases$/i);
+    assert.equal(await tab.value('document.querySelector(".verdict.bad")'), null);
     const maps = await tab.value(mapsOfPage);
     assert.deepEqual(Object.keys(maps), ['hard cases', 'decided']);
     for (const [name, { legend, seen }] of Object.entries(maps)) {

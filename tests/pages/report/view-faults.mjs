@@ -17,6 +17,7 @@ const FAULTS = [
   ['this.at(panel, { clientX: (a.clientX + b.clientX) / 2,', 'this.at(panel, { clientX: 0,'],
   ['if (!panel || !(event.ctrlKey', 'if (!panel || !(true'],
   ['isFirst ? 0 : -1', 'isFirst ? 0 : 0'],
+  ['    this.tellSoon();\n', ''],
   ['new ResizeObserver(() => this.resized()).observe(this.body);', ''],
 ];
 

@@ -6,10 +6,11 @@ import { inSite, none } from '../driver/site.mjs';
 const SEARCHES = fs.readFileSync(new URL('searches.txt', import.meta.url), 'utf8').trim().split('\n').map((line) => line.split(' | '));
 
 export default {
-  says: 'The search finds lessons first',
+  says: 'The search finds lessons first, and the changelog last',
   page: 'nothing',
   async check(tab) {
     const wrong = [];
+    let changes = 0;
     for (const [book, words, found] of SEARCHES) {
       await tab.go(inSite(`${book}/index.html`));
       await tab.value((words) => {
@@ -25,7 +26,12 @@ export default {
       if (!pages.slice(0, 3).some((page) => page.startsWith(found))) {
         wrong.push(`${book}, '${words}': ${found} is not among the first three of ${pages}`);
       }
+      const all = await tab.value(() => [...document.querySelectorAll('#mdbook-searchresults li > a')].map((link) => link.pathname.split('/').pop()));
+      const first = all.indexOf('CHANGELOG.html'), after = first < 0 ? [] : all.slice(first).filter((page) => page !== 'CHANGELOG.html');
+      changes += first < 0 ? 0 : 1;
+      if (after.length > 0) wrong.push(`${book}, '${words}': the changelog stands before ${after}`);
     }
+    if (changes === 0) wrong.push('the changelog is never found');
     none(wrong);
   },
 };

@@ -7,5 +7,5 @@ const ruleOf = (name, check, lang = state.lang) => {
   const at = Number(lang === 'zh');
   return { says: says[at], open: open[at], ...rest };
 };
-/** The same as asked() for a report, in English. */
-const inWords = ({ quote, says }) => (quote ? `“${quote[0]}” (${quote[1]}) ${WORDS.en.inShort}: ${says}` : `${WORDS.en.ownWords}: ${says}`);
+/** What a rule asks for: its own words where they are at hand, and ours. */
+const inWords = ({ quote, says }, { inShort, ownWords } = WORDS[state.lang]) => (quote ? `“${quote[0]}” (${quote[1]}) ${inShort}: ${says}` : `${ownWords}: ${says}`);

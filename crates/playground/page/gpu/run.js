@@ -1,6 +1,6 @@
 // Runs the checks: asks the module for batches, lets the interface draw them, and has the module judge the pixels.
 
-const state = { lang: 'en', plant: null, seed: 1, running: false };
+const state = { lang: 'en', seed: 1, running: false };
 const APIS = { webgl2: openWebgl2, webgpu: openWebgpu };
 const TITLES = { webgl2: 'WebGL 2', webgpu: 'WebGPU' };
 const WORST = ['equal', 'allowed', 'outside'];
@@ -20,9 +20,9 @@ async function judged(api, what, tally = {}) {
   const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
   const drawn = { ...must(ask({ ask: 'gpu-batch', ...batch })), check: what.check };
   if (drawn.subjects === 0) return { broken: null, tally: { subjects: 0 } };
-  let pixels = await api.draw(drawn, state.plant);
+  let pixels = await api.draw(drawn);
   if (what.check === 'twice') {
-    const again = await api.draw(drawn, state.plant);
+    const again = await api.draw(drawn);
     pixels = Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
   }
   return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
@@ -58,15 +58,18 @@ async function causeOf(api, title) {
   let reply = must(ask(question));
   for (let at = 1; reply.cause === undefined; at += 1) {
     if (!state.running) return null;
-    state.progress = { text: word('asking')(title, at), part: 1 };
-    drawProgress();
-    await breathe();
-    reply = must(ask(question, await api.draw(reply, state.plant)));
+    await tell(word('asking')(title, at));
+    reply = must(ask(question, await api.draw(reply)));
   }
   return reply;
 }
 
-const breathe = () => new Promise((done) => { setTimeout(done, 0); });
+/** Says what is done, and lets the page draw it. */
+async function tell(text, part = 1) {
+  state.progress = { text, part };
+  drawProgress();
+  await new Promise((done) => { setTimeout(done, 0); });
+}
 
 /** Judges one interface into a result; draws the page as it goes. An address may ask for one check alone, a test for some batches on a lattice that it knows. */
 async function judgeApi(name, { check: alone = null, only, bits = null, shrinks = true }) {
@@ -93,15 +96,12 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
   readBack.uneven = 0;
   for (let at = 0; at < batches.length && state.running; at += 1) {
     const { check, number } = batches[at];
-    state.progress = { text: word('progress')(result.title, word('checks')[check], at + 1, batches.length), part: at / batches.length };
-    drawProgress();
-    await breathe();
+    await tell(word('progress')(result.title, word('checks')[check], at + 1, batches.length), at / batches.length);
     if (!api.offers(check)) {
       result.rows[check] = { word: 'not-offered' };
       continue;
     }
     try {
-      if (state.plant === 'lost' && at === Math.min(7, batches.length - 1) && losses === 0) api.lose();
       const before = result.rows[check];
       const answer = await judged(api, { check, number }, before?.tally);
       // The first case of a kind is kept.
@@ -136,9 +136,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
   try {
     for (const [check, { broken, free }] of Object.entries(result.rows)) {
       if (!state.running || !(broken || free)) continue;
-      state.progress = { text: word('shrinking')(result.title, word('checks')[check]), part: 1 };
-      drawProgress();
-      await breathe();
+      await tell(word('shrinking')(result.title, word('checks')[check]));
       result.views[check] = broken && !changes
         ? await shrunk(api, check, broken) : (await judged(api, { check, only: broken ?? free })).view;
     }

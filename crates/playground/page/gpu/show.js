@@ -28,12 +28,6 @@ function showCase(index, check) {
   finding.querySelector('h2').focus({ preventScroll: true });
 }
 
-/** What a rule asks for: its own words where they are at hand, and ours. */
-const asked = ({ quote, says }) => [
-  ...(quote ? [make('p', {}, `“${quote[0]}”`), make('cite', {}, quote[1])] : []),
-  make('p', {}, `${word(quote ? 'inShort' : 'ownWords')}: ${says}`),
-];
-
 function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
   const rule = ruleOf(result.name, check);
@@ -43,7 +37,7 @@ function row(result, index, check) {
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
     make('td', {}, tally ? word('details')[check](tally, facts) : ''),
-    make('td', {}, make('details', {}, make('summary', {}, rule.section), ...asked(rule), make('p', {}, `${word('open')}: ${rule.open}`))));
+    make('td', {}, make('details', {}, make('summary', {}, rule.section), make('p', {}, inWords(rule)), make('p', {}, `${word('open')}: ${rule.open}`))));
 }
 
 function resultOf(result, index) {
@@ -138,7 +132,6 @@ const corners = (subject) => subject.map((shape) => shape.map((vertex) => (isPla
 
 function address(name, check, subject) {
   const words = new URLSearchParams({ interface: name, check, case: JSON.stringify(subject) });
-  if (state.plant) words.set('plant', state.plant);
   if (state.lang !== 'en') words.set('lang', state.lang);
   return `${location.href.replace(/#.*/, '')}#${words}`;
 }
@@ -187,8 +180,7 @@ function report(result, check, view) {
   return [
     `${result.title}: ${WORDS.en.checks[check]}`, '',
     `Browser: ${navigator.userAgent}`, `Renderer: ${result.renderer}`,
-    ...(state.plant ? [`A fault is planted by the page: ${state.plant}`] : []),
-    `Specification: ${rule.section}. ${inWords(rule)}`,
+    `Specification: ${rule.section}. ${inWords(rule, WORDS.en)}`,
     ...(result.cause && OF_PIXELS.includes(check) ? [WORDS.en.cause(result.cause)] : []), '',
     isPlain(view.subject) ? WORDS.en.corners : WORDS.en.cornersMore, corners(view.subject), '',
     `Columns ${x0} to ${x1 - 1} and rows ${y0} to ${y1 - 1} of the picture. ${WORDS.en.legend(check).split('.')[0]}.`,
@@ -224,7 +216,7 @@ function drawFinding() {
     make('h2', { tabIndex: -1 }, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : view.marks.length ? 'example' : 'alike')}`),
     make('div', { className: 'look' }, pixels, make('div', {}, make('p', { id: 'pixel', role: 'status' }), make('div', { id: 'why' }))),
     make('p', { className: 'quiet' }, word('legend')(check)),
-    make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
+    make('blockquote', {}, make('p', {}, inWords(rule)), make('cite', {}, rule.section)),
     make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', { tabIndex: 0 }, corners(view.subject)),
     make('p', {}, make('a', { href: link }, word('address')), ' ', copying(link)),
     make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), copying(text)));
@@ -243,8 +235,6 @@ function drawAll() {
   document.documentElement.lang = state.lang === 'zh' ? 'zh-CN' : 'en';
   for (const element of document.querySelectorAll('[data-word]')) element.textContent = word(element.dataset.word);
   $('judge').textContent = word(state.running ? 'stop' : state.results?.length ? 'again' : 'judge');
-  $('planted').hidden = !state.plant;
-  $('planted').textContent = state.plant ? word('planted')(state.plant) : '';
   const { one } = state;
   const verdict = { equal: 'passes', allowed: 'differs', outside: 'fails' }[one?.verdict];
   $('one').hidden = !one;
@@ -263,7 +253,6 @@ function restore() {
   const words = new URLSearchParams(location.hash.slice(1));
   state.lang = words.get('lang') ?? (navigator.language.startsWith('zh') ? 'zh' : 'en');
   if (!Object.hasOwn(WORDS, state.lang)) state.lang = 'en';
-  state.plant = Object.hasOwn(PLANTS, words.get('plant') ?? '') ? words.get('plant') : null;
   const [name, check, text] = ['interface', 'check', 'case'].map((key) => words.get(key));
   state.progress = { text: word('starting'), part: 0 };
   drawAll();

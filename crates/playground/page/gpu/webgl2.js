@@ -3,28 +3,25 @@
 /** A hit adds this many steps of 255: a rounding of the blending unit, or noise, does not make another number of it. */
 const HIT = 16;
 
+const fragment = (colour) => `#version 300 es
+precision highp float;
+in vec2 carried;
+out vec4 colour;
+void main() { colour = ${colour}; }`;
 const GLSL = {
   vertex: `#version 300 es
 in vec4 position;
 in vec2 values;
 out vec2 carried;
 void main() { gl_Position = position; carried = values; }`,
-  hits: `#version 300 es
-precision highp float;
-in vec2 carried;
-out vec4 colour;
-void main() { colour = vec4(carried.x * ${HIT}.0 / 255.0); }`,
+  hits: fragment(`vec4(carried.x * ${HIT}.0 / 255.0)`),
   // The picture is the mean of four samples, so a hit of one is an eighth of 64 steps.
   samples: `#version 300 es
 #extension GL_OES_sample_variables : require
 precision highp float;
 out vec4 colour;
 void main() { colour = vec4(equal(ivec4(gl_SampleID), ivec4(0, 1, 2, 3))) * 32.0 / 255.0; }`,
-  values: `#version 300 es
-precision highp float;
-in vec2 carried;
-out vec4 colour;
-void main() { colour = vec4(gl_FragCoord.z, carried, 1.0); }`,
+  values: fragment('vec4(gl_FragCoord.z, carried, 1.0)'),
 };
 
 class Lost extends Error {}
@@ -38,9 +35,7 @@ function openWebgl2() {
   const bits = gl.getParameter(gl.SUBPIXEL_BITS);
   const apart = Boolean(gl.getExtension('OES_sample_variables'));
   const floats = Boolean(gl.getExtension('EXT_color_buffer_float'));
-  const lose = gl.getExtension('WEBGL_lose_context');
-  const programs = {};
-  const targets = {};
+  const once = kept();
 
   const shader = (type, text) => {
     const made = gl.createShader(type);
@@ -48,8 +43,7 @@ function openWebgl2() {
     gl.compileShader(made);
     return made;
   };
-  const program = (name) => {
-    if (programs[name]) return programs[name];
+  const program = (name) => once(`program ${name}`, () => {
     const made = gl.createProgram();
     gl.attachShader(made, shader(gl.VERTEX_SHADER, GLSL.vertex));
     gl.attachShader(made, shader(gl.FRAGMENT_SHADER, GLSL[name]));
@@ -57,13 +51,10 @@ function openWebgl2() {
     gl.bindAttribLocation(made, 1, 'values');
     gl.linkProgram(made);
     if (!gl.isContextLost() && !gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
-    programs[name] = made;
     return made;
-  };
+  });
   /** A picture of a kind: framebuffers to draw to and to read from. */
-  const target = (kind, side) => {
-    const name = { samples: 'samples', values: 'values' }[kind] ?? 'hits';
-    if (targets[name]) return targets[name];
+  const target = (name, side) => once(`target ${name}`, () => {
     const buffer = (format, samples) => {
       const made = gl.createRenderbuffer();
       gl.bindRenderbuffer(gl.RENDERBUFFER, made);
@@ -79,9 +70,8 @@ function openWebgl2() {
     };
     const format = name === 'values' ? gl.RGBA32F : gl.RGBA8;
     const draw = frame(name === 'samples' ? 4 : 0, format, name === 'hits');
-    targets[name] = { draw, read: name === 'samples' ? frame(0, format, false) : draw };
-    return targets[name];
-  };
+    return { draw, read: name === 'samples' ? frame(0, format, false) : draw };
+  });
 
   return {
     name: 'webgl2',
@@ -89,21 +79,16 @@ function openWebgl2() {
     bits,
     apart,
     isSoftware: SOFTWARE.test(renderer),
-    notes: [
-      ['bitsSaid', bits],
-      ...(apart ? [] : [['samplesSummed']]),
-      ...(floats ? [] : [['noFloats']]),
-    ],
+    notes: [['bitsSaid', bits], !apart && ['samplesSummed'], !floats && ['noFloats']].filter(Boolean),
     /** Whether a check can be asked at all. */
     offers: (check) => check !== 'values' || floats,
-    lose: () => lose?.loseContext(),
-    async draw(batch, plant) {
+    async draw(batch) {
       const { kind, side, cell, draws } = batch;
-      const vertices = spoiled(batch, plant, this);
-      const { draw, read } = target(kind, side);
+      const vertices = numbers(batch.vertices);
+      const { draw, read } = target({ samples: 'samples', values: 'values' }[kind] ?? 'hits', side);
       gl.bindFramebuffer(gl.FRAMEBUFFER, draw);
       gl.useProgram(program({ values: 'values', samples: apart ? 'samples' : 'hits' }[kind] ?? 'hits'));
-      gl.bindBuffer(gl.ARRAY_BUFFER, programs.buffer ??= gl.createBuffer());
+      gl.bindBuffer(gl.ARRAY_BUFFER, once('buffer', () => gl.createBuffer()));
       gl.bufferData(gl.ARRAY_BUFFER, vertices, gl.STREAM_DRAW);
       gl.enableVertexAttribArray(0);
       gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 24, 0);
@@ -115,22 +100,21 @@ function openWebgl2() {
       set(gl.BLEND, kind !== 'depth' && kind !== 'values');
       gl.blendFunc(gl.ONE, gl.ONE);
       set(gl.DEPTH_TEST, kind === 'depth');
-      gl.depthFunc(plant === 'farther' ? gl.GREATER : gl.LESS);
-      gl.clearDepth(plant === 'farther' ? 0 : 1);
+      gl.depthFunc(gl.LESS);
+      gl.clearDepth(1);
       set(gl.CULL_FACE, kind === 'facing');
-      gl.cullFace(plant === 'winding' ? gl.FRONT : gl.BACK);
+      gl.cullFace(gl.BACK);
       gl.disable(gl.SCISSOR_TEST);
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
       const mode = kind === 'lines' ? gl.LINES : gl.TRIANGLES;
-      const times = plant === 'twice' ? 2 : 1;
-      if (draws.length === 0) gl.drawArraysInstanced(mode, 0, vertices.length / 6, times);
+      if (draws.length === 0) gl.drawArrays(mode, 0, vertices.length / 6);
       else {
         gl.enable(gl.SCISSOR_TEST);
         let first = 0;
         for (const [count, x, y] of draws) {
           gl.scissor(x, y, cell, cell);
-          gl.drawArraysInstanced(mode, first, count, times);
+          gl.drawArrays(mode, first, count);
           first += count;
         }
         gl.disable(gl.SCISSOR_TEST);
@@ -148,8 +132,8 @@ function openWebgl2() {
       const error = gl.getError();
       if (error) throw new Error(`WebGL: 0x${error.toString(16)}`);
       if (floating) return base64(bytes);
-      if (kind === 'samples') return apart ? hits(bytes, 1, 8, plant) : hits(bytes, 4, HIT / 4, plant);
-      return hits(bytes, 4, HIT, plant);
+      if (kind === 'samples') return apart ? hits(bytes, 1, 8) : hits(bytes, 4, HIT / 4);
+      return hits(bytes, 4, HIT);
     },
   };
 }

@@ -32,10 +32,9 @@ async function openWebgpu() {
   const { vendor = '', architecture = '', device: model = '', description = '', isFallbackAdapter } = adapter.info ?? {};
   const renderer = [vendor, architecture, model, description].filter(Boolean).join(' ') || word('unnamed');
   const module = device.createShaderModule({ code: WGSL });
-  const made = {};
-  const once = (name, make) => (made[name] ??= make());
+  const once = kept();
 
-  const pipeline = (kind, plant) => once(`pipeline ${kind} ${plant}`, () => device.createRenderPipeline({
+  const pipeline = (kind) => once(`pipeline ${kind}`, () => device.createRenderPipeline({
     layout: 'auto',
     vertex: {
       module,
@@ -50,8 +49,8 @@ async function openWebgpu() {
         ...(kind === 'values' || kind === 'depth' ? {} : { blend: { color: { srcFactor: 'one', dstFactor: 'one' }, alpha: { srcFactor: 'one', dstFactor: 'one' } } }),
       }],
     },
-    primitive: { topology: kind === 'lines' ? 'line-list' : 'triangle-list', frontFace: 'ccw', cullMode: kind !== 'facing' ? 'none' : plant === 'winding' ? 'front' : 'back' },
-    ...(kind === 'depth' ? { depthStencil: { format: 'depth32float', depthWriteEnabled: true, depthCompare: plant === 'farther' ? 'greater' : 'less' } } : {}),
+    primitive: { topology: kind === 'lines' ? 'line-list' : 'triangle-list', frontFace: 'ccw', cullMode: kind === 'facing' ? 'back' : 'none' },
+    ...(kind === 'depth' ? { depthStencil: { format: 'depth32float', depthWriteEnabled: true, depthCompare: 'less' } } : {}),
     ...(kind === 'samples' ? { multisample: { count: 4 } } : {}),
   }));
   const texture = (format, side, usage, sampleCount = 1) => once(`texture ${format} ${side} ${sampleCount}`, () => (
@@ -65,10 +64,9 @@ async function openWebgpu() {
     isSoftware: Boolean(isFallbackAdapter ?? adapter.isFallbackAdapter) || SOFTWARE.test(renderer),
     notes: [['bitsInferred']],
     offers: () => true,
-    lose: () => device.destroy(),
-    async draw(batch, plant) {
+    async draw(batch) {
       const { kind, side, cell, draws } = batch;
-      const vertices = spoiled(batch, plant, this);
+      const vertices = numbers(batch.vertices);
       device.pushErrorScope('validation');
       const buffer = device.createBuffer({ size: Math.max(24, vertices.byteLength), usage: GPUBufferUsage.VERTEX | GPUBufferUsage.COPY_DST });
       device.queue.writeBuffer(buffer, 0, vertices);
@@ -79,16 +77,15 @@ async function openWebgpu() {
       const commands = device.createCommandEncoder();
       const pass = commands.beginRenderPass({
         colorAttachments: [{ view: picture.createView(), loadOp: 'clear', clearValue: [0, 0, 0, 0], storeOp: 'store' }],
-        ...(kind === 'depth' ? { depthStencilAttachment: { view: texture('depth32float', side, 0).createView(), depthLoadOp: 'clear', depthClearValue: plant === 'farther' ? 0 : 1, depthStoreOp: 'store' } } : {}),
+        ...(kind === 'depth' ? { depthStencilAttachment: { view: texture('depth32float', side, 0).createView(), depthLoadOp: 'clear', depthClearValue: 1, depthStoreOp: 'store' } } : {}),
       });
-      pass.setPipeline(pipeline(kind, plant));
+      pass.setPipeline(pipeline(kind));
       pass.setVertexBuffer(0, buffer);
-      const times = plant === 'twice' ? 2 : 1;
-      if (draws.length === 0) pass.draw(vertices.length / 6, times);
+      if (draws.length === 0) pass.draw(vertices.length / 6);
       let first = 0;
       for (const [count, x, y] of draws) {
         pass.setScissorRect(x, y, cell, cell);
-        pass.draw(count, times, first);
+        pass.draw(count, 1, first);
         first += count;
       }
       pass.end();
@@ -118,7 +115,7 @@ async function openWebgpu() {
       const bytes = new Uint8Array(read.getMappedRange().slice(0));
       read.destroy();
       buffer.destroy();
-      return kind === 'values' ? base64(bytes) : hits(bytes, 1, HIT, plant);
+      return kind === 'values' ? base64(bytes) : hits(bytes, 1, HIT);
     },
   };
 }

@@ -1,19 +1,8 @@
 // What is said of a pixel: who hits it, and of triangles, lines and pictures why.
-import { make } from './dom.js';
+import { make, plural } from './dom.js';
 import { decimal, judgeLinePixel, judgeSample } from './exact.js';
-import { colourOf, hex, hitsOf } from './items.js';
+import { colourOf, hex, hitsOf, spanOf } from './items.js';
 import { aboutTriangles } from './pixel.js';
-
-export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
-
-/** The run of hit pixels around a column of a row. */
-export const spanOf = (item, layer, x, y) => {
-  if (hitsOf(item, layer, x, y) === 0) return '';
-  let [from, to] = [x, x + 1];
-  while (hitsOf(item, layer, from - 1, y) > 0) from -= 1;
-  while (hitsOf(item, layer, to, y) > 0) to += 1;
-  return `${from} to ${to - 1} (${to - from} px)`;
-};
 
 /** The triangles of a case as their edges are at a sample, computed here. */
 const trianglesAt = ({ exact: { bits, triangles } }, x, y) => triangles.map((triangle, i) => {

@@ -66,6 +66,15 @@ export const hex = (colour) => (colour < 0 ? 'outside' : `#${colour.toString(16)
 const placeIn = ([x0, y0, x1, y1], x, y) => (x < x0 || y < y0 || x >= x1 || y >= y1 ? -1 : (y - y0) * (x1 - x0) + x - x0);
 export const hitsOf = (item, layer, x, y) => layer.hits?.[placeIn(item.box, x, y)] ?? 0;
 
+/** The run of hit pixels around a column of a row. */
+export const spanOf = (item, layer, x, y) => {
+  if (hitsOf(item, layer, x, y) === 0) return '';
+  let [from, to] = [x, x + 1];
+  while (hitsOf(item, layer, from - 1, y) > 0) from -= 1;
+  while (hitsOf(item, layer, to, y) > 0) to += 1;
+  return `${from} to ${to - 1} (${to - from} px)`;
+};
+
 /** Whether two layers differ in a pixel. */
 export const differIn = (item, a, b) => (item.isCase
   ? (x, y) => hitsOf(item, a, x, y) !== hitsOf(item, b, x, y)

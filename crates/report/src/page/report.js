@@ -1,9 +1,9 @@
 // The report page: its cases and pictures in the viewer, which of them is shown and how, and the address that leads to it.
-import { $, button, clamp, copyText, delayed, fill, make, renew } from './dom.js';
-import { MOST_CORNERS, judge } from './paint.js';
-import { viewWords } from './view.js';
-import { aboutPixel, plural } from './explain.js';
-import { byRule, caseItem, cheapRule, colourOf, corners, cropOf, differIn, hitsOf, isTie, load, outlines, pictureItem, pixelsWhere } from './items.js';
+import { $, button, clamp, copyText, delayed, fill, make, plural, renew } from './dom.js';
+import { GLYPHS, MOST_CORNERS, judge } from './paint.js';
+import { FARTHEST_PX, viewWords } from './view.js';
+import { aboutPixel } from './explain.js';
+import { caseItem, cheapRule, colourOf, corners, cropOf, differIn, hitsOf, isTie, load, outlines, pictureItem, pixelsWhere } from './items.js';
 import { ROLES, layerTable, rowTable } from './tables.js';
 
 const within = (selector) => document.querySelector(selector);
@@ -42,7 +42,8 @@ const difference = ({ item, a, b }) => {
     mark: (x, y) => {
       const more = hitsOf(item, la, x, y) - hitsOf(item, lb, x, y);
       if (more === 0) return hitsOf(item, la, x, y) ? SAME : null;
-      return { fill: more > 0 ? 'extra' : 'missing', glyph: `${more > 0 ? '+' : '\u2212'}${Math.abs(more)}` };
+      const fill = more > 0 ? 'extra' : 'missing';
+      return { fill, glyph: GLYPHS[fill] + Math.abs(more) };
     },
   };
 };
@@ -100,10 +101,10 @@ const show = () => {
   });
 };
 
+const MARKS = { agrees: '', missing: 'missing', extra: 'extra', twice: 'too often', overlap: 'rightly more than once' };
 /** What the colours mean: of marks, or of the maps that are shown. */
 const legend = ({ isCase, layers, oracle }) => (isCase
-  ? [['agrees', '', layers[oracle].role === 'oracle' ? 'as the oracle' : 'as expected'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
-    ['twice', '2', 'too often'], ['overlap', '*', 'rightly more than once']]
+  ? Object.entries({ ...MARKS, agrees: layers[oracle].role === 'oracle' ? 'as the oracle' : 'as expected' }).map(([kind, text]) => [kind, GLYPHS[kind], text])
   : [...new Set([state.a, state.b])].flatMap((i) => (layers[i].legend ?? []).map(([colour, text]) => [colour, '', text])));
 
 const announce = delayed();
@@ -221,7 +222,7 @@ const fillList = () => {
   const shown = shownItems();
   $('found').textContent = `${shown.length} of ${plural(items.length, 'case')}`;
   fill($('list'), shown.flatMap((item, i) => {
-    const link = make('a', { href: `#case-${encodeURIComponent(item.name)}` },
+    const link = make('a', { href: linkTo(item) },
       make('span', { className: 'name' }, item.name),
       make('span', { className: 'what' }, item.found || item.about));
     if (item === state.item) link.setAttribute('aria-current', 'true');
@@ -245,7 +246,7 @@ const step = (by) => {
   const shown = shownItems();
   const at = shown.indexOf(state.item);
   const next = shown[(at + by + shown.length) % shown.length];
-  if (next) location.hash = `case-${encodeURIComponent(next.name)}`;
+  if (next) location.hash = linkTo(next);
 };
 
 const fillFilters = () => {
@@ -262,11 +263,12 @@ const fillFilters = () => {
 
 // ---- Addresses: #case-NAME&mode=MODE&a=NAME&b=NAME&px=X,Y ----
 
+const linkTo = (item) => `#case-${encodeURIComponent(item.name)}`;
+
 const address = () => {
   const { item, mode, a, b, cursor } = state;
   const name = (i) => encodeURIComponent(item.layers[i].names[0]);
-  const at = cursor ? `&px=${cursor}` : '';
-  return `#case-${encodeURIComponent(item.name)}&mode=${mode}&a=${name(a)}&b=${name(b)}${at}`;
+  return `${linkTo(item)}&mode=${mode}&a=${name(a)}&b=${name(b)}${cursor ? `&px=${cursor}` : ''}`;
 };
 
 const addressLater = delayed();
@@ -275,21 +277,15 @@ const remember = () => addressLater(() => history.replaceState(null, '', address
 /** What nobody chose is not in the address. */
 const forget = () => addressLater(() => {}, 0);
 
-const decodeWord = (text) => {
-  try { return decodeURIComponent(text); } catch { return text; }
-};
-
 /** What an address asks for; nothing where it names a part of the page, or nothing. */
 const parseAddress = (url) => {
-  const [first, ...rest] = new URL(url).hash.slice(1).split('&');
-  if (!first.startsWith('case-')) {
-    const isThere = first === '' || $(decodeWord(first));
-    return isThere ? null : { settings: {}, lost: `This page has no place called ${decodeWord(first)}` };
-  }
-  const item = items.find((i) => i.name === decodeWord(first.slice(5)));
-  const settings = Object.fromEntries(rest.map((part) => part.split('=').map(decodeWord)));
-  const lost = item ? lostOf(item, settings) : `This page has no case called ${decodeWord(first.slice(5))}`;
-  return { item, settings, lost };
+  const settings = Object.fromEntries(new URLSearchParams(new URL(url).hash.slice(1)));
+  const [first = ''] = Object.keys(settings);
+  if (first === '' || $(first)) return null;
+  if (!first.startsWith('case-')) return { settings, lost: `This page has no place called ${first}` };
+  const name = first.slice('case-'.length);
+  const item = items.find((one) => one.name === name);
+  return { item, settings, lost: item ? lostOf(item, settings) : `This page has no case called ${name}` };
 };
 
 /** What of an address a case does not have; an address may be older than the page. */
@@ -312,9 +308,6 @@ const firstDifferent = (item) => {
   return found[Math.floor((found.length - 1) / 2)] ?? null;
 };
 
-/** The largest window of the playground. */
-const PLAYGROUND_PX = 128;
-
 /** What opens a case in the playground: its name where it has one there, else its places. */
 const playgroundWords = (item) => {
   const { kind, points } = item.shape;
@@ -322,9 +315,9 @@ const playgroundWords = (item) => {
   const scene = kind === 'lines' ? 'line' : 'triangle';
   const [, name, seed] = / inspect '?([\w.-]+(?:#\d+)?)'?(?: --seed (\d+))?(?: --plant [\w-]+)?$/.exec(item.command) ?? [];
   if (name) return { scene, case: name, ...(seed && { seed }), by };
-  const isTooLarge = Math.max(item.box[2] - item.box[0], item.box[3] - item.box[1]) > PLAYGROUND_PX;
+  const isTooLarge = Math.max(item.box[2] - item.box[0], item.box[3] - item.box[1]) > FARTHEST_PX;
   const [x0, y0, x1, y1] = isTooLarge ? cropOf(item, state.a, state.b) : item.box;
-  const window = [x0, y0, Math.min(x1, x0 + PLAYGROUND_PX), Math.min(y1, y0 + PLAYGROUND_PX)].join();
+  const window = [x0, y0, Math.min(x1, x0 + FARTHEST_PX), Math.min(y1, y0 + FARTHEST_PX)].join();
   if (kind === 'lines') return { scene, lines: points.map((line) => line.flat().join()).join(';'), window, by };
   const place = (point) => (kind === 'free' ? point : point.map((sub) => sub / 256)).join();
   const t = points.map((triangle) => triangle.map(place).join('_')).join(';');
@@ -421,17 +414,15 @@ const keyAnywhere = (event) => {
 };
 
 const listen = () => {
-  document.addEventListener('click', (event) => {
-    const pressed = event.target.closest('button.find');
-    if (pressed) {
-      const wanted = pressed.dataset.search;
-      const exact = items.find((item) => item.name === wanted);
-      $('search').value = exact ? '' : wanted;
-      fillList();
-      const link = exact ? `#case-${encodeURIComponent(exact.name)}` : within('#list a')?.getAttribute('href');
-      if (link) location.hash = link;
-      $('cases').scrollIntoView();
-    }
+  document.addEventListener('click', ({ target }) => {
+    const wanted = target.closest('button.find')?.dataset.search;
+    if (wanted === undefined) return;
+    const exact = items.find((item) => item.name === wanted);
+    $('search').value = exact ? '' : wanted;
+    fillList();
+    const link = exact ? linkTo(exact) : within('#list a')?.getAttribute('href');
+    if (link) location.hash = link;
+    $('cases').scrollIntoView();
   });
   $('search').addEventListener('input', fillList);
   $('pick-a').addEventListener('change', (e) => { state.a = Number(e.target.value); pairChanged(); });
@@ -477,12 +468,4 @@ const start = async () => {
   else await open(items[0]).then(forget);
 };
 
-// For tests: the cases in which the rule, computed here at every pixel, differs from the oracle, and what the viewer saves.
-window.rasterproof = {
-  snapshot: () => view.picture().toDataURL('image/png'),
-  audit: () => items.filter((item) => item.isCase).filter((item) => {
-    const { hits } = byRule(item);
-    return !item.layers[item.oracle].hits.every((n, i) => n === hits[i]);
-  }).map((item) => item.name),
-};
 start();

@@ -1,7 +1,6 @@
 // The tables below the picture.
 import { $, fill, renew, table } from './dom.js';
-import { colourOf, hex, hitsOf } from './items.js';
-import { spanOf } from './explain.js';
+import { colourOf, hex, hitsOf, spanOf } from './items.js';
 
 export const ROLES = { engine: 'engine', planted: 'planted fault', oracle: 'oracle', expected: 'target', specimen: 'published' };
 
