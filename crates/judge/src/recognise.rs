@@ -214,8 +214,7 @@ impl Expect for Recognition {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage =
-            found.expected(&TriangleQuestion { corners: *corners, window })?;
+        let coverage = found.expected(&TriangleQuestion { corners: *corners, window })?;
         Some(Expectation { must: runs(&coverage), may: None })
     }
 

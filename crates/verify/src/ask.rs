@@ -36,7 +36,10 @@ impl<Q: Clone, A> Asker<Q, A> {
         if questions.is_empty() {
             return Vec::new();
         }
-        self.0.borrow_mut().questions = questions.to_vec();
+        let mut mailbox = self.0.borrow_mut();
+        // Answers that nobody waited for are none.
+        (mailbox.questions, mailbox.answers) = (questions.to_vec(), None);
+        drop(mailbox);
         poll_fn(|_| self.0.borrow_mut().answers.take().map_or(Poll::Pending, Poll::Ready)).await
     }
 
@@ -140,7 +143,7 @@ mod tests {
         // Two of them take turns, and one waits meanwhile.
         let mut both = [search(1000), search(7)];
         let mut found = [None; 2];
-        for turn in 0..20 {
+        for turn in 0..40 {
             let i = turn % 2;
             if found[i].is_some() {
                 continue;
@@ -158,6 +161,11 @@ mod tests {
         }
         search.answer(Vec::new());
         assert!(matches!(search.step(), Step::Found(0)));
+        // What is given before anything is asked is no answer.
+        let mut early = self::search(9);
+        early.answer(vec![true]);
+        assert!(matches!(early.step(), Step::Asks(asked) if asked == [4]));
+        assert!(matches!(early.step(), Step::Asks(asked) if asked == [4]));
     }
 
     /// What is not asked is not waited for; what is known beforehand is known on the way.

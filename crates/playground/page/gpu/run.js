@@ -15,38 +15,30 @@ const deviceOf = (api, check) => ({
   interface: api.name, bits: check === 'lattice' && api.name === 'webgpu' ? 1 : Math.min(api.bits ?? 1, 8), samples_apart: api.apart,
 });
 
-/** Draws a batch and has it judged; `what` is {check, number} or {check, only} or {check, smaller, number}. */
-async function judged(api, what, tally = {}) {
-  const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
-  const drawn = { ...must(ask({ ask: 'gpu-batch', ...batch })), check: what.check };
-  if (drawn.subjects === 0) return { broken: null, tally: { subjects: 0 } };
-  let pixels = await api.draw(drawn, state.plant);
-  if (what.check === 'twice') {
-    const again = await api.draw(drawn, state.plant);
-    pixels = Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
-  }
-  return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
+/** The pixels of a picture that the module asked for; of the check for repeatability those of two drawings, by turns. */
+async function drawn(api, check, picture) {
+  const pixels = await api.draw({ ...picture, check }, state.plant);
+  if (check !== 'twice') return pixels;
+  const again = await api.draw({ ...picture, check }, state.plant);
+  return Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
 }
 
-/** The first of the smaller cases that still fails. They may need more than one picture. */
-async function smallerOne(api, check, subject) {
-  for (let number = 0; state.running; number += 1) {
-    const { broken, tally } = await judged(api, { check, smaller: subject, number });
-    if (broken || tally.subjects === 0) return broken;
-  }
-  return null;
+/** Draws a batch and has it judged; `what` is {check, number} or {check, only}. */
+async function judged(api, what, tally = {}) {
+  const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
+  const pixels = await drawn(api, what.check, must(ask({ ask: 'gpu-batch', ...batch })));
+  return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
 }
 
 /** From a case that fails to the smallest that is found in some seconds. */
 async function shrunk(api, check, subject) {
-  let smallest = subject;
+  const question = { ask: 'gpu-smaller', check, device: deviceOf(api, check) };
   const end = performance.now() + 10000;
-  while (performance.now() < end) {
-    const smaller = await smallerOne(api, check, smallest);
-    if (!smaller) break;
-    smallest = smaller;
+  let picture = must(ask({ ...question, subject }));
+  while (picture.subjects > 0 && state.running && performance.now() < end) {
+    picture = must(ask(question, await drawn(api, check, picture)));
   }
-  return (await judged(api, { check, only: smallest })).view;
+  return (await judged(api, { check, only: picture.smallest })).view;
 }
 
 /** Checks of pixels, for which a cause is looked for. */

@@ -37,11 +37,8 @@ impl Cause {
         declared: &Convention,
         mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
     ) -> Self {
-        let search = Self::search(
-            Declarations::from(declared),
-            *declared,
-            Some(mistakes::learn_triangles),
-        );
+        let search =
+            Self::search(Declarations::from(declared), *declared, Some(mistakes::learn_triangles));
         search.answered_by(|questions| questions.iter().map(&mut draw).collect())
     }
 

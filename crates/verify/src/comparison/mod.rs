@@ -52,9 +52,9 @@ pub use crate::judge::{Watch, caught, is_judging};
 #[doc(hidden)]
 pub use crate::promise::Expectation;
 pub use crate::promise::{Convention, Rule, Winding};
+pub use cause::Cause;
 #[doc(hidden)]
 pub use cause::CauseSearch;
-pub use cause::Cause;
 pub use changed::Changed;
 pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};

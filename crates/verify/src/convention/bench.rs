@@ -82,7 +82,11 @@ pub(super) const LEAST_SIDE_PX: i32 = 16;
 
 impl<'a> Bench<'a> {
     /// None where what is declared leaves no room for questions.
-    pub(super) fn new(asker: &'a TriangleAsker, known: &'a Declarations, seed: u64) -> Option<Self> {
+    pub(super) fn new(
+        asker: &'a TriangleAsker,
+        known: &'a Declarations,
+        seed: u64,
+    ) -> Option<Self> {
         let side = known.side_px();
         // A grid that does not divide 1/256 px is asked in whole pixels.
         let grid = known.grid.clamp(1, 256);

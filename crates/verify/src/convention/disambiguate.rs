@@ -21,11 +21,7 @@ const TRIES: usize = 2000;
 impl Bench<'_> {
     /// Those of the hypotheses that further questions do not refute, the simplest first. All that
     /// explain the answers so far are asked about, or the best alone.
-    pub(super) async fn separate(
-        &mut self,
-        scored: &[Scored],
-        draws: Windings,
-    ) -> Vec<Candidate> {
+    pub(super) async fn separate(&mut self, scored: &[Scored], draws: Windings) -> Vec<Candidate> {
         let least = scored.first().map_or(0, |(errors, _)| *errors);
         let mut survivors: Vec<_> = scored
             .iter()

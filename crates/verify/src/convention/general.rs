@@ -145,9 +145,8 @@ impl Bench<'_> {
         let list: Vec<_> =
             (0..4).map(|i| drawable(with_edge(side, EDGES[i], at[i]), draws)).collect();
         let answers = self.draw_all(&list).await;
-        [0, 1, 2, 3].map_array(|i| {
-            answers[i].map(|answer| answer.drawn.has(watched(side), watched(side)))
-        })
+        [0, 1, 2, 3]
+            .map_array(|i| answers[i].map(|answer| answer.drawn.has(watched(side), watched(side))))
     }
 
     /// Where the watched pixel flips as its left, right, upper and lower edge is moved; None where

@@ -44,7 +44,8 @@ pub use bench::{Declarations, TriangleAsker, TriangleQuestion};
 pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
 pub(crate) use half_planes::facing;
 pub use lines::{
-    Ends, LineAsker, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
+    Ends, LineAsker, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps,
+    diagnose_lines,
 };
 pub(crate) use mask::Mask;
 pub use mirror::Mirror;

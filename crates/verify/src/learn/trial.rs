@@ -113,8 +113,7 @@ pub async fn explained<L: Learn>(learner: &mut L) -> Option<(Trial, L::Hypothesi
             best = Some((trial, found));
         }
         // Where most is not predicted, another look at more answers seldom helps.
-        let is_hopeless =
-            searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
+        let is_hopeless = searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
         if !is_refuted && trial.is_enough() || is_hopeless || learner.is_over() {
             break;
         }

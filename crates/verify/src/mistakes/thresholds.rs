@@ -668,9 +668,8 @@ mod tests {
         let convention = LineConvention::default();
         let draw = |question: &LineQuestion| {
             let [[x0, y0], [x1, y1]] = question.ends;
-            let steps = (i64::from(x1) - i64::from(x0))
-                .abs()
-                .max((i64::from(y1) - i64::from(y0)).abs());
+            let steps =
+                (i64::from(x1) - i64::from(x0)).abs().max((i64::from(y1) - i64::from(y0)).abs());
             let mut pixels = convention.pixels(question)?;
             if steps > 16_384 {
                 pixels.pop();
@@ -682,8 +681,7 @@ mod tests {
         let found = Search::new(async |asker| of_lines(&asker, &known, &convention).await);
         let found = found.answered_by(answer);
         assert!(found[0].to_string().contains("lines are wrong from 16385 steps on"), "{found:?}");
-        let found =
-            Search::new(async |asker| mistakes::of_lines(&asker, &known, None, &[]).await);
+        let found = Search::new(async |asker| mistakes::of_lines(&asker, &known, None, &[]).await);
         let found = found.answered_by(answer).unwrap();
         assert_eq!(found.limits.len(), 1, "{found}");
     }

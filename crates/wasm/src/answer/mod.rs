@@ -64,6 +64,8 @@ enum Request {
     GpuJudge(Box<crate::gpu::Judge>),
     /// Why triangles are drawn wrongly, picture by picture.
     GpuCause(crate::gpu::Cause),
+    /// The smaller cases that the GPU draws next, of a search for the smallest one that fails.
+    GpuSmaller(crate::gpu::Smaller),
 }
 
 /// The answer to a question, or why it makes no sense or cannot be drawn.
@@ -92,6 +94,7 @@ fn ask(question: Request) -> Result<Value, String> {
         Request::GpuBatch(batch) => batch.answer(),
         Request::GpuJudge(judge) => judge.answer(),
         Request::GpuCause(cause) => cause.answer(),
+        Request::GpuSmaller(smaller) => smaller.answer(),
     }
 }
 

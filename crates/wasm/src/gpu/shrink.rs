@@ -1,17 +1,103 @@
-//! The subjects that are a step smaller than one that fails. The page draws them all in one picture, and goes
-//! on from the first that still fails.
+//! The search for the smallest subject that fails. Subjects that are a step smaller are drawn in one picture, and the search goes on from
+//! the first of them that fails.
+
+use std::cell::RefCell;
 
 use super::expected::{covered, edges};
-use super::subjects::{area, from_whole, triangle, whole};
+use super::judge::failing;
+use super::subjects::{area, drawn, from_whole, layout_for, triangle, whole};
 use super::{Device, Drawing, Topic, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
-use rasterproof_verify::cases::shrink::smaller_cases;
+use rasterproof_verify::cases::shrink::{SmallerSearch, Steps, smaller_cases};
 use rasterproof_verify::cases::{Case, Shape};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// Asks for the next picture of a search. At its end there are no more subjects; `smallest` is what it has reached.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Smaller {
+    pub check: Topic,
+    pub device: Device,
+    /// The subject that fails, which begins a search.
+    pub subject: Option<Drawing>,
+    /// What was read back of the picture before.
+    pub pixels: Option<String>,
+}
+
+/// A search that waits for a picture, and the subjects in it.
+struct WaitingSearch {
+    search: SmallerSearch<Drawing>,
+    asked: Vec<Drawing>,
+}
+
+thread_local! {
+    static WAITING: RefCell<Option<WaitingSearch>> = const { RefCell::new(None) };
+}
+
+impl Smaller {
+    pub fn answer(&self) -> Result<Value, String> {
+        let &Self { check, device, .. } = self;
+        let steps = DrawingSteps { check, device };
+        WAITING.with_borrow_mut(|waiting| {
+            if let Some(subject) = &self.subject {
+                layout_for(check, subject)?;
+                let search = SmallerSearch::new(subject.clone(), &steps);
+                *waiting = Some(WaitingSearch { search, asked: Vec::new() });
+            }
+            let WaitingSearch { search, asked } =
+                waiting.as_mut().ok_or("no search waits for a picture")?;
+            if let Some(pixels) = &self.pixels {
+                let layout = layout_for(check, &search.smallest)?;
+                let fails = failing(check, device, layout, pixels, asked)?;
+                search.answer(&steps, &fails);
+            }
+            let layout = layout_for(check, &search.smallest)?;
+            *asked = search.next(&steps, layout.room());
+            let vertices = asked.iter().map(|subject| drawn(check, subject));
+            let mut picture = device.picture(check, layout, vertices);
+            picture["smallest"] = json!(search.smallest);
+            Ok(picture)
+        })
+    }
+}
+
+/// By which steps the subjects of a check get smaller.
+struct DrawingSteps {
+    check: Topic,
+    device: Device,
+}
+
+impl Steps for DrawingSteps {
+    type Case = Drawing;
+
+    fn candidates(&self, _: usize, subject: &Drawing) -> Vec<Drawing> {
+        let layout = layout_for(self.check, subject);
+        layout.map_or_else(
+            |_| Vec::new(),
+            |layout| smaller(self.check, self.device, subject, layout.cell),
+        )
+    }
+
+    /// Candidates are smaller as they are made.
+    fn is_step(&self, _: usize, _: &Drawing, _: &Drawing) -> bool {
+        true
+    }
+}
+
+/// How the subjects lie in the picture that is waited for, and these.
+#[cfg(test)]
+pub(super) fn asked(check: Topic) -> (super::Layout, Vec<Drawing>) {
+    WAITING.with_borrow(|waiting| {
+        let WaitingSearch { search, asked } = waiting.as_ref().unwrap();
+        (layout_for(check, &search.smallest).unwrap(), asked.clone())
+    })
+}
 
 /// The smaller subjects of a check, those that are much smaller first.
-pub(super) fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
+fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     match check {
         Topic::NearPlane => smaller_whole(subject),
         Topic::Tiling | Topic::Lines | Topic::Depth | Topic::Values => {

@@ -35,9 +35,9 @@ use rasterproof_verify::learn::trial::{
 };
 
 use super::area::AreaDrawn;
-use super::{StageAsker, families};
 use super::sample_values::SampleShading;
 use super::wide::WideDrawn;
+use super::{StageAsker, families};
 use crate::adapt_case;
 use crate::ask::{Answer, Question};
 use crate::check::{Check, Truth};
@@ -105,15 +105,11 @@ pub async fn learn(asker: &StageAsker, check: Check, truth: &Truth) -> Option<Le
         Check::Near | Check::Carried => {
             Learner::<near::Polygons>::new(asker, check, truth).learn().await
         }
-        Check::Wide => {
-            Learner::<pixels::Pixels<WideDrawn>>::new(asker, check, truth).learn().await
-        }
+        Check::Wide => Learner::<pixels::Pixels<WideDrawn>>::new(asker, check, truth).learn().await,
         Check::SampleValues => {
             Learner::<pixels::Pixels<SampleShading>>::new(asker, check, truth).learn().await
         }
-        Check::Area => {
-            Learner::<pixels::Pixels<AreaDrawn>>::new(asker, check, truth).learn().await
-        }
+        Check::Area => Learner::<pixels::Pixels<AreaDrawn>>::new(asker, check, truth).learn().await,
         _ => None,
     }
 }
