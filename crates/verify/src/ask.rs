@@ -36,11 +36,14 @@ impl<Q: Clone, A> Asker<Q, A> {
         if questions.is_empty() {
             return Vec::new();
         }
-        let mut mailbox = self.0.borrow_mut();
-        // Answers that nobody waited for are none.
-        (mailbox.questions, mailbox.answers) = (questions.to_vec(), None);
-        drop(mailbox);
+        self.send(questions);
         poll_fn(|_| self.0.borrow_mut().answers.take().map_or(Poll::Pending, Poll::Ready)).await
+    }
+
+    /// Answers that nobody waited for are none.
+    fn send(&self, questions: &[Q]) {
+        let mut mailbox = self.0.borrow_mut();
+        (mailbox.questions, mailbox.answers) = (questions.to_vec(), None);
     }
 
     /// Questions whose answers are known to be wrong: what goes wrong rarely is learned of beside these.
