@@ -58,6 +58,28 @@ async function causeOf(api, title) {
   return reply;
 }
 
+/** What was judged of an interface so far. The browser keeps it, so that a page that was closed goes on from there. */
+const keptBy = (name) => `rasterproof-your-gpu-${name}`;
+
+/** What was kept of the same batches on the same renderer; nothing where the browser keeps nothing. */
+function kept(name, of) {
+  try {
+    const before = JSON.parse(localStorage.getItem(keptBy(name)));
+    return before?.of === of ? before : null;
+  } catch {
+    return null;
+  }
+}
+
+function keep(name, judged) {
+  try {
+    if (judged) localStorage.setItem(keptBy(name), JSON.stringify(judged));
+    else localStorage.removeItem(keptBy(name));
+  } catch {
+    // It is judged all the same.
+  }
+}
+
 const breathe = () => new Promise((done) => { setTimeout(done, 0); });
 
 /** Judges one interface into a result; draws the page as it goes. An address may ask for one check alone, a test for some batches on a lattice that it knows. */
@@ -83,7 +105,14 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
   const start = performance.now();
   let losses = 0;
   readBack.uneven = 0;
-  for (let at = 0; at < batches.length && state.running; at += 1) {
+  const of = JSON.stringify([state.seed, state.plant, renderer, $('module').textContent.length, batches]);
+  const before = kept(name, of);
+  if (before) {
+    Object.assign(result, { rows: before.rows, bits: before.bits });
+    api.bits ??= before.bits;
+    result.notes.push(['resumed', before.at]);
+  }
+  for (let at = before?.at ?? 0; at < batches.length && state.running; at += 1) {
     const { check, number } = batches[at];
     state.progress = { text: word('progress')(result.title, word('checks')[check], at + 1, batches.length), part: at / batches.length };
     drawProgress();
@@ -102,6 +131,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
         api.bits = answer.facts.bits;
         result.bits = api.bits;
       }
+      keep(name, { of, at: at + 1, rows: result.rows, bits: result.bits });
     } catch (error) {
       if (!(error instanceof Lost)) throw error;
       losses += 1;
@@ -115,6 +145,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
       at -= 1;
     }
   }
+  keep(name, null);
   result.seconds = (performance.now() - start) / 1000;
   for (const [check, row] of Object.entries(result.rows)) {
     result.triangles += check === 'lines' || check === 'twice' ? 0 : (row.tally?.shapes ?? 0) * (check === 'order' ? 6 : 1);
