@@ -32,9 +32,10 @@ async function judged(api, what, tally = {}) {
 
 /** From a case that fails to the smallest that is found in some seconds. */
 async function shrunk(api, check, subject) {
-  const question = { ask: 'gpu-smaller', check, device: deviceOf(api, check) };
+  const batch = { check, device: deviceOf(api, check), seed: state.seed };
+  const question = { ask: 'gpu-smaller', batch, tally: {} };
   const end = performance.now() + 10000;
-  let picture = must(ask({ ...question, subject }));
+  let picture = must(ask({ ...question, batch: { ...batch, only: subject }, pixels: '' }));
   while (picture.subjects > 0 && state.running && performance.now() < end) {
     picture = must(ask(question, await drawn(api, check, picture)));
   }
@@ -46,8 +47,9 @@ const OF_PIXELS = ['lattice', 'coverage', 'reach', 'tiling', 'order'];
 
 /** Why pixels are wrong: the module asks for triangles, picture by picture, until it knows or gives up. */
 async function causeOf(api, title) {
-  const question = { ask: 'gpu-cause', device: deviceOf(api, 'coverage') };
-  let reply = must(ask(question));
+  const batch = { check: 'coverage', device: deviceOf(api, 'coverage'), seed: state.seed };
+  const question = { ask: 'gpu-cause', batch, tally: {} };
+  let reply = must(ask({ ...question, pixels: '' }));
   for (let at = 1; reply.cause === undefined; at += 1) {
     if (!state.running) return null;
     state.progress = { text: word('asking')(title, at), part: 1 };

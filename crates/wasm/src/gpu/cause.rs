@@ -4,24 +4,15 @@
 
 use std::cell::RefCell;
 
+use super::judge::{Judge, Pixels};
 use super::subjects::triangle;
-use super::{Device, Layout, Topic};
+use super::{Batch, Device, Layout, Topic};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::ask::Step;
 use rasterproof_verify::comparison::{self, CauseSearch, Convention};
 use rasterproof_verify::convention::{Declarations, TriangleQuestion};
-use serde::Deserialize;
 use serde_json::{Value, json};
-
-/// Asks for the next picture, or the cause where everything was answered.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Cause {
-    device: Device,
-    /// The hits of the picture before, row by row, as digits from 0; none begins a search.
-    pixels: Option<String>,
-}
 
 /// Cells of the largest window that is asked for. Corners may lie [`REACH`] cells away.
 const LAYOUT: Layout = Layout { side: 1024, cell: 32, margin: REACH, scissor: true };
@@ -62,26 +53,19 @@ impl WaitingSearch {
     }
 
     /// Reads the answers off a picture.
-    fn take(&mut self, pixels: &str) -> Result<(), String> {
-        let side = LAYOUT.side as usize;
-        let pixels = pixels.as_bytes();
-        if pixels.len() != side * side {
-            return Err(format!("{} pixels for {side} x {side} px", pixels.len()));
-        }
-        let mut read = Vec::new();
-        for (index, question) in self.of_picture().iter().enumerate() {
-            let [x0, y0] = LAYOUT.origin(index);
-            let mut picture = Coverage::new(question.window, 0);
-            for y in 0..question.window.y1 {
-                for x in 0..question.window.x1 {
-                    let hits = pixels[(y0 + y) as usize * side + (x0 + x) as usize];
-                    (0..hits.wrapping_sub(b'0').min(9)).for_each(|_| picture.hit(y, x, x + 1));
-                }
+    fn take(&mut self, device: Device, pixels: &str) -> Result<(), String> {
+        let read = Pixels::read(Topic::Coverage, device, LAYOUT, pixels)?;
+        let answer = |(index, question): (usize, &TriangleQuestion)| {
+            let (cell, window) = (read.cell(index), question.window);
+            let mut picture = Coverage::new(window, 0);
+            for y in 0..window.y1 {
+                picture.row_mut(y).copy_from_slice(&cell.row(y)[..window.x1 as usize]);
             }
-            read.push(Some(picture));
-        }
-        self.answered += read.len();
-        self.answers.extend(read);
+            Some(picture)
+        };
+        let answers: Vec<_> = self.of_picture().iter().enumerate().map(answer).collect();
+        self.answered += answers.len();
+        self.answers.extend(answers);
         Ok(())
     }
 
@@ -98,15 +82,18 @@ impl WaitingSearch {
     }
 }
 
-impl Cause {
-    pub fn answer(&self) -> Result<Value, String> {
+impl Judge {
+    /// The next picture, or the cause where everything was answered. Without pixels a search begins; it goes on with the hits of the
+    /// picture before, row by row, as digits from 0.
+    pub fn cause(&self) -> Result<Value, String> {
+        let Self { batch: Batch { device, .. }, pixels, .. } = self;
         WAITING.with_borrow_mut(|waiting| {
-            if self.pixels.is_none() {
-                *waiting = Some(WaitingSearch::new(self.device));
+            if pixels.is_empty() {
+                *waiting = Some(WaitingSearch::new(*device));
             }
             let search = waiting.as_mut().ok_or("no search waits for a picture")?;
-            if let Some(pixels) = &self.pixels {
-                search.take(pixels)?;
+            if !pixels.is_empty() {
+                search.take(*device, pixels)?;
             }
             if let Some(found) = search.go_on() {
                 let asked = search.answered;
@@ -114,7 +101,7 @@ impl Cause {
                 return Ok(json!({ "cause": found.headline(), "asked": asked }));
             }
             let drawn = search.of_picture().iter().map(|question| triangle(question.corners));
-            Ok(self.device.picture(Topic::Coverage, LAYOUT, drawn))
+            Ok(device.picture(Topic::Coverage, LAYOUT, drawn))
         })
     }
 }
@@ -131,10 +118,16 @@ mod tests {
     use rasterproof_core::triangle::Corners;
     use rasterproof_verify::oracle::Oracle;
 
+    /// The question that begins a search.
+    fn question(interface: &str, bits: u32) -> Value {
+        let device = json!({ "interface": interface, "bits": bits, "samples_apart": true });
+        let batch = json!({ "check": "coverage", "device": device, "seed": 1 });
+        json!({ "ask": "gpu-cause", "batch": batch, "pixels": "", "tally": {} })
+    }
+
     /// What is said of a device that moves corners before it draws them rightly, and in how many pictures.
     fn said(bits: u32, moves: &dyn Fn(Corners) -> Option<Corners>) -> (String, usize) {
-        let device = json!({ "interface": "webgpu", "bits": bits, "samples_apart": true });
-        let mut question = json!({ "ask": "gpu-cause", "device": device });
+        let mut question = question("webgpu", bits);
         for pictures in 0.. {
             let reply: Value = serde_json::from_str(&answer(&question.to_string())).unwrap();
             assert!(reply["error"].is_null(), "{reply}");
@@ -172,10 +165,25 @@ mod tests {
     #[test]
     fn any_number_of_bits_is_taken() {
         for bits in [0, 9, u32::MAX] {
-            let device = json!({ "interface": "webgl2", "bits": bits, "samples_apart": false });
-            let reply = answer(&json!({ "ask": "gpu-cause", "device": device }).to_string());
+            let reply = answer(&question("webgl2", bits).to_string());
             assert!(reply.contains("vertices"), "{reply}");
         }
+    }
+
+    /// Neither what nobody waits for nor a picture of another size is taken, and a search that waits goes on afterwards.
+    #[test]
+    fn other_pictures_are_refused() {
+        let ask = |pixels: &str| -> Value {
+            let mut question = question("webgpu", 8);
+            question["pixels"] = json!(pixels);
+            serde_json::from_str(&answer(&question.to_string())).unwrap()
+        };
+        let whole = "0".repeat(1024 * 1024);
+        assert_eq!(ask(&whole)["error"], "no search waits for a picture");
+        let first = ask("");
+        assert_eq!(ask("00")["error"], "2 bytes of pixels for 1024 x 1024 px");
+        let second = ask(&whole);
+        assert!(second["subjects"].is_number() && second["vertices"] != first["vertices"]);
     }
 
     #[test]
@@ -183,6 +191,7 @@ mod tests {
     fn a_device_hears_its_cause() {
         let cause = |bits, moves: &dyn Fn(Corners) -> Option<Corners>, wanted: &str| {
             let (cause, pictures) = said(bits, moves);
+            println!("PICTURES {pictures}");
             assert!(cause.contains(wanted) && pictures < 60, "{pictures} pictures: {cause}");
         };
         cause(4, &Some, "The pixels of small triangles within the window are as declared.");

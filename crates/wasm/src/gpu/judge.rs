@@ -1,8 +1,7 @@
 //! Compares what was read back with what is expected.
 
-use super::expected::{Forgiving, Planes, expected, line_fits, planes};
+use super::expected::{Forgiving, Planes, expected, is_tiling, line_fits, planes};
 use super::place::{Place, RULES, cover, place};
-use super::shrink::is_tiling;
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -21,10 +20,10 @@ use serde_json::{Value, json};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Judge {
-    batch: Batch,
+    pub(super) batch: Batch,
     /// Row by row a character for each pixel and plane: the digit 0 for no hit, and so on in the order of
     /// ASCII. Of values, four f32 for each pixel in base64.
-    pixels: String,
+    pub(super) pixels: String,
     /// What came of the batches before.
     tally: Tally,
 }
@@ -144,7 +143,7 @@ pub(super) fn failing(
 }
 
 /// What was read back of a picture.
-struct Pixels {
+pub(super) struct Pixels {
     layout: Layout,
     bytes: Vec<u8>,
     /// Bytes of a pixel.
@@ -152,7 +151,12 @@ struct Pixels {
 }
 
 impl Pixels {
-    fn read(check: Topic, device: Device, layout: Layout, pixels: &str) -> Result<Self, String> {
+    pub(super) fn read(
+        check: Topic,
+        device: Device,
+        layout: Layout,
+        pixels: &str,
+    ) -> Result<Self, String> {
         let values = check == Topic::Values;
         let bytes = match values {
             true => STANDARD.decode(pixels).map_err(|e| e.to_string())?,
@@ -166,13 +170,13 @@ impl Pixels {
         Ok(Self { layout, bytes, size })
     }
 
-    fn cell(&self, index: usize) -> Cell<'_> {
+    pub(super) fn cell(&self, index: usize) -> Cell<'_> {
         let Self { layout, ref bytes, size } = *self;
         Cell { layout, origin: layout.origin(index), bytes, size }
     }
 }
 
-struct Cell<'a> {
+pub(super) struct Cell<'a> {
     layout: Layout,
     origin: [i32; 2],
     bytes: &'a [u8],
@@ -180,7 +184,7 @@ struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    fn row(&self, y: i32) -> &[u8] {
+    pub(super) fn row(&self, y: i32) -> &[u8] {
         let [x0, y0] = self.origin;
         let start = ((y0 + y) * self.layout.side + x0) as usize * self.size;
         &self.bytes[start..start + self.layout.cell as usize * self.size]
@@ -480,7 +484,7 @@ fn facts(check: Topic, tally: &Tally) -> Value {
 #[cfg(test)]
 mod tests {
     use super::super::Vertex;
-    use super::super::shrink::{Smaller, asked, size};
+    use super::super::shrink::{asked, size};
     use super::super::subjects::PLAN;
     use super::*;
     use serde_json::from_value;
@@ -543,12 +547,13 @@ mod tests {
         subject: Value,
         draw: &dyn Fn(Topic, Device, Layout, &[Drawing]) -> String,
     ) -> (Drawing, Vec<Drawing>) {
-        let Batch { check, device, .. } = batch(check, "webgl2", json!({}));
-        let mut question = Smaller { check, device, subject: None, pixels: None };
-        question.subject = Some(from_value(subject).unwrap());
+        let (pixels, tally) = (String::new(), Tally::default());
+        let mut question =
+            Judge { batch: batch(check, "webgl2", json!({ "only": subject })), pixels, tally };
+        let Batch { check, device, .. } = question.batch;
         let mut through = Vec::new();
         loop {
-            let reply = question.answer().unwrap();
+            let reply = question.smaller().unwrap();
             let smallest: Drawing = from_value(reply["smallest"].clone()).unwrap();
             if through.last() != Some(&smallest) {
                 through.push(smallest.clone());
@@ -558,8 +563,8 @@ mod tests {
             if list.is_empty() {
                 return (smallest, through);
             }
-            question.subject = None;
-            question.pixels = Some(draw(check, device, layout, &list));
+            question.batch.only = None;
+            question.pixels = draw(check, device, layout, &list);
         }
     }
 

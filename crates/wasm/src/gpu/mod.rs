@@ -19,11 +19,9 @@ use serde_json::{Value, json};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-pub(crate) use cause::Cause;
 pub(crate) use judge::Judge;
 use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
-pub(crate) use shrink::Smaller;
 
 /// What is checked, in the order of the page. Positions come first, because all others are placed on the
 /// lattice that is found.

@@ -3,29 +3,16 @@
 
 use std::cell::RefCell;
 
-use super::expected::{covered, edges};
-use super::judge::failing;
+use super::expected::is_tiling;
+use super::judge::{Judge, failing};
 use super::subjects::{area, drawn, from_whole, layout_for, triangle, whole};
-use super::{Device, Drawing, Topic, Vertex};
+use super::{Batch, Device, Drawing, Topic, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
 use rasterproof_verify::cases::shrink::{SmallerSearch, Steps, smaller_cases};
 use rasterproof_verify::cases::{Case, Shape};
-use serde::Deserialize;
 use serde_json::{Value, json};
-
-/// Asks for the next picture of a search. At its end there are no more subjects; `smallest` is what it has reached.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Smaller {
-    pub check: Topic,
-    pub device: Device,
-    /// The subject that fails, which begins a search.
-    pub subject: Option<Drawing>,
-    /// What was read back of the picture before.
-    pub pixels: Option<String>,
-}
 
 /// A search that waits for a picture, and the subjects in it.
 struct WaitingSearch {
@@ -37,21 +24,23 @@ thread_local! {
     static WAITING: RefCell<Option<WaitingSearch>> = const { RefCell::new(None) };
 }
 
-impl Smaller {
-    pub fn answer(&self) -> Result<Value, String> {
-        let &Self { check, device, .. } = self;
+impl Judge {
+    /// The next picture of a search, which begins with a subject that fails, and goes on with the pixels of the picture before. At its
+    /// end there are no more subjects; `smallest` is what it has reached.
+    pub fn smaller(&self) -> Result<Value, String> {
+        let Batch { check, device, ref only, .. } = self.batch;
         let steps = DrawingSteps { check, device };
         WAITING.with_borrow_mut(|waiting| {
-            if let Some(subject) = &self.subject {
+            if let Some(subject) = only {
                 layout_for(check, subject)?;
                 let search = SmallerSearch::new(subject.clone(), &steps);
                 *waiting = Some(WaitingSearch { search, asked: Vec::new() });
             }
             let WaitingSearch { search, asked } =
                 waiting.as_mut().ok_or("no search waits for a picture")?;
-            if let Some(pixels) = &self.pixels {
+            if only.is_none() {
                 let layout = layout_for(check, &search.smallest)?;
-                let fails = failing(check, device, layout, pixels, asked)?;
+                let fails = failing(check, device, layout, &self.pixels, asked)?;
                 search.answer(&steps, &fails);
             }
             let layout = layout_for(check, &search.smallest)?;
@@ -315,25 +304,4 @@ fn is_valid(check: Topic, device: Device, before: &Shapes, shapes: &Shapes, cell
         && shapes.iter().all(has_extent)
         && shapes.iter().all(is_one)
         && all_differ
-}
-
-/// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
-/// device's lattice, and do not overlap; two share an edge.
-pub(super) fn is_tiling(subject: &Drawing, cell: i32) -> bool {
-    let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
-    let is_thick = |t: &Vec<Vertex>| {
-        let longest = [(0, 1), (1, 2), (2, 0)]
-            .map(|(i, j)| (t[i][0] - t[j][0]).powi(2) + (t[i][1] - t[j][1]).powi(2))
-            .into_iter()
-            .fold(0.0, f64::max);
-        area(t).powi(2) >= longest / 4.0
-    };
-    let [first, rest @ ..] = &subject.0[..] else { return false };
-    let shares = |t: &Vec<Vertex>| edges(first).iter().any(|[a, b]| edges(t).contains(&[*b, *a]));
-    let is_apart = match rest {
-        [] => true,
-        [second] => shares(second),
-        _ => covered(subject, cell).iter().all(|hits| *hits <= 1),
-    };
-    is_apart && subject.0.iter().all(|t| turns(t) && is_thick(t))
 }
