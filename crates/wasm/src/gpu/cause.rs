@@ -191,7 +191,6 @@ mod tests {
     fn a_device_hears_its_cause() {
         let cause = |bits, moves: &dyn Fn(Corners) -> Option<Corners>, wanted: &str| {
             let (cause, pictures) = said(bits, moves);
-            println!("PICTURES {pictures}");
             assert!(cause.contains(wanted) && pictures < 60, "{pictures} pictures: {cause}");
         };
         cause(4, &Some, "The pixels of small triangles within the window are as declared.");
