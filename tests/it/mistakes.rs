@@ -26,6 +26,7 @@ use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::clip::ClipPlane;
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
+use rasterproof_verify::ask::Search;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
@@ -1561,18 +1562,18 @@ fn of_fill_in(
     window_px: (u32, u32),
     fill: impl Fn(Corners, PixelRect, &mut Coverage),
 ) -> Option<Mistakes> {
-    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
-        let draw = |q: &TriangleQuestion| {
-            let mut picture = Coverage::new(q.window, 0);
-            fill(q.corners, q.window, &mut picture);
-            Some(picture)
-        };
-        questions.iter().map(draw).collect()
+    let draw = |q: &TriangleQuestion| {
+        let mut picture = Coverage::new(q.window, 0);
+        fill(q.corners, q.window, &mut picture);
+        Some(picture)
     };
     let known = Declarations { window_px, ..Declarations::default() };
-    let found = diagnose(&mut ask, &known, 1);
-    let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
-    mistakes::of_triangles(&mut ask, &known, Some(&found), &[], Some(learn))
+    let search = Search::new(async |asker| {
+        let found = diagnose(&asker, &known, 1).await;
+        let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
+        mistakes::of_triangles(&asker, &known, Some(&found), &[], Some(learn)).await
+    });
+    search.answered_by(|questions| questions.iter().map(draw).collect())
 }
 
 /// What is said of a program that draws right by a convention, in windows of at most this size.
@@ -1587,20 +1588,21 @@ fn of_convention(convention: &TriangleConvention, window_px: (u32, u32)) -> Opti
 fn of_stroke(
     stroke: impl Fn([[i32; 2]; 2], [i32; 2], &mut dyn FnMut(i32, i32)),
 ) -> Option<Mistakes> {
-    let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
-        let draw = |q: &LineQuestion| {
-            let mut pixels = Vec::new();
-            stroke(q.ends, [q.window.x1 - 1, q.window.y1 - 1], &mut |x, y| {
-                if q.window.contains(x, y) && !pixels.contains(&[x, y]) {
-                    pixels.push([x, y]);
-                }
-            });
-            Some(pixels)
-        };
-        questions.iter().map(draw).collect()
+    let draw = |q: &LineQuestion| {
+        let mut pixels = Vec::new();
+        stroke(q.ends, [q.window.x1 - 1, q.window.y1 - 1], &mut |x, y| {
+            if q.window.contains(x, y) && !pixels.contains(&[x, y]) {
+                pixels.push([x, y]);
+            }
+        });
+        Some(pixels)
     };
-    let found = diagnose_lines(&mut ask, 32, true, 1);
-    mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[])
+    let known = Declarations::default();
+    let search = Search::new(async |asker| {
+        let found = diagnose_lines(&asker, 32, true, 1).await;
+        mistakes::of_lines(&asker, &known, Some(&found), &[]).await
+    });
+    search.answered_by(|questions| questions.iter().map(draw).collect())
 }
 
 /// Every fifth program with its number, and at night each of them.

@@ -66,15 +66,12 @@ impl Leaving {
     }
 }
 
-/// Of some shapes that leave the window, how many come out otherwise than `expect` says, which knows
-/// what leaves it.
-pub fn otherwise(
-    program: &mut dyn FnMut(&[Question]) -> Vec<Answer>,
-    declared: &Declared,
-    expect: &dyn Expect,
-    lines: bool,
-    quantum: Quantum,
-) -> Leaving {
+fn window(q: &Question) -> PixelRect {
+    PixelRect::window(q.width, q.height)
+}
+
+/// Some shapes that leave the window.
+pub fn questions(declared: &Declared, lines: bool, quantum: Quantum) -> Vec<Question> {
     let truth = Truth::of(declared);
     let family = adapt_case::families(&[FAMILIES[usize::from(lines)].to_owned()])[0];
     let check = if lines { Check::Line } else { Check::Coverage };
@@ -82,15 +79,18 @@ pub fn otherwise(
     for index in 0..CASES {
         check.questions(&adapt_case::case(family, 1, index, declared), &truth, &mut questions);
     }
-    let window = |q: &Question| PixelRect::window(q.width, q.height);
     questions.retain(|q| match &q.of {
         Asked::Coverage(corners) => triangle_leaves(corners, quantum, window(q)),
         Asked::Line { ends, .. } => line_leaves(ends, window(q)),
         _ => false,
     });
+    questions
+}
+
+/// Of shapes that leave the window, how many come out otherwise than `expect` says, which knows what leaves it.
+pub fn otherwise(questions: &[Question], answers: &[Answer], expect: &dyn Expect) -> Leaving {
     let mut found = Leaving::default();
-    let answers = program(&questions);
-    for (question, answer) in questions.iter().zip(&answers) {
+    for (question, answer) in questions.iter().zip(answers) {
         let window = window(question);
         let expected: Option<Vec<Span>> = match &question.of {
             Asked::Coverage(corners) => expect.picture(corners, window).map(|p| p.must),

@@ -26,9 +26,11 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
+use rasterproof_verify::ask::{Search, Step};
 use rasterproof_verify::comparison::{Convention, Expectation, Rule};
 use rasterproof_verify::convention::{
     self, Confidence, Declarations, Diagnosis, FACINGS, LineDiagnosis, LineQuestion, Quantum,
+    TriangleQuestion,
 };
 use rasterproof_verify::judge::AFTER_FAILURE;
 use rasterproof_verify::mistakes::{self, Mistakes, Program};
@@ -100,7 +102,9 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
             (ask && !bench.program.is_late).then(|| {
                 bench.limit(scope.patience);
-                convention::diagnose(&mut bench, &known(&declared), SEED)
+                let known = known(&declared);
+                let search = async |asker| convention::diagnose(&asker, &known, SEED).await;
+                bench.search(Search::new(search), Bench::triangles)
             })
         })
         .flatten();
@@ -111,7 +115,9 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
             let ordered = !declared.line_set;
             (ask && !bench.program.is_late).then(|| {
                 bench.limit(scope.patience);
-                convention::diagnose_lines(&mut bench, side_px, ordered, SEED)
+                let search =
+                    async |asker| convention::diagnose_lines(&asker, side_px, ordered, SEED).await;
+                bench.search(Search::new(search), Bench::lines)
             })
         })
         .flatten();
@@ -187,8 +193,8 @@ impl Recognition {
             if !is_certain[usize::from(lines)] {
                 continue;
             }
-            let mut ask = |questions: &[Question]| bench.answers(questions);
-            let found = leaving::otherwise(&mut ask, declared, self, lines, self.quantum());
+            let questions = leaving::questions(declared, lines, self.quantum());
+            let found = leaving::otherwise(&questions, &bench.answers(&questions), self);
             let Some(said) = found.sentence(what) else { continue };
             self.otherwise[usize::from(lines)] = found.is_convention();
             let about = |sentence: &&mut String| sentence.starts_with(what);
@@ -208,8 +214,7 @@ impl Expect for Recognition {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage =
-            found.expected(&convention::TriangleQuestion { corners: *corners, window })?;
+        let coverage = found.expected(&TriangleQuestion { corners: *corners, window })?;
         Some(Expectation { must: runs(&coverage), may: None })
     }
 
@@ -257,19 +262,26 @@ pub fn mistakes(
         let share = program.rest().map(|rest| rest / to_do);
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
-        let mut bench = Bench { failing, ..Bench::new(part) };
+        let mut bench = Bench::new(part);
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
                 let programs = programs(of_triangle);
                 let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
-                let why = mistakes::of_triangles(&mut bench, &known, found, &programs, Some(learn));
-                ("triangles", why)
+                let search = Search::new(async |asker| {
+                    mistakes::of_triangles(&asker, &known, found, &programs, Some(learn)).await
+                });
+                let search = search.beside(failing.iter().filter_map(as_triangle).collect());
+                ("triangles", bench.search(search, Bench::triangles))
             }
             Check::Line => {
                 let found = recognised.and_then(|found| found.lines.as_ref());
                 let programs = programs(of_line);
-                ("lines", mistakes::of_lines(&mut bench, &known, found, &programs))
+                let search = Search::new(async |asker| {
+                    mistakes::of_lines(&asker, &known, found, &programs).await
+                });
+                let search = search.beside(failing.iter().filter_map(as_line).collect());
+                ("lines", bench.search(search, Bench::lines))
             }
             check => {
                 let of = match check {
@@ -286,7 +298,8 @@ pub fn mistakes(
                 let programs: Vec<_> = entries()
                     .map(|(entry, about)| (RefCell::new(Inside::new(&entry)), about))
                     .collect();
-                (of, stages::mistakes(&mut bench.program, check, truth, &programs))
+                let search = stages::mistakes(check, truth, &programs);
+                (of, bench.search(search, |bench, asked| bench.program.ask(asked, MOST_DEATHS)))
             }
         };
         // What is concluded from few of the answers would be no conclusion.
@@ -351,7 +364,7 @@ fn programs<'a, Q: 'a, A: 'a>(
     entries().map(program).collect()
 }
 
-fn of_triangle(question: &convention::TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
+fn of_triangle(question: &TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
     let asked = triangle_question(question);
     program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
 }
@@ -360,7 +373,7 @@ fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]
     program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
 }
 
-fn triangle_question(q: &convention::TriangleQuestion) -> Question {
+fn triangle_question(q: &TriangleQuestion) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     Question { width, height, of: Asked::Coverage(q.corners) }
 }
@@ -369,6 +382,18 @@ fn line_question(q: &LineQuestion, whole: bool) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     let ends = q.ends.map(|[x, y]| PixelPoint::new(x, y));
     Question { width, height, of: Asked::Line { ends, whole } }
+}
+
+/// The same the other way; nothing of other questions.
+fn as_triangle(question: &Question) -> Option<TriangleQuestion> {
+    let Asked::Coverage(corners) = question.of else { return None };
+    Some(TriangleQuestion { corners, window: PixelRect::window(question.width, question.height) })
+}
+
+fn as_line(question: &Question) -> Option<LineQuestion> {
+    let Asked::Line { ends, .. } = question.of else { return None };
+    let window = PixelRect::window(question.width, question.height);
+    Some(LineQuestion { ends: ends.map(|end| [end.x, end.y]), window })
 }
 
 fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
@@ -382,13 +407,11 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 struct Bench<'a> {
     program: Timed<'a>,
     deaths_left: u64,
-    /// Questions whose answers are known to be wrong.
-    failing: &'a [Question],
 }
 
 impl<'a> Bench<'a> {
     fn new(program: Timed<'a>) -> Self {
-        Self { program, deaths_left: MOST_DEATHS, failing: &[] }
+        Self { program, deaths_left: MOST_DEATHS }
     }
 
     /// Limits its answers from the first wrong one on.
@@ -411,6 +434,33 @@ impl<'a> Bench<'a> {
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
         self.program.is_late |= answers.len() < questions.len() && deaths == 0;
         answers
+    }
+
+    /// What a search comes to when the program answers.
+    fn search<Q: Clone, A, T>(
+        &mut self,
+        mut search: Search<'_, Q, A, T>,
+        answer: impl Fn(&mut Self, &[Q]) -> Vec<A>,
+    ) -> T {
+        loop {
+            search.allow(self.program.questions_left());
+            match search.step() {
+                Step::Asks(questions) => search.answer(answer(self, &questions)),
+                Step::Found(found) => return found,
+            }
+        }
+    }
+
+    fn triangles(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
+        let asked: Vec<_> = questions.iter().map(triangle_question).collect();
+        let answers = self.answers(&asked);
+        answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
+    }
+
+    fn lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
+        let whole = self.program.declared().grid() == 1;
+        let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
+        self.answers(&asked).into_iter().map(pixels_of).collect()
     }
 
     /// A short look: whether some cases full of ties, and some without, are as declared.
@@ -437,52 +487,6 @@ impl<'a> Bench<'a> {
                     })
             },
         )
-    }
-}
-
-impl convention::Ask for Bench<'_> {
-    fn most_to_learn(&self) -> usize {
-        self.program.at_most(convention::MOST_TO_LEARN)
-    }
-
-    fn failing(&self) -> Vec<convention::TriangleQuestion> {
-        let mut all = Vec::new();
-        for &Question { width, height, ref of } in self.failing {
-            if let Asked::Coverage(corners) = *of {
-                let window = PixelRect::window(width, height);
-                all.push(convention::TriangleQuestion { corners, window });
-            }
-        }
-        all
-    }
-
-    fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
-        let asked: Vec<_> = questions.iter().map(triangle_question).collect();
-        let answers = self.answers(&asked);
-        answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
-    }
-}
-
-impl convention::AskLine for Bench<'_> {
-    fn most_to_learn(&self) -> usize {
-        self.program.at_most(convention::MOST_TO_LEARN)
-    }
-
-    fn failing(&self) -> Vec<LineQuestion> {
-        let mut all = Vec::new();
-        for &Question { width, height, ref of } in self.failing {
-            if let Asked::Line { ends, .. } = *of {
-                let window = PixelRect::window(width, height);
-                all.push(LineQuestion { ends: ends.map(|end| [end.x, end.y]), window });
-            }
-        }
-        all
-    }
-
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        let whole = self.program.declared().grid() == 1;
-        let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
-        self.answers(&asked).into_iter().map(pixels_of).collect()
     }
 }
 

@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::check::Check;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_verify::cases::shrink::{CaseSteps, Steps, smallest};
+use rasterproof_verify::cases::shrink::{CaseSteps, Steps};
 use rasterproof_verify::cases::{Case, Shape, Triangle, formulas};
 
 /// The steps of cases that a program is asked.
@@ -48,12 +48,6 @@ impl Steps for ProgramSteps<'_> {
         };
         is_smaller && flat(to) <= self.most_flat && (self.may_be)(to)
     }
-}
-
-/// The smallest case reached from `case` that still fails; `case` itself does.
-pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
-    let steps = ProgramSteps::new(check, &case, &|_| true);
-    smallest(case, &steps, fails)
 }
 
 fn has_depth(check: Check) -> bool {
@@ -203,6 +197,12 @@ fn simpler_number(value: f64) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
     use rasterproof_verify::cases::near_plane::{FAMILIES, clip_corners};
+    use rasterproof_verify::cases::shrink::smallest;
+
+    fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
+        let steps = ProgramSteps::new(check, &case, &|_| true);
+        smallest(case, &steps, fails)
+    }
 
     /// What fails where a fault is planted is small afterwards, and still fails.
     #[test]

@@ -47,13 +47,12 @@ impl<'a> Timed<'a> {
         until_end.into_iter().chain(self.left).min()
     }
 
-    /// As many questions of these as are answered in the time that is left. Only of a slow program does the number depend on
-    /// the machine.
+    /// How many questions are answered in the time that is left. Only of a slow program does the number depend on the machine.
     #[must_use]
-    pub fn at_most(&self, most: usize) -> usize {
-        let Some(rest) = self.rest() else { return most };
+    pub fn questions_left(&self) -> usize {
+        let Some(rest) = self.rest() else { return usize::MAX };
         let each = self.took / self.answered.max(1);
-        most.min((rest.as_nanos() / each.as_nanos().max(1)) as usize)
+        (rest.as_nanos() / each.as_nanos().max(1)) as usize
     }
 }
 

@@ -201,6 +201,8 @@
 
 #![warn(missing_docs)]
 
+#[doc(hidden)]
+pub mod ask;
 pub mod cases;
 pub mod comparison;
 #[doc(hidden)]

@@ -1,8 +1,7 @@
 //! Line conventions are recognised: made-up drawers for every hypothesis, and noise.
 
 use rasterproof_verify::convention::{
-    AskLine, Confidence, End, Ends, LineConvention, LineQuestion, LineRounding, Steps,
-    diagnose_lines,
+    Confidence, End, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps,
 };
 
 use rayon::prelude::*;
@@ -16,10 +15,10 @@ struct Drawer {
     noise: u64,
 }
 
-impl AskLine for Drawer {
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        questions.iter().map(|question| Some(self.draw(question.ends))).collect()
-    }
+/// What is found of such a drawer.
+fn diagnosed(convention: LineConvention, noise: u64, side_px: i32) -> LineDiagnosis {
+    let drawer = Drawer { convention, noise };
+    super::diagnosed_lines(side_px, true, 5, |question| Some(drawer.draw(question.ends)))
 }
 
 /// Whether that end of the line from a to b is a; u is its major axis.
@@ -162,7 +161,7 @@ fn ahead(a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
 fn conventions_of_lines_behind_are_named() {
     let both = [LineConvention::BEHIND, LineConvention::AHEAD];
     for (convention, noise) in both.into_iter().flat_map(|c| [(c, 0), (c, 20), (c, 200)]) {
-        let found = diagnose_lines(&mut Drawer { convention, noise }, 32, true, 5);
+        let found = diagnosed(convention, noise, 32);
         let is_named = found.convention == convention && found.confidence == Confidence::Certain;
         assert_eq!(is_named, noise == 0, "{noise}: {}", found.sentence());
         super::assert_chinese(&found.sentence());
@@ -180,7 +179,7 @@ fn conventions_of_lines_made_up_are_named() {
     // A prime stride reaches every rounding, ending and step.
     let named = |number: usize| {
         let convention = all[number * 59 % all.len()];
-        let found = diagnose_lines(&mut Drawer { convention, noise: 0 }, 32, true, 5);
+        let found = diagnosed(convention, 0, 32);
         let sentence = found.sentence();
         super::assert_chinese(&sentence);
         let is_named = found.convention == convention;
@@ -193,7 +192,7 @@ fn conventions_of_lines_made_up_are_named() {
 fn conventions_of_noisy_lines_are_unexplained() {
     for noise in [30, 100, 500] {
         let convention = LineConvention::default();
-        let found = diagnose_lines(&mut Drawer { convention, noise }, 40, true, 5);
+        let found = diagnosed(convention, noise, 40);
         assert_eq!(found.confidence, Confidence::Unexplained, "{noise}: {}", found.sentence());
         assert!(found.sentence().starts_with("Unexplained"));
         let question = LineQuestion {

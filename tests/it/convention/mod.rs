@@ -8,9 +8,11 @@ mod synthetic;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_report::phrases::chinese;
+use rasterproof_verify::ask::Search;
 use rasterproof_verify::convention::{
-    Ask, Confidence, Declarations, Diagnosis, LineTie, Mirror, Pattern, Quantum, Rounding, Scan,
-    Shape, Ties, TriangleConvention, TriangleQuestion, Windings, diagnose, diagnose_lines,
+    Confidence, Declarations, Diagnosis, LineDiagnosis, LineQuestion, LineTie, Mirror, Pattern,
+    Quantum, Rounding, Scan, Shape, Ties, TriangleConvention, TriangleQuestion, Windings, diagnose,
+    diagnose_lines,
 };
 use rayon::prelude::*;
 
@@ -56,6 +58,26 @@ impl Dice {
         }
         Owner::Facing(Ties::named(self.pick(&named)).unwrap().edges)
     }
+}
+
+/// The convention of a rasterizer that draws so.
+fn diagnosed(
+    known: &Declarations,
+    mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
+) -> Diagnosis {
+    Search::new(async |asker| diagnose(&asker, known, 1).await)
+        .answered_by(|questions| questions.iter().map(&mut draw).collect())
+}
+
+/// The same of a line drawer, in a window of this side.
+fn diagnosed_lines(
+    side_px: i32,
+    is_ordered: bool,
+    seed: u64,
+    mut draw: impl FnMut(&LineQuestion) -> Option<Vec<[i32; 2]>>,
+) -> LineDiagnosis {
+    Search::new(async |asker| diagnose_lines(&asker, side_px, is_ordered, seed).await)
+        .answered_by(|questions| questions.iter().map(&mut draw).collect())
 }
 
 fn shape(dice: &mut Dice, kind: u64) -> Shape {
@@ -142,8 +164,8 @@ fn check_named(found: &[NamingResult]) {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_made_up_are_named() {
     let named = |number| {
-        let mut made = made_up(number);
-        let found = diagnose(&mut made, &Declarations::default(), 1);
+        let made = made_up(number);
+        let found = diagnosed(&Declarations::default(), |q| Some(made.draw(q)));
         let wrong = differences(&made, &found);
         let is_named = wrong.is_empty() && found.confidence != Confidence::Unexplained;
         (found.confidence, is_named, format!("#{number} {made:?}: {wrong:?} {found:?}"))
@@ -171,7 +193,8 @@ fn conventions_of_samples_and_mirrors_are_named() {
         list.push((made_up(number), mirror));
     }
     let named = |(made, mirror)| {
-        let found = diagnose(&mut Mirrored(made, mirror), &Declarations::default(), 1);
+        let program = Mirrored(made, mirror);
+        let found = diagnosed(&Declarations::default(), |q| Some(program.draw(q)));
         let mut wrong = differences(&made, &found);
         if found.convention.mirror != mirror {
             wrong.push(format!("{:?} not {mirror:?}", found.convention.mirror));
@@ -188,14 +211,14 @@ fn conventions_of_samples_and_mirrors_are_named() {
 fn conventions_of_mirrors_predict() {
     for mirror in Mirror::ALL {
         let shape = Shape::Point { x: 128, y: 128 };
-        let mut program =
+        let program =
             Mirrored(Synthetic { step: 1, shape, draws: Windings::Both, ..made_up(0) }, mirror);
-        let found = diagnose(&mut program, &Declarations::default(), 1);
+        let found = diagnosed(&Declarations::default(), |q| Some(program.draw(q)));
         let side = if mirror == Mirror::Exchanged { 20 } else { 24 };
         let window = PixelRect::window(side, 20);
         let corners = [(256, 300), (4000, 700), (900, 4700)].map(|(x, y)| SubpixelPoint::new(x, y));
         let question = TriangleQuestion { corners, window };
-        assert_eq!(found.expected(&question), program.ask(&[question])[0], "{mirror:?}");
+        assert_eq!(found.expected(&question), Some(program.draw(&question)), "{mirror:?}");
         let said = found.sentence().contains("draws its picture ");
         assert_eq!(said, mirror != Mirror::None, "{}", found.sentence());
     }
@@ -206,7 +229,8 @@ fn conventions_of_mirrors_predict() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_another_are_not_confused() {
     for number in 0..12 {
-        let found = diagnose(&mut made_up(number), &Declarations::default(), 1);
+        let made = made_up(number);
+        let found = diagnosed(&Declarations::default(), |q| Some(made.draw(q)));
         assert!(!differences(&made_up(number + 6), &found).is_empty(), "{number}");
     }
 }
@@ -221,25 +245,18 @@ fn conventions_of_noise_are_unexplained() {
     };
     (0..12u64).into_par_iter().for_each(|number| {
         let made = Synthetic { noise: 20 + 60 * number, ..made_up(number) };
-        let found = diagnose(&mut { made }, &Declarations::default(), 1);
+        let found = diagnosed(&Declarations::default(), |q| Some(made.draw(q)));
         assert_eq!(found.confidence, Confidence::Unexplained, "{made:?}: {}", found.sentence());
         assert!(found.sentence().starts_with("Unexplained"));
         assert!(found.expected(&question).is_none());
     });
 }
 
-/// A rasterizer that is a function of a question.
-struct By<F>(F);
-
-impl<F: FnMut(&TriangleQuestion) -> Option<Coverage>> Ask for By<F> {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        questions.iter().map(&mut self.0).collect()
-    }
-}
-
 /// A rasterizer that is none: its hits are a function of its corners' box, or of nothing.
-fn other(hits: fn(&TriangleQuestion, i32, i32) -> bool) -> impl Ask {
-    By(move |q: &TriangleQuestion| Some(picture(q.window, |x, y| hits(q, x, y))))
+fn other(
+    hits: fn(&TriangleQuestion, i32, i32) -> bool,
+) -> impl Fn(&TriangleQuestion) -> Option<Coverage> {
+    move |q| Some(picture(q.window, |x, y| hits(q, x, y)))
 }
 
 #[test]
@@ -260,27 +277,23 @@ fn conventions_of_other_shapes_are_unexplained() {
     let all: [(&str, Hits); 3] =
         [("boxes", boxes), ("discs", discs), ("everything", |_, _, _| true)];
     for (name, hits) in all {
-        let found = diagnose(&mut other(hits), &Declarations::default(), 1);
+        let found = diagnosed(&Declarations::default(), other(hits));
         assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
     }
-    let found = diagnose(&mut other(|_, _, _| false), &Declarations::default(), 1);
+    let found = diagnosed(&Declarations::default(), other(|_, _, _| false));
     assert_eq!(found.convention.draws, Windings::Neither);
     assert_eq!(found.sentence(), "It draws nothing.");
 }
 
 #[test]
 fn conventions_of_the_silent_are_unknown() {
-    struct Silent;
-    impl Ask for Silent {
-        fn ask(&mut self, _: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-            Vec::new()
-        }
-    }
-    let found = diagnose(&mut Silent, &Declarations::default(), 1);
+    let silent = |known: Declarations| {
+        Search::new(async |asker| diagnose(&asker, &known, 1).await).answered_by(|_| Vec::new())
+    };
+    let found = silent(Declarations::default());
     assert_eq!((found.confidence, found.asked), (Confidence::Unexplained, found.refused));
     assert_eq!(found.sentence(), "Unexplained: it answered none of 20 questions.");
-    let known = Declarations { window_px: (8, 8), ..Declarations::default() };
-    let found = diagnose(&mut Silent, &known, 1);
+    let found = silent(Declarations { window_px: (8, 8), ..Declarations::default() });
     assert_eq!(found.sentence(), "Not asked: a window or range of 16 px is needed.");
 }
 
@@ -289,8 +302,8 @@ fn conventions_of_the_silent_are_unknown() {
 fn conventions_by_corner_order_are_said_to_be_so() {
     let shape = Shape::Point { x: 128, y: 128 };
     let made = Synthetic { shape, owner: Owner::FirstEdge, draws: Windings::Both, ..made_up(0) };
-    let mut made = Synthetic { step: 1, ..made };
-    let found = diagnose(&mut made, &Declarations::default(), 1);
+    let made = Synthetic { step: 1, ..made };
+    let found = diagnosed(&Declarations::default(), |q| Some(made.draw(q)));
     assert_eq!((found.convention.shape, found.confidence), (shape, Confidence::Certain));
     assert!(!found.compass.is_decided() && found.rotated.drawn > 10, "{found:?}");
     let text = found.sentence();
@@ -307,24 +320,24 @@ fn conventions_by_corner_order_are_said_to_be_so() {
 fn conventions_of_scans_are_named() {
     // Of 1,000 pictures so many have a pixel more.
     let drawn = |convention: TriangleConvention, wrong: u64| {
-        By(move |q: &TriangleQuestion| {
+        move |q: &TriangleQuestion| {
             let mut picture = convention.cover(&q.corners, q.window)?;
             let key = q.corners.iter().fold(7, |h, p| hash(h ^ p.x as u64) ^ p.y as u64);
             if hash(key) % 1000 < wrong {
                 picture.hit(3, 3, 4);
             }
             Some(picture)
-        })
+        }
     };
     for scan in Scan::ALL {
         let shape = Shape::Scan(scan);
         let convention = TriangleConvention { shape, ..TriangleConvention::default() };
-        let found = diagnose(&mut drawn(convention, 0), &Declarations::default(), 1);
+        let found = diagnosed(&Declarations::default(), drawn(convention, 0));
         let text = found.sentence();
         let named = (found.convention.shape, found.confidence);
         assert_eq!(named, (shape, Confidence::Certain), "{text}");
         assert_chinese(&text);
-        let found = diagnose(&mut drawn(convention, 100), &Declarations::default(), 1);
+        let found = diagnosed(&Declarations::default(), drawn(convention, 100));
         let is_sure = found.confidence == Confidence::Certain;
         assert!(!is_sure, "{scan:?}: {}", found.sentence());
     }
@@ -336,12 +349,12 @@ fn conventions_of_scans_are_named() {
 fn conventions_on_coarse_grids_predict() {
     let mut dice = Dice(77);
     for (number, grid) in (0..12).flat_map(|n| [(n, 1), (n, 16)]) {
-        let mut made = Synthetic { step: 1, ..made_up(number) };
+        let made = Synthetic { step: 1, ..made_up(number) };
         if matches!(made.shape, Shape::Outline(_) | Shape::Stepped { .. }) {
             continue;
         }
         let known = Declarations { grid, window_px: (24, 20), ..Declarations::default() };
-        let found = diagnose(&mut made, &known, 1);
+        let found = diagnosed(&known, |q| Some(made.draw(q)));
         let window = PixelRect::window(20, 20);
         let mut wrong = 0;
         for _ in 0..100 {
@@ -349,7 +362,7 @@ fn conventions_on_coarse_grids_predict() {
             let corners = [0; 3].map(|_| SubpixelPoint::new(place(), place()));
             let question = TriangleQuestion { corners, window };
             if let Some(expected) = found.expected(&question) {
-                wrong += u64::from(Some(expected) != made.ask(&[question])[0]);
+                wrong += u64::from(expected != made.draw(&question));
             }
         }
         assert!(found.confidence != Confidence::Unexplained, "{made:?}: {}", found.sentence());
@@ -365,7 +378,8 @@ const LIBRARIES: &str = "cairo gdal java2d-path mupdf opencv-convex opencv-fillp
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_libraries_are_named() {
     let said = |name: &str| {
-        let found = diagnose(&mut Recording::read(name), &Declarations::default(), 1);
+        let recording = Recording::read(name);
+        let found = diagnosed(&Declarations::default(), |q| recording.triangle(q));
         let (c, as_found) = (found.convention, &found.as_found);
         let predicted = [as_found.general.triangles, as_found.ties.triangles]
             .map(|count| format!("{} of {}", count.drawn, count.of));
@@ -380,7 +394,8 @@ fn conventions_of_libraries_are_named() {
 #[test]
 fn conventions_of_library_lines_are_named() {
     let said = |name: &str| {
-        let found = diagnose_lines(&mut Recording::read(name), 40, false, 1);
+        let recording = Recording::read(name);
+        let found = diagnosed_lines(40, false, 1, |q| recording.line(q));
         let (c, both) = (found.convention, found.both_ways);
         let of = format!("{:?}\n{c:?}, both ways {} of {}", found.confidence, both.drawn, both.of);
         format!("{name}: {of}\n{}\n", found.sentence())
@@ -399,10 +414,10 @@ fn conventions_record() {
     let order = std::env::var("RECORD").expect("RECORD='NAME CMD ARGS'");
     let (name, command) = order.split_once(' ').expect("a name and a command");
     let mut recorder = Recorder::start(command);
-    let found = diagnose(&mut recorder, &Declarations::default(), 1);
+    let found = diagnosed(&Declarations::default(), |q| recorder.triangle(q));
     println!("{:?}: {:?}\n{}", recorder.words, found.confidence, found.sentence());
     if recorder.words.iter().any(|word| word == "line") {
-        let found = diagnose_lines(&mut recorder, 40, false, 1);
+        let found = diagnosed_lines(40, false, 1, |q| recorder.line(q));
         println!("{:?}\n{} {found:?}", found.confidence, found.sentence());
     }
     let path = format!("{}/target/wild/{name}.txt.gz", env!("CARGO_MANIFEST_DIR"));

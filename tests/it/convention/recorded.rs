@@ -10,7 +10,7 @@ use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_verify::convention::{Ask, AskLine, LineQuestion, TriangleQuestion};
+use rasterproof_verify::convention::{LineQuestion, TriangleQuestion};
 
 /// A question in words, as recordings keep it: the side of the window, then the corners in 1/256 px.
 fn key(question: &TriangleQuestion) -> String {
@@ -61,17 +61,13 @@ impl Recording {
     fn get(&self, key: &str) -> &str {
         self.0.get(key).unwrap_or_else(|| panic!("not recorded, so record again: {key}"))
     }
-}
 
-impl Ask for Recording {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        questions.iter().map(|q| picture(q.window, self.get(&key(q)))).collect()
+    pub fn triangle(&self, question: &TriangleQuestion) -> Option<Coverage> {
+        picture(question.window, self.get(&key(question)))
     }
-}
 
-impl AskLine for Recording {
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        questions.iter().map(|q| pixels(self.get(&line_key(q)))).collect()
+    pub fn line(&self, question: &LineQuestion) -> Option<Vec<[i32; 2]>> {
+        pixels(self.get(&line_key(question)))
     }
 }
 
@@ -114,6 +110,21 @@ impl Recorder {
         if words[0] == "E" { "E".to_owned() } else { words[3..].join(" ") }
     }
 
+    pub fn triangle(&mut self, q: &TriangleQuestion) -> Option<Coverage> {
+        let px = |v: i32| f64::from(v) / 256.0;
+        let at = q.corners.map(|c| format!(" {} {}", px(c.x), px(c.y))).concat();
+        let answer = self.answer(&format!("T 0 {0} {0}{at}", q.window.x1));
+        self.kept.push(format!("{} | {answer}", key(q)));
+        picture(q.window, &answer)
+    }
+
+    pub fn line(&mut self, q: &LineQuestion) -> Option<Vec<[i32; 2]>> {
+        let [[x0, y0], [x1, y1]] = q.ends;
+        let answer = self.answer(&format!("L 0 {0} {0} {x0} {y0} {x1} {y1}", q.window.x1));
+        self.kept.push(format!("{} | {answer}", line_key(q)));
+        pixels(&answer)
+    }
+
     /// Writes what was asked and answered, ends the program.
     pub fn write(mut self, path: &Path) {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -125,34 +136,5 @@ impl Recorder {
         drop(self.requests);
         self.child.kill().unwrap();
         self.child.wait().unwrap();
-    }
-}
-
-impl Ask for Recorder {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        let px = |v: i32| f64::from(v) / 256.0;
-        questions
-            .iter()
-            .map(|q| {
-                let at = q.corners.map(|c| format!(" {} {}", px(c.x), px(c.y))).concat();
-                let answer = self.answer(&format!("T 0 {0} {0}{at}", q.window.x1));
-                self.kept.push(format!("{} | {answer}", key(q)));
-                picture(q.window, &answer)
-            })
-            .collect()
-    }
-}
-
-impl AskLine for Recorder {
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        questions
-            .iter()
-            .map(|q| {
-                let [[x0, y0], [x1, y1]] = q.ends;
-                let answer = self.answer(&format!("L 0 {0} {0} {x0} {y0} {x1} {y1}", q.window.x1));
-                self.kept.push(format!("{} | {answer}", line_key(q)));
-                pixels(&answer)
-            })
-            .collect()
     }
 }

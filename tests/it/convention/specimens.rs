@@ -6,11 +6,11 @@ use rasterproof_faults::published::from_lattice;
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::convention::{
-    self, Confidence, Declarations, TriangleConvention, TriangleQuestion, diagnose,
+    self, Confidence, Declarations, TriangleConvention, TriangleQuestion,
 };
 use rasterproof_verify::oracle::Oracle;
 
-use super::By;
+use super::diagnosed;
 use crate::recorded::hits;
 
 /// Sample positions through an int: y is up there, so the lower left corner. `judge_recognises_conventions` is about other
@@ -20,13 +20,12 @@ fn conventions_of_specimens_are_named() {
     let Some(Specimen::Triangle(specimen)) = engines::find("games101-int").unwrap().specimen else {
         panic!("it draws triangles")
     };
-    let mut program = By(|question: &TriangleQuestion| {
+    let found = diagnosed(&Declarations::default(), |question: &TriangleQuestion| {
         let mut picture = Coverage::new(question.window, 0);
         let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);
         specimen.cover(&from_lattice(question.corners), question.window, &mut hit).ok()?;
         Some(picture)
     });
-    let found = diagnose(&mut program, &Declarations::default(), 1);
     let corner = convention::Shape::Point { x: 0, y: 256 };
     let named = (found.convention.shape, found.confidence);
     assert_eq!(named, (corner, Confidence::Certain), "{}", found.sentence());

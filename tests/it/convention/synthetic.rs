@@ -4,7 +4,7 @@
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_verify::convention::{
-    Ask, LineTie, Mirror, Pattern, Rounding, Shape, TriangleQuestion, Windings,
+    LineTie, Mirror, Pattern, Rounding, Shape, TriangleQuestion, Windings,
 };
 
 /// What a made-up rasterizer does on an edge.
@@ -29,32 +29,23 @@ pub struct Synthetic {
 
 type Point = [f64; 2];
 
-impl Ask for Synthetic {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        questions.iter().map(|question| Some(self.draw(question))).collect()
-    }
-}
-
 /// Turns the whole picture over.
 pub struct Mirrored(pub Synthetic, pub Mirror);
 
-impl Ask for Mirrored {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        let draw = |question: &TriangleQuestion| {
-            let (drawn, window) = (self.0.draw(question), question.window);
-            let (right, bottom) = (window.x1 - 1, window.y1 - 1);
-            Some(picture(window, |x, y| {
-                let (x, y) = match self.1 {
-                    Mirror::None => (x, y),
-                    Mirror::UpsideDown => (x, bottom - y),
-                    Mirror::LeftToRight => (right - x, y),
-                    Mirror::HalfTurn => (right - x, bottom - y),
-                    Mirror::Exchanged => (y, x),
-                };
-                drawn.get(x, y).is_some_and(|hits| hits > 0)
-            }))
-        };
-        questions.iter().map(draw).collect()
+impl Mirrored {
+    pub fn draw(&self, question: &TriangleQuestion) -> Coverage {
+        let (drawn, window) = (self.0.draw(question), question.window);
+        let (right, bottom) = (window.x1 - 1, window.y1 - 1);
+        picture(window, |x, y| {
+            let (x, y) = match self.1 {
+                Mirror::None => (x, y),
+                Mirror::UpsideDown => (x, bottom - y),
+                Mirror::LeftToRight => (right - x, y),
+                Mirror::HalfTurn => (right - x, bottom - y),
+                Mirror::Exchanged => (y, x),
+            };
+            drawn.get(x, y).is_some_and(|hits| hits > 0)
+        })
     }
 }
 
@@ -92,7 +83,7 @@ impl Synthetic {
         }
     }
 
-    fn draw(&self, question: &TriangleQuestion) -> Coverage {
+    pub fn draw(&self, question: &TriangleQuestion) -> Coverage {
         let p = question.corners.map(|c| [self.snap(c.x), self.snap(c.y)]);
         let area = cross(p[0], p[1], p[2]);
         if area != 0.0 && !self.draws.draws(area > 0.0) {

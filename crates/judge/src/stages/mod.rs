@@ -20,12 +20,11 @@ mod wide;
 use std::cell::RefCell;
 
 use super::adapt_case;
-use super::ask::{Answer, Asked, Question, Subject};
+use super::ask::{Answer, Asked, Question, Subject as _};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::in_process::Inside;
 use super::run::MOST_DEATHS;
-use super::timed::Timed;
 use area::AreaDrawn;
 use depth::DepthTest;
 use glam::DVec2;
@@ -34,6 +33,7 @@ use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Fragment;
+use rasterproof_verify::ask::{Asker, Search};
 use rasterproof_verify::cases::facts::{self, TOPICS};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::pixels::few;
@@ -63,8 +63,11 @@ const PILES_ASKED: u64 = 150;
 /// The questions are the same in every run.
 const SEED: u64 = 7;
 
-fn answered(
-    program: &mut dyn Subject,
+/// By which a program is asked.
+type StageAsker = Asker<Question, Answer>;
+
+async fn answered(
+    asker: &StageAsker,
     check: Check,
     families: &[&str],
     truth: &Truth,
@@ -95,7 +98,7 @@ fn answered(
             };
             let mut questions = Vec::new();
             check.questions(&case, truth, &mut questions);
-            let answers = program.ask(&questions, MOST_DEATHS);
+            let answers = asker.ask(&questions).await;
             deaths += answers.iter().filter(|answer| answer.is_death()).count() as u64;
             if answers.len() < questions.len()
                 || answers.iter().any(|a| matches!(a, Answer::Refused(_) | Answer::Died(_)))
@@ -129,10 +132,18 @@ fn families(check: Check) -> &'static [&'static str] {
     }
 }
 
-/// The mistake of a program in what this check judges, where it is wrong. Where none of those that are known explains it, it is
-/// learned what it does and when.
-pub fn mistakes(
-    program: &mut Timed<'_>,
+/// The search for the mistake of a program in what this check judges, where it is wrong. Where none of those that are known
+/// explains it, it is learned what it does and when.
+pub fn mistakes<'a>(
+    check: Check,
+    truth: &'a Truth,
+    programs: &'a [(RefCell<Inside>, String)],
+) -> Search<'a, Question, Answer, Option<Mistakes>> {
+    Search::new(async move |asker| known_or_learned(&asker, check, truth, programs).await)
+}
+
+async fn known_or_learned(
+    asker: &StageAsker,
     check: Check,
     truth: &Truth,
     programs: &[(RefCell<Inside>, String)],
@@ -141,17 +152,16 @@ pub fn mistakes(
     if families(check).is_empty() {
         return None;
     }
-    let mut all = answered(program, check, families(check), truth);
+    let mut all = answered(asker, check, families(check), truth).await;
     // Piles of many triangles are those of the design alone.
     if check == Check::Depth {
-        all.extend(answered(program, check, &[PILES], truth));
+        all.extend(answered(asker, check, &[PILES], truth).await);
     }
     let found = known(check, &all, truth, programs);
     if found.as_ref().is_some_and(Mistakes::is_known) {
         return found;
     }
-    let most = program.at_most(learn::MOST_TO_LEARN);
-    let learned = learn::learn(program, check, truth, most);
+    let learned = learn::learn(asker, check, truth).await;
     // None of the answers so far may be wrong where others are.
     let found = found.or_else(|| {
         learned.as_ref()?;

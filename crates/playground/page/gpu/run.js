@@ -15,38 +15,31 @@ const deviceOf = (api, check) => ({
   interface: api.name, bits: check === 'lattice' && api.name === 'webgpu' ? 1 : Math.min(api.bits ?? 1, 8), samples_apart: api.apart,
 });
 
-/** Draws a batch and has it judged; `what` is {check, number} or {check, only} or {check, smaller, number}. */
-async function judged(api, what, tally = {}) {
-  const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
-  const drawn = { ...must(ask({ ask: 'gpu-batch', ...batch })), check: what.check };
-  if (drawn.subjects === 0) return { broken: null, tally: { subjects: 0 } };
-  let pixels = await api.draw(drawn);
-  if (what.check === 'twice') {
-    const again = await api.draw(drawn);
-    pixels = Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
-  }
-  return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
+/** The pixels of a picture that the module asked for; of the check for repeatability those of two drawings, by turns. */
+async function drawn(api, check, picture) {
+  const pixels = await api.draw({ ...picture, check });
+  if (check !== 'twice') return pixels;
+  const again = await api.draw({ ...picture, check });
+  return Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
 }
 
-/** The first of the smaller cases that still fails. They may need more than one picture. */
-async function smallerOne(api, check, subject) {
-  for (let number = 0; state.running; number += 1) {
-    const { broken, tally } = await judged(api, { check, smaller: subject, number });
-    if (broken || tally.subjects === 0) return broken;
-  }
-  return null;
+/** Draws a batch and has it judged; `what` is {check, number} or {check, only}. */
+async function judged(api, what, tally = {}) {
+  const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
+  const pixels = await drawn(api, what.check, must(ask({ ask: 'gpu-batch', ...batch })));
+  return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
 }
 
 /** From a case that fails to the smallest that is found in some seconds. */
 async function shrunk(api, check, subject) {
-  let smallest = subject;
+  const batch = { check, device: deviceOf(api, check), seed: state.seed };
+  const question = { ask: 'gpu-smaller', batch, tally: {} };
   const end = performance.now() + 10000;
-  while (performance.now() < end) {
-    const smaller = await smallerOne(api, check, smallest);
-    if (!smaller) break;
-    smallest = smaller;
+  let picture = must(ask({ ...question, batch: { ...batch, only: subject }, pixels: '' }));
+  while (picture.subjects > 0 && state.running && performance.now() < end) {
+    picture = must(ask(question, await drawn(api, check, picture)));
   }
-  return (await judged(api, { check, only: smallest })).view;
+  return (await judged(api, { check, only: picture.smallest })).view;
 }
 
 /** Checks of pixels, for which a cause is looked for. */
@@ -54,14 +47,37 @@ const OF_PIXELS = ['lattice', 'coverage', 'reach', 'tiling', 'order'];
 
 /** Why pixels are wrong: the module asks for triangles, picture by picture, until it knows or gives up. */
 async function causeOf(api, title) {
-  const question = { ask: 'gpu-cause', device: deviceOf(api, 'coverage') };
-  let reply = must(ask(question));
+  const batch = { check: 'coverage', device: deviceOf(api, 'coverage'), seed: state.seed };
+  const question = { ask: 'gpu-cause', batch, tally: {} };
+  let reply = must(ask({ ...question, pixels: '' }));
   for (let at = 1; reply.cause === undefined; at += 1) {
     if (!state.running) return null;
     await tell(word('asking')(title, at));
     reply = must(ask(question, await api.draw(reply)));
   }
   return reply;
+}
+
+/** What was judged of an interface so far. The browser keeps it, so that a page that was closed goes on from there. */
+const keptBy = (name) => `rasterproof-your-gpu-${name}`;
+
+/** What was kept of the same batches on the same renderer; nothing where the browser keeps nothing. */
+function kept(name, of) {
+  try {
+    const before = JSON.parse(localStorage.getItem(keptBy(name)));
+    return before?.of === of ? before : null;
+  } catch {
+    return null;
+  }
+}
+
+function keep(name, judged) {
+  try {
+    if (judged) localStorage.setItem(keptBy(name), JSON.stringify(judged));
+    else localStorage.removeItem(keptBy(name));
+  } catch {
+    // It is judged all the same.
+  }
 }
 
 /** Says what is done, and lets the page draw it. */
@@ -94,7 +110,14 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
   const start = performance.now();
   let losses = 0;
   readBack.uneven = 0;
-  for (let at = 0; at < batches.length && state.running; at += 1) {
+  const of = JSON.stringify([state.seed, renderer, $('module').textContent.length, batches]);
+  const before = kept(name, of);
+  if (before) {
+    Object.assign(result, { rows: before.rows, bits: before.bits });
+    api.bits ??= before.bits;
+    result.notes.push(['resumed', before.at]);
+  }
+  for (let at = before?.at ?? 0; at < batches.length && state.running; at += 1) {
     const { check, number } = batches[at];
     await tell(word('progress')(result.title, word('checks')[check], at + 1, batches.length), at / batches.length);
     if (!api.offers(check)) {
@@ -110,6 +133,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
         api.bits = answer.facts.bits;
         result.bits = api.bits;
       }
+      keep(name, { of, at: at + 1, rows: result.rows, bits: result.bits });
     } catch (error) {
       if (!(error instanceof Lost)) throw error;
       losses += 1;
@@ -123,6 +147,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
       at -= 1;
     }
   }
+  keep(name, null);
   result.seconds = (performance.now() - start) / 1000;
   for (const [check, row] of Object.entries(result.rows)) {
     result.triangles += check === 'lines' || check === 'twice' ? 0 : (row.tally?.shapes ?? 0) * (check === 'order' ? 6 : 1);

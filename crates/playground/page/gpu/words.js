@@ -8,8 +8,9 @@ const WORDS = {
   en: {
     title: 'your GPU', other: '中文',
     about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
-    private: 'Nothing is sent: all of it happens in this browser.',
+    private: 'Nothing is sent: all of it happens in this browser, which keeps what was judged until the end, in case the page is closed.',
     judge: 'Judge my GPU', again: 'Judge again', alone: 'Or one check alone:', stop: 'Stop', stopped: 'Stopped before all checks were made.',
+    resumed: (at) => `The page was closed before: the first ${count(at, 'batch', 'batches')} were judged then.`,
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
     asking: (api, at) => `${api}: looking for the cause (picture ${at}) …`,
     cause: ({ cause, asked }) => `By ${plural(asked, 'more triangle')}, ${cause}`,
@@ -55,8 +56,9 @@ const WORDS = {
   zh: {
     title: '你的 GPU', other: 'English',
     about: '本页用这个浏览器的图形接口画大约二十八万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
-    private: '不发送任何东西：一切都在这个浏览器里进行。',
+    private: '不发送任何东西：一切都在这个浏览器里进行。评判结束之前，浏览器会保存已有的结果，以防页面被关闭。',
     judge: '评判我的 GPU', again: '再评判一次', alone: '或者只做一项检查：', stop: '停', stopped: '在做完所有检查之前停了。',
+    resumed: (at) => `这个页面中途关闭过：前 ${zhCount(at)} 批是那时评判的。`,
     starting: '正在启动……', progress: (api, check, at, of) => `${api}：${check}（第 ${at} 批，共 ${of} 批）`, shrinking: (api, check) => `${api}：${check}：正在寻找最小的用例……`,
     asking: (api, at) => `${api}：正在寻找原因（第 ${at} 张图）……`,
     cause: ({ cause, asked }) => `又问了 ${zhCount(asked)} 个三角形（结论为英文）：${cause}`,

@@ -3,8 +3,10 @@
 use std::fmt;
 
 use super::Convention;
+use crate::ask::Search;
 use crate::convention::{
-    Ask, Confidence, Declarations, Diagnosis, LineDiagnosis, LineQuestion, TriangleQuestion,
+    Confidence, Declarations, Diagnosis, LineAsker, LineDiagnosis, LineQuestion, TriangleAsker,
+    TriangleQuestion,
 };
 use crate::mistakes::{self, LearnTriangles, Mistakes};
 use rasterproof_core::frame::Coverage;
@@ -22,6 +24,10 @@ pub struct Cause {
     pub declare: Option<String>,
 }
 
+/// The search for the cause why triangles are drawn wrongly.
+#[doc(hidden)]
+pub type CauseSearch = Search<'static, TriangleQuestion, Option<Coverage>, Cause>;
+
 /// The questions are the same in every run.
 const SEED: u64 = 1;
 
@@ -31,38 +37,37 @@ impl Cause {
         declared: &Convention,
         mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
     ) -> Self {
-        let mut ask = |questions: &[TriangleQuestion]| questions.iter().map(&mut draw).collect();
-        let known = Declarations::from(declared);
-        Self::by_asking(&mut ask, &known, declared, Some(mistakes::learn_triangles))
+        let search =
+            Self::search(Declarations::from(declared), *declared, Some(mistakes::learn_triangles));
+        search.answered_by(|questions| questions.iter().map(&mut draw).collect())
     }
 
-    /// Asks whoever answers, in batches. Without `learn` nothing is learned where no known mistake explains it: where answers come
-    /// later and all is asked again, learning would take too long.
+    /// The search for the cause, which asks in batches. Without `learn` nothing is learned where no known mistake explains it.
     #[doc(hidden)]
-    pub fn by_asking(
-        ask: &mut dyn Ask,
-        known: &Declarations,
-        declared: &Convention,
+    #[must_use]
+    pub fn search(
+        known: Declarations,
+        declared: Convention,
         learn: Option<LearnTriangles>,
-    ) -> Self {
-        let found = crate::convention::diagnose(ask, known, SEED);
-        let cause =
-            Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
-        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[], learn))
+    ) -> CauseSearch {
+        Search::new(async move |asker: TriangleAsker| {
+            let found = crate::convention::diagnose(&asker, &known, SEED).await;
+            let declaration = Self::declaration(&found, &declared);
+            let cause = Self::of(found.confidence, &found.sentence(), declaration);
+            cause.with(mistakes::of_triangles(&asker, &known, Some(&found), &[], learn).await)
+        })
     }
 
     /// Asks for about 1,100 lines in a small window.
-    pub(super) fn of_lines(draw: impl FnMut(&LineQuestion) -> Option<Vec<[i32; 2]>>) -> Self {
-        let mut draw = draw;
-        let mut ask = |questions: &[LineQuestion]| questions.iter().map(&mut draw).collect();
-        let found: LineDiagnosis = crate::convention::diagnose_lines(
-            &mut ask,
-            Declarations::default().side_px(),
-            true,
-            SEED,
-        );
-        let cause = Self::of(found.confidence, &found.sentence(), None);
-        cause.with(mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[]))
+    pub(super) fn of_lines(mut draw: impl FnMut(&LineQuestion) -> Option<Vec<[i32; 2]>>) -> Self {
+        let search = Search::new(async |asker: LineAsker| {
+            let known = Declarations::default();
+            let found: LineDiagnosis =
+                crate::convention::diagnose_lines(&asker, known.side_px(), true, SEED).await;
+            let cause = Self::of(found.confidence, &found.sentence(), None);
+            cause.with(mistakes::of_lines(&asker, &known, Some(&found), &[]).await)
+        });
+        search.answered_by(|questions| questions.iter().map(&mut draw).collect())
     }
 
     /// With what is wrong beyond the convention, or instead of one.

@@ -53,6 +53,8 @@ pub use crate::judge::{Watch, caught, is_judging};
 pub use crate::promise::Expectation;
 pub use crate::promise::{Convention, Rule, Winding};
 pub use cause::Cause;
+#[doc(hidden)]
+pub use cause::CauseSearch;
 pub use changed::Changed;
 pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};

@@ -3,6 +3,7 @@
 use super::mask::{Mask, SIDE_PX};
 use super::mirror::Mirror;
 use super::rule::TriangleConvention;
+use crate::ask::Asker;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
@@ -16,41 +17,9 @@ pub struct TriangleQuestion {
     pub window: PixelRect,
 }
 
-/// Questions that a program is asked at most to learn what it does.
-pub const MOST_TO_LEARN: usize = 6000;
-
-/// Whoever answers: a program behind a pipe, a function, a recording.
-pub trait Ask {
-    /// One answer for each question, in order: the hits of each pixel of its window, or None where
-    /// the program refused or died.
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>>;
-
-    /// How many questions of a mistake it is asked at once.
-    fn at_once(&self) -> usize {
-        100
-    }
-
-    /// How many questions it may be asked to learn what it does, where no known mistake explains it: fewer of a slow program.
-    fn most_to_learn(&self) -> usize {
-        MOST_TO_LEARN
-    }
-
-    /// Questions whose answers are known to be wrong: what goes wrong rarely is learned of beside these.
-    fn failing(&self) -> Vec<TriangleQuestion> {
-        Vec::new()
-    }
-
-    /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
-    fn is_abandoned(&self) -> bool {
-        false
-    }
-}
-
-impl<F: FnMut(&[TriangleQuestion]) -> Vec<Option<Coverage>>> Ask for F {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        self(questions)
-    }
-}
+/// By which triangles are asked for. An answer has the hits of each pixel of its window; it is None where the program refused or
+/// died.
+pub type TriangleAsker = Asker<TriangleQuestion, Option<Coverage>>;
 
 /// What is known of a program before it is asked: its declarations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +65,7 @@ pub(super) struct TriangleAnswer {
 }
 
 pub(super) struct Bench<'a> {
-    ask: &'a mut dyn Ask,
+    asker: &'a TriangleAsker,
     pub(super) known: &'a Declarations,
     pub(super) window: PixelRect,
     /// Subpixels between neighbouring coordinates that may be asked.
@@ -113,14 +82,18 @@ pub(super) const LEAST_SIDE_PX: i32 = 16;
 
 impl<'a> Bench<'a> {
     /// None where what is declared leaves no room for questions.
-    pub(super) fn new(ask: &'a mut dyn Ask, known: &'a Declarations, seed: u64) -> Option<Self> {
+    pub(super) fn new(
+        asker: &'a TriangleAsker,
+        known: &'a Declarations,
+        seed: u64,
+    ) -> Option<Self> {
         let side = known.side_px();
         // A grid that does not divide 1/256 px is asked in whole pixels.
         let grid = known.grid.clamp(1, 256);
         let grain = if 256 % grid == 0 { 256 / grid } else { 256 };
         let window = PixelRect::window(side.max(0) as u32, side.max(0) as u32);
         (side >= LEAST_SIDE_PX).then(|| Self {
-            ask,
+            asker,
             known,
             window,
             grain,
@@ -136,18 +109,15 @@ impl<'a> Bench<'a> {
     }
 
     /// The answers, without those that were refused.
-    pub(super) fn draw(&mut self, questions: &[Corners]) -> Vec<TriangleAnswer> {
-        self.draw_all(questions).into_iter().flatten().collect()
+    pub(super) async fn draw(&mut self, questions: &[Corners]) -> Vec<TriangleAnswer> {
+        self.draw_all(questions).await.into_iter().flatten().collect()
     }
 
-    pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<TriangleAnswer>> {
-        if questions.is_empty() {
-            return Vec::new();
-        }
+    pub(super) async fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<TriangleAnswer>> {
         let window = self.window;
         let list: Vec<_> =
             questions.iter().map(|&corners| TriangleQuestion { corners, window }).collect();
-        let mut answers = self.ask.ask(&list);
+        let mut answers = self.asker.ask(&list).await;
         answers.resize_with(list.len(), || None);
         self.asked += list.len() as u64;
         let answers: Vec<_> = questions

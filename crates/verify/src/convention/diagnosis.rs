@@ -8,7 +8,7 @@ use super::rule::{Ties, TriangleConvention, Windings};
 use super::search::Observation;
 use super::ties::{Compass, Count};
 use super::upright::mirror_of;
-use super::{Ask, Declarations};
+use super::{Declarations, TriangleAsker};
 use rasterproof_core::frame::Coverage;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -99,23 +99,23 @@ const FRESH: usize = 150;
 
 /// Questions a rasterizer until its convention is known. Exact, and the same for the same seed and
 /// answers. Asks about 700 triangles.
-pub fn diagnose(ask: &mut dyn Ask, known: &Declarations, seed: u64) -> Diagnosis {
+pub async fn diagnose(asker: &TriangleAsker, known: &Declarations, seed: u64) -> Diagnosis {
     let mut silent = Diagnosis { convention: known.declared, ..Diagnosis::default() };
-    let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
-    let (draws, pictures) = bench.windings();
+    let Some(mut bench) = Bench::new(asker, known, seed) else { return silent };
+    let (draws, pictures) = bench.windings().await;
     bench.mirror = mirror_of(&pictures, bench.window);
     if draws == Windings::Neither {
         silent.convention.draws = draws;
         (silent.asked, silent.refused) = (bench.asked, bench.refused);
         return silent;
     }
-    let flips = bench.flips(draws);
-    let fitted = bench.generals(FITTED, draws);
+    let flips = bench.flips(draws).await;
+    let fitted = bench.generals(FITTED, draws).await;
     let seen = Observation { answers: &fitted, window: bench.window, draws };
     let scored = Fit { seen, flips, grain: bench.grain }.hypotheses();
-    let candidates = bench.separate(&scored, draws);
+    let candidates = bench.separate(&scored, draws).await;
     let Some(&candidate) = candidates.first() else { return silent };
-    let mut found = bench.conclude(&candidate, &candidates[1..], &fitted);
+    let mut found = bench.conclude(&candidate, &candidates[1..], &fitted).await;
     found.convention.mirror = bench.mirror;
     found.alternatives.iter_mut().for_each(|other| other.mirror = bench.mirror);
     Diagnosis { asked: bench.asked, refused: bench.refused, ..found }
@@ -123,7 +123,7 @@ pub fn diagnose(ask: &mut dyn Ask, known: &Declarations, seed: u64) -> Diagnosis
 
 impl Bench<'_> {
     /// Everything that is asked once a hypothesis stands.
-    fn conclude(
+    async fn conclude(
         &mut self,
         candidate: &Candidate,
         others: &[Candidate],
@@ -132,12 +132,12 @@ impl Bench<'_> {
         let draws = candidate.draws;
         // One set for the rule, one to try it on.
         let questions = self.tie_questions(candidate, 40);
-        let mut ties = self.draw(&questions);
+        let mut ties = self.draw(&questions).await;
         ties.extend(fitted);
         let questions = self.tie_questions(candidate, 20);
-        let tried = self.draw(&questions);
+        let tried = self.draw(&questions).await;
         let compass = self.compass(candidate, &ties);
-        let flat = self.flat();
+        let flat = self.flat().await;
         let convention = |candidate: &Candidate, ties: Ties| TriangleConvention {
             draws,
             quantum: candidate.quantum,
@@ -147,7 +147,7 @@ impl Bench<'_> {
             flat: flat.drawn > 0,
         };
         let mut found = convention(candidate, compass.ties());
-        let fresh = self.generals(FRESH, draws);
+        let fresh = self.generals(FRESH, draws).await;
         let share = |convention: &TriangleConvention, bench: &Self| Share {
             general: Agreement::of(convention, &fresh, bench),
             ties: Agreement::of(convention, &tried, bench),
@@ -174,7 +174,7 @@ impl Bench<'_> {
         }
         let ordered: Vec<_> =
             fresh.iter().take(15).chain(tried.iter().take(25)).map(|a| a.corners).collect();
-        let [rotated, reversed] = self.orders(&ordered, draws);
+        let [rotated, reversed] = self.orders(&ordered, draws).await;
         let alternatives: Vec<_> = others
             .iter()
             .filter(|other| !candidate.is_near(other))

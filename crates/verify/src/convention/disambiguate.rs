@@ -21,7 +21,7 @@ const TRIES: usize = 2000;
 impl Bench<'_> {
     /// Those of the hypotheses that further questions do not refute, the simplest first. All that
     /// explain the answers so far are asked about, or the best alone.
-    pub(super) fn separate(&mut self, scored: &[Scored], draws: Windings) -> Vec<Candidate> {
+    pub(super) async fn separate(&mut self, scored: &[Scored], draws: Windings) -> Vec<Candidate> {
         let least = scored.first().map_or(0, |(errors, _)| *errors);
         let mut survivors: Vec<_> = scored
             .iter()
@@ -42,7 +42,7 @@ impl Bench<'_> {
         survivors.extend(twins);
         for _ in 0..ROUNDS {
             let questions = self.telling(&survivors, draws, negative);
-            let answers = self.draw(&questions);
+            let answers = self.draw(&questions).await;
             if answers.is_empty() {
                 break;
             }

@@ -46,17 +46,17 @@ impl Bench<'_> {
     }
 
     /// As many answers to triangles in general position, of a winding that is drawn.
-    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<TriangleAnswer> {
+    pub(super) async fn generals(&mut self, count: usize, draws: Windings) -> Vec<TriangleAnswer> {
         let questions: Vec<_> = (0..count).map(|_| drawable(self.general(), draws)).collect();
         let questions: Vec<_> = questions
             .into_iter()
             .map(|c| if draws == Windings::Both && self.rng.chance(2) { turned(c) } else { c })
             .collect();
-        self.draw(&questions)
+        self.draw(&questions).await
     }
 
     /// Which windings leave pixels, and what they leave.
-    pub(super) fn windings(&mut self) -> (Windings, Vec<TriangleAnswer>) {
+    pub(super) async fn windings(&mut self) -> (Windings, Vec<TriangleAnswer>) {
         let (mut drawn, mut all) = ([0, 0], Vec::new());
         let fat: Vec<_> = (0..10)
             .map(|_| {
@@ -70,7 +70,7 @@ impl Bench<'_> {
             .collect();
         for (way, drawn) in drawn.iter_mut().enumerate() {
             let list: Vec<_> = fat.iter().map(|&c| if way == 0 { c } else { turned(c) }).collect();
-            let answers = self.draw(&list);
+            let answers = self.draw(&list).await;
             *drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
             all.extend(answers);
         }
@@ -84,7 +84,7 @@ impl Bench<'_> {
     }
 
     /// How often triangles without area leave pixels: points, segments, and corners on one line.
-    pub(super) fn flat(&mut self) -> Count {
+    pub(super) async fn flat(&mut self) -> Count {
         let whole = |v: i64| v as i32 * 256;
         let questions: Vec<_> = (0..30)
             .map(|i| {
@@ -100,7 +100,7 @@ impl Bench<'_> {
                 }
             })
             .collect();
-        let answers = self.draw(&questions);
+        let answers = self.draw(&questions).await;
         let drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
         Count { drawn: drawn as u64, of: answers.len() as u64 }
     }
@@ -139,24 +139,26 @@ fn with_edge(side: i32, (axis, first): (usize, bool), at: i32) -> Corners {
 }
 
 impl Bench<'_> {
+    /// Whether the watched pixel is drawn where the four edges are at these positions; nothing where that is refused.
+    async fn watch(&mut self, draws: Windings, at: [i32; 4]) -> [Option<bool>; 4] {
+        let side = self.side();
+        let list: Vec<_> =
+            (0..4).map(|i| drawable(with_edge(side, EDGES[i], at[i]), draws)).collect();
+        let answers = self.draw_all(&list).await;
+        [0, 1, 2, 3]
+            .map_array(|i| answers[i].map(|answer| answer.drawn.has(watched(side), watched(side))))
+    }
+
     /// Where the watched pixel flips as its left, right, upper and lower edge is moved; None where
     /// it does not.
-    pub(super) fn flips(&mut self, draws: Windings) -> [Option<Flip>; 4] {
-        let (side, grain) = (self.side(), self.grain);
+    pub(super) async fn flips(&mut self, draws: Windings) -> [Option<Flip>; 4] {
+        let grain = self.grain;
         let mut flips = [Flip { low: -512, high: 768 }; 4];
-        let watch = |bench: &mut Self, at: [i32; 4]| -> [Option<bool>; 4] {
-            let list: Vec<_> =
-                (0..4).map(|i| drawable(with_edge(side, EDGES[i], at[i]), draws)).collect();
-            let answers = bench.draw_all(&list);
-            [0, 1, 2, 3].map_array(|i| {
-                answers[i].map(|answer| answer.drawn.has(watched(side), watched(side)))
-            })
-        };
-        let [start, end] = [flips.map_array(|f| f.low), flips.map_array(|f| f.high)]
-            .map_array(|at| watch(self, at));
+        let start = self.watch(draws, flips.map_array(|f| f.low)).await;
+        let end = self.watch(draws, flips.map_array(|f| f.high)).await;
         while flips.iter().any(|flip| flip.high - flip.low > grain) {
             let middle = flips.map_array(|f| (f.low + f.high).div_euclid(2 * grain) * grain);
-            let seen = watch(self, middle);
+            let seen = self.watch(draws, middle).await;
             for (i, flip) in flips.iter_mut().enumerate().filter(|(_, f)| f.high - f.low > grain) {
                 // A refusal decides nothing in particular.
                 if seen[i] == start[i] {
@@ -171,13 +173,13 @@ impl Bench<'_> {
 
     /// Whether answers depend on the order of the corners: of `triangles` in all orders, those that
     /// change when the corners are rotated, and those that change when the winding is reversed.
-    pub(super) fn orders(&mut self, triangles: &[Corners], draws: Windings) -> [Count; 2] {
+    pub(super) async fn orders(&mut self, triangles: &[Corners], draws: Windings) -> [Count; 2] {
         let count = if draws == Windings::Both { 6 } else { 3 };
         let list: Vec<Corners> = triangles
             .iter()
             .flat_map(|t| ORDERS[..count].iter().map(|order| order.map_array(|i| t[i])))
             .collect();
-        let answers = self.draw_all(&list);
+        let answers = self.draw_all(&list).await;
         let mut changed = [Count::default(); 2];
         for group in answers.chunks_exact(count) {
             let drawn: Vec<_> = group.iter().flatten().map(|answer| answer.drawn).collect();

@@ -4,6 +4,7 @@
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
+use crate::ask::Asker;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
@@ -15,27 +16,9 @@ pub struct LineQuestion {
     pub window: PixelRect,
 }
 
-pub trait AskLine {
-    /// One answer for each question, in order: the pixels, x and y, as they were drawn, or None
-    /// where the program refused or died.
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>;
-
-    /// As [`super::Ask::most_to_learn`].
-    fn most_to_learn(&self) -> usize {
-        super::MOST_TO_LEARN
-    }
-
-    /// As [`super::Ask::failing`].
-    fn failing(&self) -> Vec<LineQuestion> {
-        Vec::new()
-    }
-}
-
-impl<F: FnMut(&[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>> AskLine for F {
-    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        self(questions)
-    }
-}
+/// By which lines are asked for. An answer has the pixels, x and y, as they were drawn; it is None where the program refused or
+/// died.
+pub type LineAsker = Asker<LineQuestion, Option<Vec<[i32; 2]>>>;
 
 /// How the minor coordinate of a step becomes a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -324,8 +307,8 @@ fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
 /// Questions a line drawer until its convention is known; the same for the same seed and answers.
 /// `side_px` is the side of the largest window it draws, `ordered` whether its pixels come in order.
 /// Asks about 400 lines.
-pub fn diagnose_lines(
-    ask: &mut dyn AskLine,
+pub async fn diagnose_lines(
+    asker: &LineAsker,
     side_px: i32,
     ordered: bool,
     seed: u64,
@@ -333,8 +316,8 @@ pub fn diagnose_lines(
     let mut rng = Rng::new("line convention", seed, 0);
     let side = side_px.clamp(16, SIDE_PX);
     let mut asked = [0, 0];
-    let mut draw = |list: Vec<LineQuestion>| -> Vec<Option<LineAnswer>> {
-        let mut answers = ask.ask_lines(&list);
+    let mut draw = async |list: Vec<LineQuestion>| -> Vec<Option<LineAnswer>> {
+        let mut answers = asker.ask(&list).await;
         answers.resize_with(list.len(), || None);
         asked[0] += list.len() as u64;
         asked[1] += answers.iter().filter(|answer| answer.is_none()).count() as u64;
@@ -346,7 +329,7 @@ pub fn diagnose_lines(
             })
             .collect()
     };
-    let answers = draw(lines(&mut rng, side, FITTED));
+    let answers = draw(lines(&mut rng, side, FITTED)).await;
     let mut both_ways = Count::default();
     for pair in answers.chunks_exact(2) {
         if let [Some(there), Some(back)] = pair {
@@ -354,11 +337,11 @@ pub fn diagnose_lines(
         }
     }
     let fitted: Vec<_> = answers.into_iter().flatten().collect();
-    let fresh: Vec<_> = draw(lines(&mut rng, side, FRESH)).into_iter().flatten().collect();
+    let fresh: Vec<_> = draw(lines(&mut rng, side, FRESH)).await.into_iter().flatten().collect();
     let mut points = Count::default();
     let window = PixelRect::window(side as u32, side as u32);
     let dots = (0..4).map(|i| [3 + i, 9 - i]).map(|p| LineQuestion { ends: [p; 2], window });
-    for dot in draw(dots.collect()).into_iter().flatten() {
+    for dot in draw(dots.collect()).await.into_iter().flatten() {
         points.add(dot.set == dot.question.ends[..1]);
     }
     conclude(

@@ -7,7 +7,7 @@
 //! pixel flips, triangles are looked for on which two hypotheses differ, ties are constructed for
 //! the point and grid that were found. What no hypothesis explains is called unexplained.
 //!
-//! Nothing here starts a process: whoever answers implements [`Ask`]. Source of the hypotheses: what
+//! Nothing here starts a process: a search that asks is a value ([`crate::ask`]). Source of the hypotheses: what
 //! some forty rasterizers drew (`docs/conventions.md`).
 
 mod area_coverage;
@@ -40,11 +40,12 @@ mod upright;
 pub const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
 
-pub use bench::{Ask, Declarations, MOST_TO_LEARN, TriangleQuestion};
+pub use bench::{Declarations, TriangleAsker, TriangleQuestion};
 pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
 pub(crate) use half_planes::facing;
 pub use lines::{
-    AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
+    Ends, LineAsker, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps,
+    diagnose_lines,
 };
 pub(crate) use mask::Mask;
 pub use mirror::Mirror;

@@ -5,13 +5,15 @@ use super::quantity::facts_of;
 use super::question::{AnyQuestion, LONGEST_LINE_PX, Room};
 use super::trial::Work;
 use crate::convention::{
-    Ask, AskLine, Declarations, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
-    RULES, Shape, Ties, TriangleConvention, TriangleQuestion,
+    Declarations, LineAsker, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
+    RULES, Shape, Ties, TriangleAsker, TriangleConvention, TriangleQuestion,
 };
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use std::borrow::Cow;
+use std::future::Future;
+use std::pin::Pin;
 
 /// A question with its answer and the right one.
 #[derive(Clone)]
@@ -36,6 +38,9 @@ impl LearnedAnswer {
     }
 }
 
+/// Pictures that are waited for.
+pub(super) type Pictures<'a> = Pin<Box<dyn Future<Output = Vec<Picture>> + 'a>>;
+
 /// The program under judgement, with what it should draw.
 pub(super) trait Drawer {
     /// What a rule draws: the right one is number 0. Nothing where it says nothing.
@@ -45,13 +50,11 @@ pub(super) trait Drawer {
         None
     }
     /// The answers; what is not answered is an empty picture.
-    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture>;
+    fn ask<'a>(&'a self, questions: &'a [AnyQuestion]) -> Pictures<'a>;
     /// Questions whose answers are known to be wrong.
     fn failing(&self) -> Vec<AnyQuestion>;
-    /// How many questions may be asked.
-    fn most_to_learn(&self) -> usize;
-    /// Whether the answers come later, and all is asked again.
-    fn is_abandoned(&self) -> bool;
+    /// As many questions of these as may be asked.
+    fn at_most(&self, most: usize) -> usize;
     /// What is said of each rule: of a convention after 'it draws', nothing of the right one; of a known wrong way, which come after
     /// the conventions, after 'it'.
     fn rules(&self) -> &[String];
@@ -167,7 +170,7 @@ fn line(q: &AnyQuestion) -> LineQuestion {
 
 /// A rasterizer of triangles.
 pub(super) struct Triangles<'a> {
-    ask: &'a mut dyn Ask,
+    asker: &'a TriangleAsker,
     conventions: Vec<TriangleConvention>,
     rules: Vec<String>,
     other: usize,
@@ -183,7 +186,7 @@ impl<'a> Triangles<'a> {
     /// Answers are wrong where they are not as the first convention says; the other one is tried, too. Nothing where pictures
     /// are turned over.
     pub(super) fn new(
-        ask: &'a mut dyn Ask,
+        asker: &'a TriangleAsker,
         known: &Declarations,
         [expected, other]: [&TriangleConvention; 2],
         ways: &'a [KnownWay<'a, TriangleQuestion>],
@@ -229,7 +232,7 @@ impl<'a> Triangles<'a> {
         rules.extend(ways.iter().map(|way| way.does.clone()));
         let is_plain = expected.mirror == Mirror::None;
         let is_mask = known.mask;
-        let this = Self { ask, conventions, rules, other, room, sample, is_mask, ways, work };
+        let this = Self { asker, conventions, rules, other, room, sample, is_mask, ways, work };
         is_plain.then_some(this)
     }
 }
@@ -254,11 +257,10 @@ impl Drawer for Triangles<'_> {
         })
     }
 
-    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
+    fn ask<'b>(&'b self, questions: &'b [AnyQuestion]) -> Pictures<'b> {
         let asked: Vec<TriangleQuestion> = questions.iter().map(triangle).collect();
-        let answers = self.ask.ask(&asked);
         let most = if self.counts() { 2 } else { 1 };
-        let picture = |(q, answer): (&AnyQuestion, Option<Coverage>)| {
+        let picture = move |(q, answer): (&AnyQuestion, Option<Coverage>)| {
             let mut picture = Picture::new(q.side);
             if let Some(answer) = answer.filter(|answer| answer.bounds() == window_of(q)) {
                 for at in picture.pixels() {
@@ -267,19 +269,17 @@ impl Drawer for Triangles<'_> {
             }
             picture
         };
-        questions.iter().zip(answers).map(picture).collect()
+        Box::pin(async move {
+            questions.iter().zip(self.asker.ask(&asked).await).map(picture).collect()
+        })
     }
 
     fn failing(&self) -> Vec<AnyQuestion> {
-        self.ask.failing().iter().map(AnyQuestion::from).collect()
+        self.asker.failing().iter().map(AnyQuestion::from).collect()
     }
 
-    fn most_to_learn(&self) -> usize {
-        self.ask.most_to_learn()
-    }
-
-    fn is_abandoned(&self) -> bool {
-        self.ask.is_abandoned()
+    fn at_most(&self, most: usize) -> usize {
+        self.asker.at_most(most)
     }
 
     fn rules(&self) -> &[String] {
@@ -324,7 +324,7 @@ const LONGEST_WHOLE_PX: i64 = 1 << 14;
 
 /// A line drawer. Pixels that come twice are not told from others.
 pub(super) struct Lines<'a> {
-    ask: &'a mut dyn AskLine,
+    asker: &'a LineAsker,
     conventions: Vec<LineConvention>,
     rules: Vec<String>,
     other: usize,
@@ -335,7 +335,7 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(
-        ask: &'a mut dyn AskLine,
+        asker: &'a LineAsker,
         known: &Declarations,
         [expected, other]: [&LineConvention; 2],
         ways: &'a [KnownWay<'a, LineQuestion>],
@@ -366,7 +366,7 @@ impl<'a> Lines<'a> {
         }
         let other = conventions.iter().position(|convention| convention == other).unwrap_or(0);
         rules.extend(ways.iter().map(|way| way.does.clone()));
-        Self { ask, conventions, rules, other, room, ways, work }
+        Self { asker, conventions, rules, other, room, ways, work }
     }
 }
 
@@ -410,9 +410,8 @@ impl Drawer for Lines<'_> {
         Some(pixels)
     }
 
-    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
+    fn ask<'b>(&'b self, questions: &'b [AnyQuestion]) -> Pictures<'b> {
         let asked: Vec<LineQuestion> = questions.iter().map(line).collect();
-        let answers = self.ask.ask_lines(&asked);
         let picture = |(q, answer): (&AnyQuestion, Option<Vec<[i32; 2]>>)| {
             let mut picture = Picture::new(q.side);
             let pixels = answer.unwrap_or_default();
@@ -420,19 +419,17 @@ impl Drawer for Lines<'_> {
             shown.into_iter().for_each(|at| picture.set(at, 1));
             picture
         };
-        questions.iter().zip(answers).map(picture).collect()
+        Box::pin(async move {
+            questions.iter().zip(self.asker.ask(&asked).await).map(picture).collect()
+        })
     }
 
     fn failing(&self) -> Vec<AnyQuestion> {
-        self.ask.failing().iter().map(AnyQuestion::from).collect()
+        self.asker.failing().iter().map(AnyQuestion::from).collect()
     }
 
-    fn most_to_learn(&self) -> usize {
-        self.ask.most_to_learn()
-    }
-
-    fn is_abandoned(&self) -> bool {
-        false
+    fn at_most(&self, most: usize) -> usize {
+        self.asker.at_most(most)
     }
 
     fn rules(&self) -> &[String] {

@@ -35,10 +35,12 @@ mod visit;
 mod walk;
 
 use std::cell::OnceCell;
+use std::future::Future;
+use std::pin::Pin;
 
 use crate::convention::{
-    Ask, AskLine, Count, Declarations, LineConvention, LineQuestion, TriangleConvention,
-    TriangleQuestion,
+    Count, Declarations, LineAsker, LineConvention, LineQuestion, TriangleAsker,
+    TriangleConvention, TriangleQuestion,
 };
 use change::{Base, Rule};
 pub use drawer::KnownWay;
@@ -177,9 +179,9 @@ pub(crate) fn starts<'a, C: PartialEq>(
 }
 
 /// The first certain explanation of a program compared with one convention after another, or the one that predicts most.
-fn learned_from<C>(
+async fn learned_from<C>(
     starts: &[Start<'_, C>],
-    mut learn: impl FnMut([&C; 2], &Work) -> Option<Learned>,
+    learn: impl AsyncFn([&C; 2], &Work) -> Option<Learned>,
     words: impl Fn(&C) -> String,
 ) -> Option<Learned> {
     let mut best: Option<Learned> = None;
@@ -187,7 +189,7 @@ fn learned_from<C>(
         let other = &starts[starts.len() - 1 - number];
         let work = Work::part_of(starts.len());
         let both = [start.convention, other.convention];
-        let Some(mut learned) = learn(both, &work) else { continue };
+        let Some(mut learned) = learn(both, &work).await else { continue };
         // From what comes nearest back to what is right is no way to say anything.
         if !start.is_right && learned.is_by_other {
             continue;
@@ -206,38 +208,45 @@ fn learned_from<C>(
 }
 
 /// Learns from a rasterizer of triangles, as [`of_triangles`] does.
-pub type LearnTriangles = fn(
-    &mut dyn Ask,
-    &Declarations,
-    &[Start<'_, TriangleConvention>],
-    &[KnownWay<'_, TriangleQuestion>],
-) -> Option<Learned>;
+pub type LearnTriangles = for<'a> fn(
+    &'a TriangleAsker,
+    &'a Declarations,
+    &'a [Start<'a, TriangleConvention>],
+    &'a [KnownWay<'a, TriangleQuestion>],
+) -> Learning<'a>;
+
+/// What is still to be learned.
+pub type Learning<'a> = Pin<Box<dyn Future<Output = Option<Learned>> + 'a>>;
+
+/// Questions that a program is asked at most to learn what it does.
+const MOST_TO_LEARN: usize = 6000;
 
 /// Learns from a rasterizer of triangles, compared with one convention after another. Known wrong ways to draw may be a part of
 /// what it does.
-pub fn of_triangles(
-    ask: &mut dyn Ask,
-    known: &Declarations,
-    starts: &[Start<'_, TriangleConvention>],
-    ways: &[KnownWay<'_, TriangleQuestion>],
-) -> Option<Learned> {
-    let learn = |both: [&TriangleConvention; 2], work: &Work| {
-        Learner::new(&mut Triangles::new(ask, known, both, ways, SEED, work)?).learn()
+pub fn of_triangles<'a>(
+    asker: &'a TriangleAsker,
+    known: &'a Declarations,
+    starts: &'a [Start<'a, TriangleConvention>],
+    ways: &'a [KnownWay<'a, TriangleQuestion>],
+) -> Learning<'a> {
+    let learn = async move |both: [&TriangleConvention; 2], work: &Work| {
+        let mut triangles = Triangles::new(asker, known, both, ways, SEED, work)?;
+        Learner::new(&mut triangles).learn().await
     };
-    learned_from(starts, learn, TriangleConvention::words)
+    Box::pin(learned_from(starts, learn, TriangleConvention::words))
 }
 
 /// Learns from a line drawer, likewise.
-pub(crate) fn of_lines(
-    ask: &mut dyn AskLine,
+pub(crate) async fn of_lines(
+    asker: &LineAsker,
     known: &Declarations,
     starts: &[Start<'_, LineConvention>],
     ways: &[KnownWay<'_, LineQuestion>],
 ) -> Option<Learned> {
-    let learn = |both: [&LineConvention; 2], work: &Work| {
-        Learner::new(&mut Lines::new(ask, known, both, ways, SEED, work)).learn()
+    let learn = async |both: [&LineConvention; 2], work: &Work| {
+        Learner::new(&mut Lines::new(asker, known, both, ways, SEED, work)).learn().await
     };
-    learned_from(starts, learn, LineConvention::words)
+    learned_from(starts, learn, LineConvention::words).await
 }
 
 /// The questions are the same in every run.
@@ -257,7 +266,7 @@ struct Learner<'a> {
 impl<'a> Learner<'a> {
     fn new(drawer: &'a mut dyn Drawer) -> Self {
         let sample = drawer.room().question();
-        let left = drawer.most_to_learn();
+        let left = drawer.at_most(MOST_TO_LEARN);
         let vocabulary = Vocabulary::of(&sample);
         Self {
             drawer,
@@ -269,21 +278,21 @@ impl<'a> Learner<'a> {
         }
     }
 
-    fn learn(mut self) -> Option<Learned> {
-        self.ask_first()?;
+    async fn learn(mut self) -> Option<Learned> {
+        self.ask_first().await;
         if self.wrong().count() < LEAST_WRONG {
             return None;
         }
-        let (trial, model) = self.explained()?;
+        let (trial, model) = trial::explained(&mut self).await?;
         let mut learned = self.learned(&trial, &model);
         if !learned.is_certain {
-            learned.known.extend(self.nearest_right());
+            learned.known.extend(self.nearest_right().await);
         }
         Some(learned)
     }
 
     /// The smallest wrong question, and a right one that differs from it in one number.
-    fn nearest_right(&mut self) -> Option<String> {
+    async fn nearest_right(&mut self) -> Option<String> {
         let wrong = self.answered.iter().enumerate().filter(|(_, a)| a.is_wrong());
         let (smallest, a) = wrong.min_by_key(|(_, a)| a.question.bulk())?;
         let room = self.drawer.room();
@@ -291,7 +300,7 @@ impl<'a> Learner<'a> {
         changes.retain(|change| room.may_ask(&change.question));
         let before = self.answered.len();
         self.left = self.left.max(changes.len());
-        self.ask(changes.iter().map(|change| change.question.clone()).collect())?;
+        self.ask(changes.iter().map(|change| change.question.clone()).collect()).await;
         let (old, new) = self.answered.split_at(before);
         known::beside(&old[smallest], &changes, new)
     }
@@ -310,22 +319,21 @@ impl<'a> Learner<'a> {
         }
     }
 
-    /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
-    fn ask_first(&mut self) -> Option<()> {
+    /// Asks for more until there are enough wrong answers.
+    async fn ask_first(&mut self) {
         let mut failing = self.drawer.failing();
         let room = self.drawer.room();
         room.reach(&failing);
         failing.retain(|question| room.may_ask(question));
-        self.ask(failing)?;
+        self.ask(failing).await;
         while self.answered.len() < MOST_FIRST && self.left > 0 {
             let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
                 break;
             }
             let questions = (0..AT_ONCE).map(|i| self.question(&wrong, i % 2 == 1)).collect();
-            self.ask(questions)?;
+            self.ask(questions).await;
         }
-        Some(())
     }
 
     /// A new question, or one beside a given one.
@@ -338,17 +346,16 @@ impl<'a> Learner<'a> {
         room.beside(&given[i])
     }
 
-    fn ask(&mut self, questions: Vec<AnyQuestion>) -> Option<()> {
+    async fn ask(&mut self, questions: Vec<AnyQuestion>) {
         for questions in questions.chunks(AT_ONCE) {
             let questions = &questions[..questions.len().min(self.left)];
             self.left -= questions.len();
-            let answers = self.drawer.ask(questions);
+            let answers = self.drawer.ask(questions).await;
             for (question, drawn) in questions.iter().zip(answers) {
                 let Some(right) = self.drawer.right(question, 0) else { continue };
                 self.answered.push(LearnedAnswer::new(question.clone(), drawn, right));
             }
         }
-        (!self.drawer.is_abandoned()).then_some(())
     }
 
     /// Questions near both sides of each limit of a fact of the question.
@@ -430,7 +437,7 @@ impl Learn for Learner<'_> {
     }
 
     /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
-    fn try_out(&mut self, model: &Model) -> Option<Trial> {
+    async fn try_out(&mut self, model: &Model) -> Option<Trial> {
         let before = self.answered.len();
         let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
         // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
@@ -438,7 +445,7 @@ impl Learn for Learner<'_> {
         for _ in 0..MOST_FRESH {
             let from = self.answered.len();
             let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
-            self.ask(questions)?;
+            self.ask(questions).await;
             trial.independent +=
                 self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
             if trial.independent >= ENOUGH_INDEPENDENT {
@@ -448,7 +455,7 @@ impl Learn for Learner<'_> {
         let mut questions: Vec<AnyQuestion> = Vec::new();
         questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
         questions.extend(self.at_limits(model));
-        self.ask(questions)?;
+        self.ask(questions).await;
         let search = Self::search(self);
         let mut missed = Vec::new();
         for (i, a) in self.answered.iter().enumerate().skip(before) {

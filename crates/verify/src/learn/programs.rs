@@ -6,8 +6,9 @@ use super::picture::{Picture, Runs};
 use super::question::AnyQuestion;
 use super::trial::Work;
 use super::{Learned, SEED, Start, of_lines, of_triangles};
+use crate::ask::{Asker, Search};
 use crate::convention::{
-    Ask, AskLine, Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
+    Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
 };
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -45,39 +46,21 @@ pub(super) fn learn_triangles(
     draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture,
 ) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), TriangleConvention::default());
-    let mut nobody = |_: &[TriangleQuestion]| Vec::new();
-    let work = Work::default();
-    let oracle = Triangles::new(&mut nobody, &known, [&expected; 2], &[], SEED, &work).unwrap();
+    let (nobody, work) = (Asker::new(), Work::default());
+    let oracle = Triangles::new(&nobody, &known, [&expected; 2], &[], SEED, &work).unwrap();
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
-    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
-        let answer = |asked: &TriangleQuestion| {
-            let q = AnyQuestion::from(asked);
-            let picture = draw(&q, &right);
-            let mut coverage = Coverage::new(asked.window, 0);
-            for at in picture.pixels() {
-                coverage.row_mut(at[1])[at[0] as usize] = picture.hits(at);
-            }
-            Some(coverage)
-        };
-        questions.iter().map(answer).collect()
+    let answer = |asked: &TriangleQuestion| {
+        let q = AnyQuestion::from(asked);
+        let picture = draw(&q, &right);
+        let mut coverage = Coverage::new(asked.window, 0);
+        for at in picture.pixels() {
+            coverage.row_mut(at[1])[at[0] as usize] = picture.hits(at);
+        }
+        Some(coverage)
     };
-    of_triangles(&mut ask, &known, &[Start { convention: &expected, is_right: true }], &[])
-}
-
-/// A rasterizer of which some wrong answers are known.
-struct WithFailing<'a> {
-    ask: &'a mut dyn Ask,
-    failing: Vec<TriangleQuestion>,
-}
-
-impl Ask for WithFailing<'_> {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        self.ask.ask(questions)
-    }
-
-    fn failing(&self) -> Vec<TriangleQuestion> {
-        self.failing.clone()
-    }
+    let starts = [Start { convention: &expected, is_right: true }];
+    Search::new(async |asker| of_triangles(&asker, &known, &starts, &[]).await)
+        .answered_by(|questions| questions.iter().map(answer).collect())
 }
 
 /// What goes wrong too rarely to be met by chance is learned beside a case that failed.
@@ -85,33 +68,34 @@ impl Ask for WithFailing<'_> {
 fn rare_mistakes_are_learned_beside_failing_cases() {
     let convention = TriangleConvention::default();
     // It draws nothing where an edge is nearly level and long: a slope that is no number of 16 bits.
-    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
-        let answer = |q: &TriangleQuestion| {
-            let mut coverage = Coverage::new(q.window, 0);
-            let is_steep = (0..3).any(|i| {
-                let (a, b) = (q.corners[i], q.corners[(i + 1) % 3]);
-                let [dx, dy] = [b.x - a.x, b.y - a.y].map(|v| i64::from(v).abs());
-                dy > 0 && dx >= 32_768 * dy
-            });
-            let mask = convention.mask(&q.corners, q.window).filter(|_| !is_steep);
-            for y in 0..q.window.y1 {
-                for x in 0..q.window.x1 {
-                    let is_drawn = mask.is_some_and(|mask| mask.row(y) >> x & 1 == 1);
-                    coverage.row_mut(y)[x as usize] = u8::from(is_drawn);
-                }
+    let answer = |q: &TriangleQuestion| {
+        let mut coverage = Coverage::new(q.window, 0);
+        let is_steep = (0..3).any(|i| {
+            let (a, b) = (q.corners[i], q.corners[(i + 1) % 3]);
+            let [dx, dy] = [b.x - a.x, b.y - a.y].map(|v| i64::from(v).abs());
+            dy > 0 && dx >= 32_768 * dy
+        });
+        let mask = convention.mask(&q.corners, q.window).filter(|_| !is_steep);
+        for y in 0..q.window.y1 {
+            for x in 0..q.window.x1 {
+                let is_drawn = mask.is_some_and(|mask| mask.row(y) >> x & 1 == 1);
+                coverage.row_mut(y)[x as usize] = u8::from(is_drawn);
             }
-            Some(coverage)
-        };
-        questions.iter().map(answer).collect()
+        }
+        Some(coverage)
     };
     let window = PixelRect::window(4, 4);
     let corners =
         [[-60_000, 384], [150_000, 390], [512, 2000]].map(|[x, y]| SubpixelPoint::new(x, y));
     let known = Declarations { window_px: (24, 24), ..Declarations::default() };
     let starts = [Start { convention: &convention, is_right: true }];
-    assert_eq!(of_triangles(&mut ask, &known, &starts, &[]), None);
-    let failing = vec![TriangleQuestion { corners, window }];
-    let learned = of_triangles(&mut WithFailing { ask: &mut ask, failing }, &known, &starts, &[]);
+    let learned = |failing| {
+        Search::new(async |asker| of_triangles(&asker, &known, &starts, &[]).await)
+            .beside(failing)
+            .answered_by(|questions| questions.iter().map(answer).collect())
+    };
+    assert_eq!(learned(Vec::new()), None);
+    let learned = learned(vec![TriangleQuestion { corners, window }]);
     let said = learned.unwrap().sentences().join(" ");
     assert!(said.contains("the largest |dx|/|dy| of its edges is"), "{said}");
 }
@@ -119,20 +103,17 @@ fn rare_mistakes_are_learned_beside_failing_cases() {
 /// What is learned of a line drawer that draws so.
 pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), LineConvention::default());
-    let mut nobody = |_: &[LineQuestion]| Vec::new();
-    let work = Work::default();
-    let oracle = Lines::new(&mut nobody, &known, [&expected; 2], &[], SEED, &work);
+    let (nobody, work) = (Asker::new(), Work::default());
+    let oracle = Lines::new(&nobody, &known, [&expected; 2], &[], SEED, &work);
     let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
-    let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
-        let answer = |asked: &LineQuestion| {
-            let q = AnyQuestion::from(asked);
-            let picture = draw(&q, &right);
-            Some(picture.pixels().filter(|at| picture.has(*at)).collect())
-        };
-        questions.iter().map(answer).collect()
+    let answer = |asked: &LineQuestion| {
+        let q = AnyQuestion::from(asked);
+        let picture = draw(&q, &right);
+        Some(picture.pixels().filter(|at| picture.has(*at)).collect())
     };
-    let ask: &mut dyn AskLine = &mut ask;
-    of_lines(ask, &known, &[Start { convention: &expected, is_right: true }], &[])
+    let starts = [Start { convention: &expected, is_right: true }];
+    Search::new(async |asker| of_lines(&asker, &known, &starts, &[]).await)
+        .answered_by(|questions| questions.iter().map(answer).collect())
 }
 
 /// Programs after public bug reports, written before the quantities and the changes were.

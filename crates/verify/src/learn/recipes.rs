@@ -15,9 +15,8 @@ use super::rule::{Conjunction, Fact, Of, Test, all_hold};
 use super::trial::Work;
 use super::walk::Walk;
 use super::{Learned, SEED, say};
-use crate::convention::{
-    Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
-};
+use crate::ask::Asker;
+use crate::convention::{Declarations, LineConvention, TriangleConvention};
 use rasterproof_core::random::Rng;
 
 /// What is changed.
@@ -235,11 +234,10 @@ fn recipes_explain_themselves() {
     for is_line in [false, true] {
         let work = Work::default();
         let (of_triangle, of_line) = (TriangleConvention::default(), LineConvention::default());
-        let mut nobody = |_: &[TriangleQuestion]| Vec::new();
-        let mut no_line = |_: &[LineQuestion]| Vec::new();
+        let (nobody, no_line) = (Asker::new(), Asker::new());
         let mut triangles =
-            Triangles::new(&mut nobody, &known, [&of_triangle; 2], &[], SEED, &work).unwrap();
-        let mut lines = Lines::new(&mut no_line, &known, [&of_line; 2], &[], SEED, &work);
+            Triangles::new(&nobody, &known, [&of_triangle; 2], &[], SEED, &work).unwrap();
+        let mut lines = Lines::new(&no_line, &known, [&of_line; 2], &[], SEED, &work);
         let drawer: &mut dyn Drawer = if is_line { &mut lines } else { &mut triangles };
         let mut kitchen = Kitchen::new(drawer, seed);
         let fields = Field::all(is_line);

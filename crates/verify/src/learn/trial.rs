@@ -1,6 +1,7 @@
 //! What is enough to learn from, and to call something the cause: the same for pictures and for rows of numbers.
 
 use std::cell::Cell;
+use std::future::Future;
 
 use crate::convention::Count;
 
@@ -82,43 +83,42 @@ pub trait Learn {
     /// The best explanation of the answers so far.
     fn search(&mut self) -> Self::Hypothesis;
 
-    /// How an explanation does on new questions, whose answers the next search learns from; nothing where nobody waits for it.
-    fn try_out(&mut self, found: &Self::Hypothesis) -> Option<Trial>;
+    /// How an explanation does on new questions, whose answers the next search learns from; nothing where these are not answered.
+    fn try_out(&mut self, found: &Self::Hypothesis) -> impl Future<Output = Option<Trial>>;
 
     /// Whether nothing more may be asked.
     fn is_over(&self) -> bool;
+}
 
-    /// The best explanation with what its trial showed. What refutes one is learned from by the next search; what is not
-    /// refuted is tried out until that was enough.
-    fn explained(&mut self) -> Option<(Trial, Self::Hypothesis)> {
-        let mut best: Option<(Trial, Self::Hypothesis)> = None;
-        let (mut searches, mut is_refuted) = (0, true);
-        for round in 0..MOST_ROUNDS_NEARLY {
-            let is_nearly = best.as_ref().is_some_and(|(trial, _)| trial.is_nearly());
-            if round >= MOST_ROUNDS && !is_nearly {
-                break;
-            }
-            // What was not refuted before is asked for more.
-            let again = best.take_if(|_| !is_refuted);
-            let (before, found) = again.unwrap_or_else(|| {
-                searches += 1;
-                (Trial::default(), self.search())
-            });
-            let mut trial = self.try_out(&found)?;
-            is_refuted = trial.missed() > 0;
-            trial.add_all(&before);
-            if best.as_ref().is_none_or(|(most, _)| trial.missed() <= most.missed()) {
-                best = Some((trial, found));
-            }
-            // Where most is not predicted, another look at more answers seldom helps.
-            let is_hopeless =
-                searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
-            if !is_refuted && trial.is_enough() || is_hopeless || self.is_over() {
-                break;
-            }
+/// The best explanation with what its trial showed. What refutes one is learned from by the next search; what is not
+/// refuted is tried out until that was enough.
+pub async fn explained<L: Learn>(learner: &mut L) -> Option<(Trial, L::Hypothesis)> {
+    let mut best: Option<(Trial, L::Hypothesis)> = None;
+    let (mut searches, mut is_refuted) = (0, true);
+    for round in 0..MOST_ROUNDS_NEARLY {
+        let is_nearly = best.as_ref().is_some_and(|(trial, _)| trial.is_nearly());
+        if round >= MOST_ROUNDS && !is_nearly {
+            break;
         }
-        best
+        // What was not refuted before is asked for more.
+        let again = best.take_if(|_| !is_refuted);
+        let (before, found) = again.unwrap_or_else(|| {
+            searches += 1;
+            (Trial::default(), learner.search())
+        });
+        let mut trial = learner.try_out(&found).await?;
+        is_refuted = trial.missed() > 0;
+        trial.add_all(&before);
+        if best.as_ref().is_none_or(|(most, _)| trial.missed() <= most.missed()) {
+            best = Some((trial, found));
+        }
+        // Where most is not predicted, another look at more answers seldom helps.
+        let is_hopeless = searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
+        if !is_refuted && trial.is_enough() || is_hopeless || learner.is_over() {
+            break;
+        }
     }
+    best
 }
 
 /// The nearest of so many things that are made one after another with their distances, so many of them.

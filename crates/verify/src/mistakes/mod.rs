@@ -23,11 +23,12 @@ mod weigh;
 use std::borrow::Cow;
 use std::cell::{Cell, OnceCell};
 use std::fmt;
+use std::future::Future;
 
 use crate::convention::{
-    Ask, AskLine, Confidence, Count, Declarations, Diagnosis, LineConvention, LineDiagnosis,
+    Confidence, Count, Declarations, Diagnosis, LineAsker, LineConvention, LineDiagnosis,
     LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, RULES, Rounding, Shape, Ties,
-    TriangleConvention, TriangleQuestion, Windings,
+    TriangleAsker, TriangleConvention, TriangleQuestion, Windings,
 };
 use crate::learn::{self, KnownWay, Learned};
 pub use crate::learn::{LearnTriangles, of_triangles as learn_triangles};
@@ -211,11 +212,11 @@ impl Mistakes {
 
     /// With what is learned where no mistake of the tables explains every answer. What was learned and predicts every answer is the
     /// cause, and not a mistake that misses some.
-    fn or_learned(self, learn: impl FnOnce() -> Option<Learned>) -> Self {
+    async fn or_learned(self, learn: impl Future<Output = Option<Learned>>) -> Self {
         if self.causes.iter().any(|cause| cause.missed() == 0) {
             return self;
         }
-        let learned = learn();
+        let learned = learn.await;
         // What comes on top of another convention is no simpler than the mistake.
         let is_better = |learned: &Learned| learned.is_certain && !learned.is_beyond;
         match (self.causes.is_empty(), learned.as_ref().is_some_and(is_better)) {
@@ -372,8 +373,8 @@ impl AnsweredQuestion<TriangleQuestion> {
 /// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, and for
 /// more where few of these are wrong. Who gives no more answers ends it. Where no known mistake explains it, `learn` may ask on:
 /// [`learn_triangles`], or nothing.
-pub fn of_triangles(
-    ask: &mut dyn Ask,
+pub async fn of_triangles(
+    asker: &TriangleAsker,
     known: &Declarations,
     found: Option<&Diagnosis>,
     programs: &[Program<'_, TriangleQuestion, Coverage>],
@@ -384,30 +385,22 @@ pub fn of_triangles(
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
     let given = Cell::new(0);
-    let mut ask_all =
-        |questions: &[TriangleQuestion], answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
-            for questions in questions.chunks(ask.at_once()) {
-                for (question, answer) in questions.iter().zip(ask.ask(questions)) {
-                    let right = expected.mask(&question.corners, question.window);
-                    let Some(right) = right else { continue };
-                    // What is not answered is not drawn.
-                    let drawn = answer.filter(|a| a.bounds() == question.window);
-                    given.set(given.get() + u64::from(drawn.is_some()));
-                    let hits =
-                        |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
-                    let twice = if known.mask { Mask::default() } else { hits(2) };
-                    answered.push(AnsweredQuestion {
-                        question: *question,
-                        drawn: hits(1),
-                        twice,
-                        right,
-                    });
-                }
-            }
-        };
+    let ask_all = async |questions: &[TriangleQuestion],
+                         answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
+        for (question, answer) in questions.iter().zip(asker.ask(questions).await) {
+            let right = expected.mask(&question.corners, question.window);
+            let Some(right) = right else { continue };
+            // What is not answered is not drawn.
+            let drawn = answer.filter(|a| a.bounds() == question.window);
+            given.set(given.get() + u64::from(drawn.is_some()));
+            let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
+            let twice = if known.mask { Mask::default() } else { hits(2) };
+            answered.push(AnsweredQuestion { question: *question, drawn: hits(1), twice, right });
+        }
+    };
     // Where few answers are wrong, some more are needed.
     for seed in SEED..SEED + MOST_ROUNDS {
-        ask_all(&questions::triangles(known, sample_of(expected), seed), &mut answered);
+        ask_all(&questions::triangles(known, sample_of(expected), seed), &mut answered).await;
         let wrong = answered.iter().filter(|a| a.is_wrong()).count();
         if wrong == 0 || wrong >= ENOUGH_WRONG {
             break;
@@ -418,10 +411,7 @@ pub fn of_triangles(
     }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
     let sizes = limits(&answered).into_iter().map(triangles::size);
-    ask_all(&thresholds::near(sizes, known, expected), &mut answered);
-    if ask.is_abandoned() {
-        return None;
-    }
+    ask_all(&thresholds::near(sizes, known, expected), &mut answered).await;
     let found_bases = bases(&known.declared, found);
     // In a tiny window a convention may not have been found, and explain what is wrong.
     let is_one = |base: &&Base| base.convention != *expected && base.explains(&answered);
@@ -432,11 +422,7 @@ pub fn of_triangles(
         let wrong = Count { drawn: wrong, of: answered.len() as u64 };
         return Some(Mistakes { wrong, common: vec![said], ..Mistakes::default() });
     }
-    // All that is asked comes before the weighing, which takes long, where each answer begins the search anew.
-    let limits = thresholds::of_triangles(ask, known, expected);
-    if ask.is_abandoned() {
-        return None;
-    }
+    let limits = thresholds::of_triangles(asker, known, expected).await;
     let draws_twice = answered.iter().any(|a| !a.twice.is_empty());
     let (mut why, nearest) = explain(&answered, &found_bases, programs);
     if why.as_ref().is_some_and(|why| !why.is_known())
@@ -456,18 +442,19 @@ pub fn of_triangles(
     let why = with_limits(why, answered.len(), limits);
     let starts = learn::starts(&known.declared, expected, found);
     let ways: Vec<_> = nearest.iter().map(|near| near.way(&found_bases, draws_twice)).collect();
-    or_learned(why, answered.len(), || learn?(ask, known, &starts, &ways))
+    let learned = async { learn?(asker, known, &starts, &ways).await };
+    or_learned(why, answered.len(), learned).await
 }
 
 /// What was learned where no mistake explains it, also where none of so many answers is wrong: others are.
-fn or_learned(
+async fn or_learned(
     found: Option<Mistakes>,
     answers: usize,
-    learn: impl FnOnce() -> Option<Learned>,
+    learn: impl Future<Output = Option<Learned>>,
 ) -> Option<Mistakes> {
     let is_found = found.is_some();
     let wrong = Count { drawn: 0, of: answers as u64 };
-    let why = found.unwrap_or(Mistakes { wrong, ..Mistakes::default() }).or_learned(learn);
+    let why = found.unwrap_or(Mistakes { wrong, ..Mistakes::default() }).or_learned(learn).await;
     (is_found || why.learned.is_some()).then_some(why)
 }
 
@@ -671,8 +658,8 @@ fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mist
 }
 
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
-pub fn of_lines(
-    ask: &mut dyn AskLine,
+pub async fn of_lines(
+    asker: &LineAsker,
     known: &Declarations,
     found: Option<&LineDiagnosis>,
     programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
@@ -696,7 +683,7 @@ pub fn of_lines(
             if answered.len() >= questions::LINES && is_settled {
                 break 'rounds;
             }
-            let answers = ask.ask_lines(questions);
+            let answers = asker.ask(questions).await;
             for (question, answer) in questions.iter().zip(answers) {
                 let ends = wide(question.ends);
                 let right = lines::of_convention(expected, ends, question.window);
@@ -761,11 +748,11 @@ pub fn of_lines(
             variants.get(i).is_some_and(|variant: &Variant<_, _>| is_plain(&variant.base))
         }),
     };
-    let limits = thresholds::of_lines(ask, known, expected);
+    let limits = thresholds::of_lines(asker, known, expected).await;
     let why = with_limits(why, is_wrong.len(), limits);
     let starts = learn::starts(&default, expected, found);
     let ways: Vec<_> = nearest.into_iter().map(|i| variants[i].way(expected)).collect();
-    or_learned(why, is_wrong.len(), || learn::of_lines(ask, known, &starts, &ways))
+    or_learned(why, is_wrong.len(), learn::of_lines(asker, known, &starts, &ways)).await
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
@@ -1126,6 +1113,7 @@ pub fn table() -> Vec<Explanation> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ask::Search;
 
     /// Two mistakes at once are told: one of the table, and one that no table has.
     #[test]
@@ -1146,13 +1134,15 @@ mod tests {
             }
             Some(picture)
         };
-        let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
-            questions.iter().map(draw).collect()
-        };
+        let answer = |questions: &[TriangleQuestion]| questions.iter().map(draw).collect();
         let starts = [learn::Start { convention: &known.declared, is_right: true }];
-        let alone = learn_triangles(&mut ask, &known, &starts, &[]).unwrap();
+        let alone = Search::new(async |asker| learn_triangles(&asker, &known, &starts, &[]).await);
+        let alone = alone.answered_by(answer).unwrap();
         assert!(!alone.is_certain, "{alone:?}");
-        let why = of_triangles(&mut ask, &known, None, &[], Some(learn_triangles)).unwrap();
+        let why = Search::new(async |asker| {
+            of_triangles(&asker, &known, None, &[], Some(learn_triangles)).await
+        });
+        let why = why.answered_by(answer).unwrap();
         let said = why.to_string();
         assert!(why.is_learned(), "{said}");
         assert!(said.contains("clips triangles at the window"), "{said}");

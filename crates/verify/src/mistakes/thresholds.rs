@@ -7,7 +7,7 @@ use super::fills::{FARTHEST, RATIO, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{Explanation, lines, sample_of};
 use crate::convention::{
-    Ask, AskLine, Count, Declarations, LineConvention, LineQuestion, Mask, Mirror,
+    Count, Declarations, LineAsker, LineConvention, LineQuestion, Mask, Mirror, TriangleAsker,
     TriangleConvention, TriangleQuestion,
 };
 use rasterproof_core::arrays::MapArray as _;
@@ -133,9 +133,6 @@ struct ShapeAnswer {
     is_wrong: bool,
 }
 
-/// Asks for some shapes whose measures lie between two numbers; none where it may not go on.
-type Probe<'a> = dyn FnMut(i64, i64) -> Option<Vec<ShapeAnswer>> + 'a;
-
 /// What a search came to.
 struct LimitSearch {
     right_to: i64,
@@ -149,35 +146,40 @@ struct LimitSearch {
     is_sharp: bool,
 }
 
-/// The last measure of which all are right and the first that is wrong; nothing where there is no such limit.
-fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<LimitSearch> {
+/// The last measure of which all are right and the first that is wrong; nothing where there is no such limit. `probe` asks for some
+/// shapes whose measures lie between two numbers, and has none where it may not go on.
+async fn search(
+    low: i64,
+    high: i64,
+    mut probe: impl AsyncFnMut(i64, i64) -> Option<Vec<ShapeAnswer>>,
+) -> Option<LimitSearch> {
     let least = |seen: &[ShapeAnswer]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
     let mut right_to = 2 * low;
     if high < 2 * right_to {
         return None;
     }
-    let small = probe(low, right_to)?;
+    let small = probe(low, right_to).await?;
     if least(&small).is_some() {
         return None;
     }
-    let largest = probe(high / 2, high)?;
+    let largest = probe(high / 2, high).await?;
     let mut wrong_from = least(&largest)?;
     for _ in 0..MOST_ROUNDS {
         if wrong_from - right_to <= 1 {
             break;
         }
         let middle = geometric_mean(right_to, wrong_from).clamp(right_to + 1, wrong_from - 1);
-        match least(&probe(right_to + 1, middle)?) {
+        match least(&probe(right_to + 1, middle).await?) {
             Some(measure) => wrong_from = measure,
             None => right_to = middle,
         }
     }
     // Whether it is a limit: others below are right, and a good part of those above is wrong.
-    let mut below = probe(low, right_to)?;
-    below.extend(probe((right_to / 2).max(low), right_to)?);
+    let mut below = probe(low, right_to).await?;
+    below.extend(probe((right_to / 2).max(low), right_to).await?);
     let up_to = |part: f64| ((wrong_from as f64 * part) as i64).clamp(wrong_from, high);
-    let first = count(&probe(wrong_from, up_to(1.2))?);
-    let wrong = [count(&probe(wrong_from, up_to(2.0))?), count(&largest)];
+    let first = count(&probe(wrong_from, up_to(1.2)).await?);
+    let wrong = [count(&probe(wrong_from, up_to(2.0)).await?), count(&largest)];
     let is_many = |count: &Count| 10 * count.drawn >= count.of;
     let lower = least(&below);
     let is_sharp = lower.is_none() && is_many(&wrong[0]);
@@ -210,21 +212,25 @@ fn between(room: &mut Room, from: i64, to: i64, number: usize) -> i64 {
     room.rng.int(low, high)
 }
 
-/// Makes shapes with measures between two numbers and asks for them. `make` makes one of about a measure and says which it
-/// has, and `are_wrong` says of each whether it is drawn wrongly, or that this is open; nothing where too few were answered.
-fn probe<S>(
+/// Shapes with measures between two numbers. `make` makes one of about a measure and says which it has.
+fn shapes<S>(
     room: &mut Room,
     [from, to]: [i64; 2],
     make: impl Fn(&mut Room, i64) -> (i64, S),
-    are_wrong: impl FnOnce(&[S]) -> Option<Vec<Option<bool>>>,
-) -> Option<Vec<ShapeAnswer>> {
+) -> (Vec<i64>, Vec<S>) {
     let shapes = (0..AT_ONCE).map(|number| {
         let measure = between(room, from, to, number);
         make(room, measure)
     });
-    let shapes = shapes.filter(|(measure, _)| (from..=to).contains(measure));
-    let (measures, shapes): (Vec<i64>, Vec<S>) = shapes.unzip();
-    let are_wrong = are_wrong(&shapes)?;
+    shapes.filter(|(measure, _)| (from..=to).contains(measure)).unzip()
+}
+
+/// Shapes of these measures, of which it is known whether they are drawn wrongly, or that this is open; nothing where too few were
+/// answered.
+fn answered(measures: Vec<i64>, are_wrong: Vec<Option<bool>>) -> Option<Vec<ShapeAnswer>> {
+    if are_wrong.len() < measures.len() {
+        return None;
+    }
     let seen = measures.into_iter().zip(are_wrong);
     Some(
         seen.filter_map(|(measure, is_wrong)| Some(ShapeAnswer { measure, is_wrong: is_wrong? }))
@@ -233,8 +239,8 @@ fn probe<S>(
 }
 
 /// The limits of a rasterizer that is expected to follow a convention.
-pub(super) fn of_triangles(
-    ask: &mut dyn Ask,
+pub(super) async fn of_triangles(
+    asker: &TriangleAsker,
     known: &Declarations,
     expected: &TriangleConvention,
 ) -> Vec<Threshold> {
@@ -265,18 +271,17 @@ pub(super) fn of_triangles(
             let nearest = far.map(|(_, limit)| limit.wrong_from / per_px).min();
             high = high.min(nearest.unwrap_or(i64::MAX) - i64::from(SIDE_PX));
         }
-        let limit = search(low, high, &mut |from, to| {
+        let limit = search(low, high, async |from, to| {
             let make = |room: &mut Room, measure| triangle(room, axis, measure, sample);
-            probe(&mut room, [from, to], make, |shapes| {
-                let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
-                let answers = ask.ask(&questions);
-                let is_wrong = |(shape, answer): (&Shape, Option<Coverage>)| {
-                    Some(!shape.is_drawn(answer.as_ref()?, expected)?)
-                };
-                (answers.len() == questions.len())
-                    .then(|| shapes.iter().zip(answers).map(is_wrong).collect())
-            })
+            let (measures, shapes) = shapes(&mut room, [from, to], make);
+            let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
+            let answers = asker.ask(&questions).await;
+            let is_wrong = |(shape, answer): (&Shape, Option<Coverage>)| {
+                Some(!shape.is_drawn(answer.as_ref()?, expected)?)
+            };
+            answered(measures, shapes.iter().zip(answers).map(is_wrong).collect())
         });
+        let limit = limit.await;
         found.extend(limit.map(|limit| (axis, limit)));
     }
     // Large triangles have large coordinates: the measure that tells more is kept.
@@ -316,8 +321,8 @@ pub(super) fn near(
 const NEAR_A_LIMIT: usize = 24;
 
 /// The limits of a line drawer.
-pub(super) fn of_lines(
-    ask: &mut dyn AskLine,
+pub(super) async fn of_lines(
+    asker: &LineAsker,
     known: &Declarations,
     expected: &LineConvention,
 ) -> Vec<Threshold> {
@@ -327,21 +332,20 @@ pub(super) fn of_lines(
     for axis in [Axis::Size, Axis::Slope] {
         // A short line has few slopes.
         let high = if axis == Axis::Size { longest } else { longest / 4 };
-        let limit = search(4, high, &mut |from, to| {
+        let limit = search(4, high, async |from, to| {
             let make = |room: &mut Room, measure| line(room, axis, measure, longest);
-            probe(&mut room, [from, to], make, |questions| {
-                let answers = ask.ask_lines(questions);
-                let is_wrong = |(question, answer): (&LineQuestion, Option<Vec<[i32; 2]>>)| {
-                    let ends = question.ends.map_array(|end| end.map_array(i64::from));
-                    let right = lines::of_convention(expected, ends, question.window)?;
-                    let answer = answer?;
-                    let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
-                    Some(lines::mask(&pixels, question.window) != right)
-                };
-                (answers.len() == questions.len())
-                    .then(|| questions.iter().zip(answers).map(is_wrong).collect())
-            })
+            let (measures, questions) = shapes(&mut room, [from, to], make);
+            let answers = asker.ask(&questions).await;
+            let is_wrong = |(question, answer): (&LineQuestion, Option<Vec<[i32; 2]>>)| {
+                let ends = question.ends.map_array(|end| end.map_array(i64::from));
+                let right = lines::of_convention(expected, ends, question.window)?;
+                let answer = answer?;
+                let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
+                Some(lines::mask(&pixels, question.window) != right)
+            };
+            answered(measures, questions.iter().zip(answers).map(is_wrong).collect())
         });
+        let limit = limit.await;
         // Slopes are those of lines that are not too long.
         longest = limit.as_ref().map_or(longest, |limit| limit.wrong_from - 1);
         found.extend(limit.map(|limit| threshold(axis, "lines", 1, limit)));
@@ -584,6 +588,7 @@ const WORDS: [(i32, &str); 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ask::Search;
     use crate::mistakes;
     use rasterproof_core::contract::Rasterize as _;
     use rasterproof_core::raster::scanline::Scanline;
@@ -592,19 +597,18 @@ mod tests {
 
     /// The limits of a right rasterizer that leaves a pixel out of triangles of a kind.
     fn limits(is_wrong: IsWrong<'_>) -> Vec<Threshold> {
-        let mut ask = |questions: &[TriangleQuestion]| {
-            let draw = |question: &TriangleQuestion| {
-                let mut picture = Coverage::new(question.window, 0);
-                let mut first = is_wrong(question);
-                Scanline.cover(question.corners, question.window, |s| {
-                    picture.hit(s.y_px, s.x0_px + i32::from(first), s.x1_px);
-                    first = false;
-                });
-                Some(picture)
-            };
-            questions.iter().map(draw).collect::<Vec<_>>()
+        let draw = |question: &TriangleQuestion| {
+            let mut picture = Coverage::new(question.window, 0);
+            let mut first = is_wrong(question);
+            Scanline.cover(question.corners, question.window, |s| {
+                picture.hit(s.y_px, s.x0_px + i32::from(first), s.x1_px);
+                first = false;
+            });
+            Some(picture)
         };
-        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default())
+        let (known, expected) = (Declarations::default(), TriangleConvention::default());
+        Search::new(async |asker| of_triangles(&asker, &known, &expected).await)
+            .answered_by(|questions| questions.iter().map(draw).collect())
     }
 
     fn sides(corners: &Corners) -> [i64; 2] {
@@ -662,24 +666,23 @@ mod tests {
     #[test]
     fn limits_of_lines_are_found() {
         let convention = LineConvention::default();
-        let mut ask = |questions: &[LineQuestion]| {
-            let draw = |question: &LineQuestion| {
-                let [[x0, y0], [x1, y1]] = question.ends;
-                let steps = (i64::from(x1) - i64::from(x0))
-                    .abs()
-                    .max((i64::from(y1) - i64::from(y0)).abs());
-                let mut pixels = convention.pixels(question)?;
-                if steps > 16_384 {
-                    pixels.pop();
-                }
-                Some(pixels)
-            };
-            questions.iter().map(draw).collect::<Vec<_>>()
+        let draw = |question: &LineQuestion| {
+            let [[x0, y0], [x1, y1]] = question.ends;
+            let steps =
+                (i64::from(x1) - i64::from(x0)).abs().max((i64::from(y1) - i64::from(y0)).abs());
+            let mut pixels = convention.pixels(question)?;
+            if steps > 16_384 {
+                pixels.pop();
+            }
+            Some(pixels)
         };
-        let found = of_lines(&mut ask, &Declarations::default(), &convention);
+        let answer = |questions: &[LineQuestion]| questions.iter().map(draw).collect();
+        let known = Declarations::default();
+        let found = Search::new(async |asker| of_lines(&asker, &known, &convention).await);
+        let found = found.answered_by(answer);
         assert!(found[0].to_string().contains("lines are wrong from 16385 steps on"), "{found:?}");
-        let found = mistakes::of_lines(&mut ask, &Declarations::default(), None, &[]);
-        let found = found.unwrap();
+        let found = Search::new(async |asker| mistakes::of_lines(&asker, &known, None, &[]).await);
+        let found = found.answered_by(answer).unwrap();
         assert_eq!(found.limits.len(), 1, "{found}");
     }
 }

@@ -63,7 +63,9 @@ enum Request {
     /// The verdict about the pixels that the GPU drew in one picture.
     GpuJudge(Box<crate::gpu::Judge>),
     /// Why triangles are drawn wrongly, picture by picture.
-    GpuCause(crate::gpu::Cause),
+    GpuCause(Box<crate::gpu::Judge>),
+    /// The smaller cases that the GPU draws next, of a search for the smallest one that fails.
+    GpuSmaller(Box<crate::gpu::Judge>),
 }
 
 /// The answer to a question, or why it makes no sense or cannot be drawn.
@@ -91,7 +93,8 @@ fn ask(question: Request) -> Result<Value, String> {
         Request::GpuPlan(plan) => Ok(plan.answer()),
         Request::GpuBatch(batch) => batch.answer(),
         Request::GpuJudge(judge) => judge.answer(),
-        Request::GpuCause(cause) => cause.answer(),
+        Request::GpuCause(judge) => judge.cause(),
+        Request::GpuSmaller(judge) => judge.smaller(),
     }
 }
 

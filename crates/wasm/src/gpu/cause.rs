@@ -1,109 +1,107 @@
-//! Why a browser covers other pixels than it may: the questions that an engine of this process is asked, whose answers come later.
+//! Why a browser covers other pixels than it may: the search for the cause lies here between two pictures.
 //!
-//! Nobody can wait here for a picture. The search for a cause is therefore begun anew with each one: it finds the answers
-//! that are known, notes the questions that are not, and ends. The page draws these and asks again, until the search comes to its end.
+//! Nobody can wait here for a picture. The search says what to ask next; the page draws it, and the search goes on with the pixels.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 
+use super::judge::{Judge, Pixels};
 use super::subjects::triangle;
-use super::{Device, Layout, Topic};
+use super::{Batch, Device, Layout, Topic};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
-use rasterproof_verify::comparison::{self, Convention};
-use rasterproof_verify::convention::{Ask, Declarations, TriangleQuestion};
-use serde::Deserialize;
+use rasterproof_verify::ask::Step;
+use rasterproof_verify::comparison::{self, CauseSearch, Convention};
+use rasterproof_verify::convention::{Declarations, TriangleQuestion};
 use serde_json::{Value, json};
-
-/// Asks for the next picture, or the cause where everything was answered.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Cause {
-    device: Device,
-    /// The hits of the picture before, row by row, as digits from 0; none begins a search.
-    pixels: Option<String>,
-}
 
 /// Cells of the largest window that is asked for. Corners may lie [`REACH`] cells away.
 const LAYOUT: Layout = Layout { side: 1024, cell: 32, margin: REACH, scissor: true };
 const REACH: i32 = 3;
 
-#[derive(Default)]
-struct GivenAnswers {
-    answered: HashMap<TriangleQuestion, Coverage>,
-    /// Questions of the last picture, one for each cell.
-    waiting: Vec<TriangleQuestion>,
+/// A search that waits for a picture.
+struct WaitingSearch {
+    search: CauseSearch,
+    /// What it asks at once, which may need more than one picture, and the answers so far.
+    questions: Vec<TriangleQuestion>,
+    answers: Vec<Option<Coverage>>,
+    /// How many questions were answered in all.
+    answered: usize,
 }
 
 thread_local! {
-    static ASKED: RefCell<GivenAnswers> = RefCell::default();
+    static WAITING: RefCell<Option<WaitingSearch>> = const { RefCell::new(None) };
 }
 
-impl GivenAnswers {
-    fn take(&mut self, pixels: &str) -> Result<(), String> {
-        let side = LAYOUT.side as usize;
-        let pixels = pixels.as_bytes();
-        if pixels.len() != side * side {
-            return Err(format!("{} pixels for {side} x {side} px", pixels.len()));
-        }
-        for (index, question) in std::mem::take(&mut self.waiting).into_iter().enumerate() {
-            let [x0, y0] = LAYOUT.origin(index);
-            let mut picture = Coverage::new(question.window, 0);
-            for y in 0..question.window.y1 {
-                for x in 0..question.window.x1 {
-                    let hits = pixels[(y0 + y) as usize * side + (x0 + x) as usize];
-                    (0..hits.wrapping_sub(b'0').min(9)).for_each(|_| picture.hit(y, x, x + 1));
-                }
+impl WaitingSearch {
+    fn new(device: Device) -> Self {
+        let declared = Convention::default();
+        let finest = SUBPIXELS / device.step();
+        let known = Declarations {
+            grid: [256, 64, 16].into_iter().find(|grid| *grid <= finest).unwrap_or(1),
+            range_px: REACH * LAYOUT.cell,
+            window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
+            ..Declarations::from(&declared)
+        };
+        let search = comparison::Cause::search(known, declared, None);
+        Self { search, questions: Vec::new(), answers: Vec::new(), answered: 0 }
+    }
+
+    /// The questions of the next picture, one for each cell.
+    fn of_picture(&self) -> &[TriangleQuestion] {
+        let rest = &self.questions[self.answers.len()..];
+        &rest[..rest.len().min(LAYOUT.room())]
+    }
+
+    /// Reads the answers off a picture.
+    fn take(&mut self, device: Device, pixels: &str) -> Result<(), String> {
+        let read = Pixels::read(Topic::Coverage, device, LAYOUT, pixels)?;
+        let answer = |(index, question): (usize, &TriangleQuestion)| {
+            let (cell, window) = (read.cell(index), question.window);
+            let mut picture = Coverage::new(window, 0);
+            for y in 0..window.y1 {
+                picture.row_mut(y).copy_from_slice(&cell.row(y)[..window.x1 as usize]);
             }
-            self.answered.insert(question, picture);
-        }
+            Some(picture)
+        };
+        let answers: Vec<_> = self.of_picture().iter().enumerate().map(answer).collect();
+        self.answered += answers.len();
+        self.answers.extend(answers);
         Ok(())
     }
-}
 
-impl Ask for GivenAnswers {
-    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
-        if self.is_abandoned() {
-            return Vec::new();
+    /// Goes on until a picture is needed; the cause at the end.
+    fn go_on(&mut self) -> Option<comparison::Cause> {
+        while self.of_picture().is_empty() {
+            self.search.answer(std::mem::take(&mut self.answers));
+            match self.search.step() {
+                Step::Asks(questions) => self.questions = questions,
+                Step::Found(cause) => return Some(cause),
+            }
         }
-        let answers: Vec<_> = questions.iter().map(|q| self.answered.get(q).cloned()).collect();
-        let open = questions.iter().zip(&answers).filter(|(_, answer)| answer.is_none());
-        self.waiting.extend(open.map(|(question, _)| *question).take(LAYOUT.room()));
-        answers
-    }
-
-    /// As many as a picture holds, since each picture begins the search anew.
-    fn at_once(&self) -> usize {
-        LAYOUT.room()
-    }
-
-    /// After the first questions without an answer the search goes astray.
-    fn is_abandoned(&self) -> bool {
-        !self.waiting.is_empty()
+        None
     }
 }
 
-impl Cause {
-    pub fn answer(&self) -> Result<Value, String> {
-        ASKED.with_borrow_mut(|asked| {
-            match &self.pixels {
-                Some(pixels) => asked.take(pixels)?,
-                None => *asked = GivenAnswers::default(),
+impl Judge {
+    /// The next picture, or the cause where everything was answered. Without pixels a search begins; it goes on with the hits of the
+    /// picture before, row by row, as digits from 0.
+    pub fn cause(&self) -> Result<Value, String> {
+        let Self { batch: Batch { device, .. }, pixels, .. } = self;
+        WAITING.with_borrow_mut(|waiting| {
+            if pixels.is_empty() {
+                *waiting = Some(WaitingSearch::new(*device));
             }
-            let declared = Convention::default();
-            let finest = SUBPIXELS / self.device.step();
-            let known = Declarations {
-                grid: [256, 64, 16].into_iter().find(|grid| *grid <= finest).unwrap_or(1),
-                range_px: REACH * LAYOUT.cell,
-                window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
-                ..Declarations::from(&declared)
-            };
-            let found = comparison::Cause::by_asking(asked, &known, &declared, None);
-            if asked.waiting.is_empty() {
-                return Ok(json!({ "cause": found.headline(), "asked": asked.answered.len() }));
+            let search = waiting.as_mut().ok_or("no search waits for a picture")?;
+            if !pixels.is_empty() {
+                search.take(*device, pixels)?;
             }
-            let drawn = asked.waiting.iter().map(|question| triangle(question.corners));
-            Ok(self.device.picture(Topic::Coverage, LAYOUT, drawn))
+            if let Some(found) = search.go_on() {
+                let asked = search.answered;
+                *waiting = None;
+                return Ok(json!({ "cause": found.headline(), "asked": asked }));
+            }
+            let drawn = search.of_picture().iter().map(|question| triangle(question.corners));
+            Ok(device.picture(Topic::Coverage, LAYOUT, drawn))
         })
     }
 }
@@ -120,10 +118,16 @@ mod tests {
     use rasterproof_core::triangle::Corners;
     use rasterproof_verify::oracle::Oracle;
 
+    /// The question that begins a search.
+    fn question(interface: &str, bits: u32) -> Value {
+        let device = json!({ "interface": interface, "bits": bits, "samples_apart": true });
+        let batch = json!({ "check": "coverage", "device": device, "seed": 1 });
+        json!({ "ask": "gpu-cause", "batch": batch, "pixels": "", "tally": {} })
+    }
+
     /// What is said of a device that moves corners before it draws them rightly, and in how many pictures.
     fn said(bits: u32, moves: &dyn Fn(Corners) -> Option<Corners>) -> (String, usize) {
-        let device = json!({ "interface": "webgpu", "bits": bits, "samples_apart": true });
-        let mut question = json!({ "ask": "gpu-cause", "device": device });
+        let mut question = question("webgpu", bits);
         for pictures in 0.. {
             let reply: Value = serde_json::from_str(&answer(&question.to_string())).unwrap();
             assert!(reply["error"].is_null(), "{reply}");
@@ -161,10 +165,25 @@ mod tests {
     #[test]
     fn any_number_of_bits_is_taken() {
         for bits in [0, 9, u32::MAX] {
-            let device = json!({ "interface": "webgl2", "bits": bits, "samples_apart": false });
-            let reply = answer(&json!({ "ask": "gpu-cause", "device": device }).to_string());
+            let reply = answer(&question("webgl2", bits).to_string());
             assert!(reply.contains("vertices"), "{reply}");
         }
+    }
+
+    /// Neither what nobody waits for nor a picture of another size is taken, and a search that waits goes on afterwards.
+    #[test]
+    fn other_pictures_are_refused() {
+        let ask = |pixels: &str| -> Value {
+            let mut question = question("webgpu", 8);
+            question["pixels"] = json!(pixels);
+            serde_json::from_str(&answer(&question.to_string())).unwrap()
+        };
+        let whole = "0".repeat(1024 * 1024);
+        assert_eq!(ask(&whole)["error"], "no search waits for a picture");
+        let first = ask("");
+        assert_eq!(ask("00")["error"], "2 bytes of pixels for 1024 x 1024 px");
+        let second = ask(&whole);
+        assert!(second["subjects"].is_number() && second["vertices"] != first["vertices"]);
     }
 
     #[test]

@@ -280,3 +280,24 @@ pub(super) fn line_fits(device: Device, ends: &Ends, lit: &Pixels, cell: i32) ->
         segments::parallelogram(ends, lit, cell, step),
     ]
 }
+
+/// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
+/// device's lattice, and do not overlap; two share an edge.
+pub(super) fn is_tiling(subject: &Drawing, cell: i32) -> bool {
+    let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
+    let is_thick = |t: &Vec<Vertex>| {
+        let longest = [(0, 1), (1, 2), (2, 0)]
+            .map(|(i, j)| (t[i][0] - t[j][0]).powi(2) + (t[i][1] - t[j][1]).powi(2))
+            .into_iter()
+            .fold(0.0, f64::max);
+        area(t).powi(2) >= longest / 4.0
+    };
+    let [first, rest @ ..] = &subject.0[..] else { return false };
+    let shares = |t: &Vec<Vertex>| edges(first).iter().any(|[a, b]| edges(t).contains(&[*b, *a]));
+    let is_apart = match rest {
+        [] => true,
+        [second] => shares(second),
+        _ => covered(subject, cell).iter().all(|hits| *hits <= 1),
+    };
+    is_apart && subject.0.iter().all(|t| turns(t) && is_thick(t))
+}

@@ -1,8 +1,7 @@
 //! Compares what was read back with what is expected.
 
-use super::expected::{Forgiving, Planes, expected, line_fits, planes};
+use super::expected::{Forgiving, Planes, expected, is_tiling, line_fits, planes};
 use super::place::{Place, RULES, cover, place};
-use super::shrink::is_tiling;
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -21,10 +20,10 @@ use serde_json::{Value, json};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Judge {
-    batch: Batch,
+    pub(super) batch: Batch,
     /// Row by row a character for each pixel and plane: the digit 0 for no hit, and so on in the order of
     /// ASCII. Of values, four f32 for each pixel in base64.
-    pixels: String,
+    pub(super) pixels: String,
     /// What came of the batches before.
     tally: Tally,
 }
@@ -90,22 +89,12 @@ impl Judge {
                 "the triangles overlap, share no edge, turn differently, or are thin".to_owned()
             );
         }
-        let count = planes(check, device);
-        let values = check == Topic::Values;
-        let bytes = match values {
-            true => STANDARD.decode(&self.pixels).map_err(|e| e.to_string())?,
-            false => self.pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
-        };
-        let size = if values { 16 } else { count };
-        if bytes.len() != (layout.side * layout.side) as usize * size {
-            let side = layout.side;
-            return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()));
-        }
+        let read = Pixels::read(check, device, layout, &self.pixels)?;
         let mut tally = self.tally.clone();
         let mut examples: [Option<&Drawing>; 2] = [None, None];
         let (mut coarse, mut view) = (None, Value::Null);
         for (index, subject) in list.iter().enumerate() {
-            let cell = Cell { layout, origin: layout.origin(index), bytes: &bytes, size };
+            let cell = read.cell(index);
             let judged = judged(check, device, subject, &cell);
             judged.add_to(&mut tally, subject);
             let word = judged.word();
@@ -115,12 +104,8 @@ impl Judge {
                     example.get_or_insert(subject);
                 }
             }
-            if check == Topic::Lattice && is_coarse(&judged.explained) {
+            if check == Topic::Lattice && judged.fails(check, device) {
                 coarse.get_or_insert(subject);
-            }
-            // Of smaller subjects the first that fails is all that is asked for.
-            if self.batch.smaller.is_some() && (coarse.is_some() || examples[0].is_some()) {
-                break;
             }
             if self.batch.only.is_some() {
                 view = judged.view(check, device, subject, &cell);
@@ -130,8 +115,7 @@ impl Judge {
         let mut word = word(check, device, &tally);
         // One case alone breaks no promise about the lattice: all together do, and this one is why.
         if check == Topic::Lattice {
-            let is_asked = self.batch.smaller.is_some() || word == Standing::Outside;
-            broken = coarse.filter(|_| is_asked && device.interface == Interface::Webgl2);
+            broken = coarse.filter(|_| word == Standing::Outside);
             if self.batch.only.is_some() {
                 word = if tally.free > 0 { Standing::Allowed } else { Standing::Equal };
             }
@@ -143,7 +127,56 @@ impl Judge {
     }
 }
 
-struct Cell<'a> {
+/// The subjects of a picture that fail.
+pub(super) fn failing(
+    check: Topic,
+    device: Device,
+    layout: Layout,
+    pixels: &str,
+    subjects: &[Drawing],
+) -> Result<Vec<bool>, String> {
+    let read = Pixels::read(check, device, layout, pixels)?;
+    let fails = |(index, subject): (usize, &Drawing)| {
+        judged(check, device, subject, &read.cell(index)).fails(check, device)
+    };
+    Ok(subjects.iter().enumerate().map(fails).collect())
+}
+
+/// What was read back of a picture.
+pub(super) struct Pixels {
+    layout: Layout,
+    bytes: Vec<u8>,
+    /// Bytes of a pixel.
+    size: usize,
+}
+
+impl Pixels {
+    pub(super) fn read(
+        check: Topic,
+        device: Device,
+        layout: Layout,
+        pixels: &str,
+    ) -> Result<Self, String> {
+        let values = check == Topic::Values;
+        let bytes = match values {
+            true => STANDARD.decode(pixels).map_err(|e| e.to_string())?,
+            false => pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
+        };
+        let size = if values { 16 } else { planes(check, device) };
+        if bytes.len() != (layout.side * layout.side) as usize * size {
+            let side = layout.side;
+            return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()));
+        }
+        Ok(Self { layout, bytes, size })
+    }
+
+    pub(super) fn cell(&self, index: usize) -> Cell<'_> {
+        let Self { layout, ref bytes, size } = *self;
+        Cell { layout, origin: layout.origin(index), bytes, size }
+    }
+}
+
+pub(super) struct Cell<'a> {
     layout: Layout,
     origin: [i32; 2],
     bytes: &'a [u8],
@@ -151,7 +184,7 @@ struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    fn row(&self, y: i32) -> &[u8] {
+    pub(super) fn row(&self, y: i32) -> &[u8] {
         let [x0, y0] = self.origin;
         let start = ((y0 + y) * self.layout.side + x0) as usize * self.size;
         &self.bytes[start..start + self.layout.cell as usize * self.size]
@@ -359,6 +392,14 @@ impl PictureJudgement {
         self.marks.iter().map(|mark| mark.word).max().unwrap_or(Standing::Equal)
     }
 
+    /// Whether it breaks a promise, or, of the lattice, would break one if all others were like it.
+    fn fails(&self, check: Topic, device: Device) -> bool {
+        match check {
+            Topic::Lattice => device.interface == Interface::Webgl2 && is_coarse(&self.explained),
+            _ => self.word() == Standing::Outside,
+        }
+    }
+
     fn add_to(&self, tally: &mut Tally, Drawing(shapes): &Drawing) {
         tally.subjects += 1;
         tally.shapes += shapes.len() as u64;
@@ -443,7 +484,7 @@ fn facts(check: Topic, tally: &Tally) -> Value {
 #[cfg(test)]
 mod tests {
     use super::super::Vertex;
-    use super::super::shrink::size;
+    use super::super::shrink::{asked, size};
     use super::super::subjects::PLAN;
     use super::*;
     use serde_json::from_value;
@@ -472,10 +513,22 @@ mod tests {
     ) -> Value {
         let batch = batch(check, interface, more);
         let (layout, list) = batch.subjects().unwrap();
-        let size = planes(batch.check, batch.device);
+        let pixels = drawn(batch.check, batch.device, layout, &list, spoil);
+        Judge { batch, pixels, tally: Tally::default() }.answer().unwrap()
+    }
+
+    /// The picture of subjects on such a device.
+    fn drawn(
+        check: Topic,
+        device: Device,
+        layout: Layout,
+        list: &[Drawing],
+        spoil: &dyn Fn(&Drawing, &mut Planes),
+    ) -> String {
+        let size = planes(check, device);
         let mut pixels = vec![b'0'; (layout.side * layout.side) as usize * size];
         for (index, subject) in list.iter().enumerate() {
-            let mut hits = expected(batch.check, batch.device, subject, layout.cell);
+            let mut hits = expected(check, device, subject, layout.cell);
             spoil(subject, &mut hits);
             let [x0, y0] = layout.origin(index);
             for (plane, hits) in hits.iter().enumerate() {
@@ -485,8 +538,34 @@ mod tests {
                 }
             }
         }
-        let pixels = String::from_utf8(pixels).unwrap();
-        Judge { batch, pixels, tally: Tally::default() }.answer().unwrap()
+        String::from_utf8(pixels).unwrap()
+    }
+
+    /// The smallest subject that fails, of a device that draws pictures so, and those that it was reached through.
+    fn shrunk(
+        check: &str,
+        subject: Value,
+        draw: &dyn Fn(Topic, Device, Layout, &[Drawing]) -> String,
+    ) -> (Drawing, Vec<Drawing>) {
+        let (pixels, tally) = (String::new(), Tally::default());
+        let mut question =
+            Judge { batch: batch(check, "webgl2", json!({ "only": subject })), pixels, tally };
+        let Batch { check, device, .. } = question.batch;
+        let mut through = Vec::new();
+        loop {
+            let reply = question.smaller().unwrap();
+            let smallest: Drawing = from_value(reply["smallest"].clone()).unwrap();
+            if through.last() != Some(&smallest) {
+                through.push(smallest.clone());
+            }
+            let (layout, list) = asked(check);
+            assert_eq!(reply["subjects"], list.len());
+            if list.is_empty() {
+                return (smallest, through);
+            }
+            question.batch.only = None;
+            question.pixels = draw(check, device, layout, &list);
+        }
     }
 
     #[test]
@@ -585,8 +664,11 @@ mod tests {
     fn a_coarse_lattice_is_shown() {
         let coarse = rounding(32, 1);
         let found = answer("lattice", "webgl2", json!({}), &coarse)["broken"].clone();
-        let smaller = answer("lattice", "webgl2", json!({ "smaller": found }), &coarse);
-        let only = json!({ "only": smaller["broken"] });
+        let draw =
+            |check, device, layout, list: &[Drawing]| drawn(check, device, layout, list, &coarse);
+        let (smallest, through) = shrunk("lattice", found, &draw);
+        assert!(through.len() > 1, "{through:?}");
+        let only = json!({ "only": smallest });
         let alone = answer("lattice", "webgl2", only.clone(), &coarse);
         assert_eq!(alone["word"], "allowed");
         assert!(alone["facts"]["finest"].as_u64() < Some(4), "{}", alone["facts"]);
@@ -598,36 +680,21 @@ mod tests {
     /// Smaller cases lie on the device's lattice and in the cell, and lead to one that is smaller still.
     #[test]
     fn smaller_cases_are_asked() {
-        let asked = |more: Value| batch("coverage", "webgl2", more).subjects().unwrap();
-        let device = batch("coverage", "webgl2", json!({})).device;
-        let mut subject = asked(json!({ "number": 4 })).1[0].clone();
-        let mut rounds = 0;
-        loop {
-            let (layout, list) = asked(json!({ "smaller": subject }));
-            // Fails while it covers anything.
-            let fails =
-                |s: &Drawing| expected(Topic::Coverage, device, s, layout.cell)[0].contains(&1);
-            let Some(next) = list.into_iter().find(fails) else { break };
+        let (_, list) = batch("coverage", "webgl2", json!({ "number": 4 })).subjects().unwrap();
+        // Fails where it covers anything.
+        let draw = |check, device, layout: Layout, list: &[Drawing]| {
             let on_lattice = |v: i32| v % 16 == 0 && (0..=layout.cell * SUBPIXELS).contains(&v);
-            assert!(next.corners().iter().flatten().all(|p| on_lattice(p.x) && on_lattice(p.y)));
-            subject = next;
-            rounds += 1;
-        }
-        assert!(rounds > 3, "{rounds}");
+            let mut corners = list.iter().flat_map(Drawing::corners).flatten();
+            assert!(corners.all(|p| on_lattice(p.x) && on_lattice(p.y)));
+            let twice = |_: &Drawing, planes: &mut Planes| {
+                planes[0].iter_mut().for_each(|hits| *hits *= 2);
+            };
+            drawn(check, device, layout, list, &twice)
+        };
+        let (subject, through) = shrunk("coverage", json!(list[0]), &draw);
+        assert!(through.len() > 3, "{}", through.len());
         let px: Vec<_> = subject.corners()[0].iter().map(|p| (p.x.max(p.y)) / SUBPIXELS).collect();
         assert!(px.iter().all(|px| *px <= 2), "{subject:?}");
-    }
-
-    /// Goes on from a case to the next smaller one that still fails, up to so many times.
-    fn shrunk(mut subject: Value, most: usize, next: impl Fn(&Value) -> Value) -> Vec<Vec<Vertex>> {
-        for _ in 0..most {
-            let next = next(&subject);
-            if next.is_null() {
-                break;
-            }
-            subject = next;
-        }
-        from_value::<Drawing>(subject).unwrap().0
     }
 
     /// The smallest case of the first that a device draws wrongly.
@@ -636,7 +703,9 @@ mod tests {
         let all = batch(check, "webgl2", json!({})).subjects().unwrap().1;
         let mut wrong =
             all.into_iter().map(|s| found(json!({ "only": s }))).filter(|s| !s.is_null());
-        shrunk(wrong.next().unwrap(), 200, |subject| found(json!({ "smaller": subject })))
+        let draw =
+            |check, device, layout, list: &[Drawing]| drawn(check, device, layout, list, draws);
+        shrunk(check, wrong.next().unwrap(), &draw).0.0
     }
 
     /// The planted faults of each kind of subject lead to cases of so many shapes, in so many px.
@@ -710,9 +779,14 @@ mod tests {
     }
 
     /// What comes of values that are exact but for their rounding to f32, in perspective or without.
-    fn valued(more: Value, affine: bool) -> Value {
-        let batch = batch("values", "webgl2", more);
+    fn valued(affine: bool) -> Value {
+        let batch = batch("values", "webgl2", json!({}));
         let (layout, list) = batch.subjects().unwrap();
+        let pixels = drawn_values(layout, &list, affine);
+        Judge { batch, pixels, tally: Tally::default() }.answer().unwrap()
+    }
+
+    fn drawn_values(layout: Layout, list: &[Drawing], affine: bool) -> String {
         let mut bytes = vec![0u8; (layout.side * layout.side) as usize * 16];
         for (index, subject) in list.iter().enumerate() {
             let mut t = subject.triangles()[0];
@@ -739,19 +813,18 @@ mod tests {
                 }
             }
         }
-        Judge { batch, pixels: STANDARD.encode(bytes), tally: Tally::default() }.answer().unwrap()
+        STANDARD.encode(bytes)
     }
 
     /// Values a step of f32 away are as promised; those of a plane without perspective break the promise, and a
     /// small triangle shows it.
     #[test]
     fn values_by_their_bounds() {
-        assert_eq!(valued(json!({}), false)["word"], "equal");
-        let wrong = valued(json!({}), true);
+        assert_eq!(valued(false)["word"], "equal");
+        let wrong = valued(true);
         assert_eq!(wrong["word"], "outside");
-        let smaller =
-            |subject: &Value| valued(json!({ "smaller": subject }), true)["broken"].clone();
-        let found = shrunk(wrong["broken"].clone(), 60, smaller);
+        let draw = |_, _, layout, list: &[Drawing]| drawn_values(layout, list, true);
+        let (Drawing(found), _) = shrunk("values", wrong["broken"].clone(), &draw);
         let (shapes, px, ..) = size(&found);
         assert!(shapes == 1 && px <= 4, "{found:?}");
     }

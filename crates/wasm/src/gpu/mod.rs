@@ -4,7 +4,8 @@
 //! The page asks for a batch of subjects, draws each in a cell of one picture, reads the picture back and
 //! sends it here to be judged: see `docs/your-gpu.md`. [`subjects`] makes the subjects of each check,
 //! [`place`] says where a sample lies with respect to a triangle, [`expected`] what each check expects, and
-//! [`judge`] compares. [`cause`] asks more of a device that covers other pixels than it may.
+//! [`judge`] compares. [`shrink`] makes a case that fails smaller, and [`cause`] asks more of a device that covers other pixels than it may:
+//! both are searches that lie here between two pictures.
 
 mod cause;
 mod expected;
@@ -18,7 +19,6 @@ use serde_json::{Value, json};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-pub(crate) use cause::Cause;
 pub(crate) use judge::Judge;
 use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
@@ -105,8 +105,6 @@ pub(crate) struct Batch {
     number: u64,
     /// This subject alone, in place of those of a number.
     only: Option<Drawing>,
-    /// The subjects that are a step smaller than this one; `number` says which of their pictures.
-    smaller: Option<Drawing>,
 }
 
 /// How cells lie in a picture.
@@ -167,15 +165,9 @@ impl Plan {
 impl Batch {
     fn subjects(&self) -> Result<(Layout, Vec<Drawing>), String> {
         let (mut layout, mut list) = subjects::of(self.check, self.device, self.seed, self.number);
-        if let Some(subject) = self.only.as_ref().or(self.smaller.as_ref()) {
+        if let Some(subject) = &self.only {
             layout = subjects::layout_for(self.check, subject)?;
             list = vec![subject.clone()];
-        }
-        if let Some(subject) = &self.smaller {
-            let room = layout.room();
-            let before = usize::try_from(self.number).unwrap_or(usize::MAX).saturating_mul(room);
-            list = shrink::smaller(self.check, self.device, subject, layout.cell);
-            list = list.into_iter().skip(before).collect();
         }
         list.truncate(layout.room());
         Ok((layout, list))

@@ -1,17 +1,92 @@
-//! The subjects that are a step smaller than one that fails. The page draws them all in one picture, and goes
-//! on from the first that still fails.
+//! The search for the smallest subject that fails. Subjects that are a step smaller are drawn in one picture, and the search goes on from
+//! the first of them that fails.
 
-use super::expected::{covered, edges};
-use super::subjects::{area, from_whole, triangle, whole};
-use super::{Device, Drawing, Topic, Vertex};
+use std::cell::RefCell;
+
+use super::expected::is_tiling;
+use super::judge::{Judge, failing};
+use super::subjects::{area, drawn, from_whole, layout_for, triangle, whole};
+use super::{Batch, Device, Drawing, Topic, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
-use rasterproof_verify::cases::shrink::smaller_cases;
+use rasterproof_verify::cases::shrink::{SmallerSearch, Steps, smaller_cases};
 use rasterproof_verify::cases::{Case, Shape};
+use serde_json::{Value, json};
+
+/// A search that waits for a picture, and the subjects in it.
+struct WaitingSearch {
+    search: SmallerSearch<Drawing>,
+    asked: Vec<Drawing>,
+}
+
+thread_local! {
+    static WAITING: RefCell<Option<WaitingSearch>> = const { RefCell::new(None) };
+}
+
+impl Judge {
+    /// The next picture of a search, which begins with a subject that fails, and goes on with the pixels of the picture before. At its
+    /// end there are no more subjects; `smallest` is what it has reached.
+    pub fn smaller(&self) -> Result<Value, String> {
+        let Batch { check, device, ref only, .. } = self.batch;
+        let steps = DrawingSteps { check, device };
+        WAITING.with_borrow_mut(|waiting| {
+            if let Some(subject) = only {
+                layout_for(check, subject)?;
+                let search = SmallerSearch::new(subject.clone(), &steps);
+                *waiting = Some(WaitingSearch { search, asked: Vec::new() });
+            }
+            let WaitingSearch { search, asked } =
+                waiting.as_mut().ok_or("no search waits for a picture")?;
+            if only.is_none() {
+                let layout = layout_for(check, &search.smallest)?;
+                let fails = failing(check, device, layout, &self.pixels, asked)?;
+                search.answer(&steps, &fails);
+            }
+            let layout = layout_for(check, &search.smallest)?;
+            *asked = search.next(&steps, layout.room());
+            let vertices = asked.iter().map(|subject| drawn(check, subject));
+            let mut picture = device.picture(check, layout, vertices);
+            picture["smallest"] = json!(search.smallest);
+            Ok(picture)
+        })
+    }
+}
+
+/// By which steps the subjects of a check get smaller.
+struct DrawingSteps {
+    check: Topic,
+    device: Device,
+}
+
+impl Steps for DrawingSteps {
+    type Case = Drawing;
+
+    fn candidates(&self, _: usize, subject: &Drawing) -> Vec<Drawing> {
+        let layout = layout_for(self.check, subject);
+        layout.map_or_else(
+            |_| Vec::new(),
+            |layout| smaller(self.check, self.device, subject, layout.cell),
+        )
+    }
+
+    /// Candidates are smaller as they are made.
+    fn is_step(&self, _: usize, _: &Drawing, _: &Drawing) -> bool {
+        true
+    }
+}
+
+/// How the subjects lie in the picture that is waited for, and these.
+#[cfg(test)]
+pub(super) fn asked(check: Topic) -> (super::Layout, Vec<Drawing>) {
+    WAITING.with_borrow(|waiting| {
+        let WaitingSearch { search, asked } = waiting.as_ref().unwrap();
+        (layout_for(check, &search.smallest).unwrap(), asked.clone())
+    })
+}
 
 /// The smaller subjects of a check, those that are much smaller first.
-pub(super) fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
+fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     match check {
         Topic::NearPlane => smaller_whole(subject),
         Topic::Tiling | Topic::Lines | Topic::Depth | Topic::Values => {
@@ -229,25 +304,4 @@ fn is_valid(check: Topic, device: Device, before: &Shapes, shapes: &Shapes, cell
         && shapes.iter().all(has_extent)
         && shapes.iter().all(is_one)
         && all_differ
-}
-
-/// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
-/// device's lattice, and do not overlap; two share an edge.
-pub(super) fn is_tiling(subject: &Drawing, cell: i32) -> bool {
-    let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
-    let is_thick = |t: &Vec<Vertex>| {
-        let longest = [(0, 1), (1, 2), (2, 0)]
-            .map(|(i, j)| (t[i][0] - t[j][0]).powi(2) + (t[i][1] - t[j][1]).powi(2))
-            .into_iter()
-            .fold(0.0, f64::max);
-        area(t).powi(2) >= longest / 4.0
-    };
-    let [first, rest @ ..] = &subject.0[..] else { return false };
-    let shares = |t: &Vec<Vertex>| edges(first).iter().any(|[a, b]| edges(t).contains(&[*b, *a]));
-    let is_apart = match rest {
-        [] => true,
-        [second] => shares(second),
-        _ => covered(subject, cell).iter().all(|hits| *hits <= 1),
-    };
-    is_apart && subject.0.iter().all(|t| turns(t) && is_thick(t))
 }

@@ -13,7 +13,7 @@ mod programs;
 mod samples;
 mod values;
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{OnceCell, RefCell};
 use std::collections::HashSet;
 use std::rc::Rc;
 
@@ -22,6 +22,7 @@ use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::facts::Topic;
+use rasterproof_verify::cases::shrink::SmallerSearch;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
 use rasterproof_verify::convention::Count;
 use rasterproof_verify::learn::Learned;
@@ -29,19 +30,19 @@ use rasterproof_verify::learn::rows::{
     Condition, ConditionTerms, Examples, Quantities, Vocabulary,
 };
 use rasterproof_verify::learn::trial::{
-    AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work, nearest,
+    self, AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Learn, Trial, Work,
+    nearest,
 };
 
 use super::area::AreaDrawn;
-use super::families;
 use super::sample_values::SampleShading;
 use super::wide::WideDrawn;
+use super::{StageAsker, families};
 use crate::adapt_case;
-use crate::ask::{Answer, Question, Subject};
+use crate::ask::{Answer, Question};
 use crate::check::{Check, Truth};
 use crate::declared::Declared;
-use crate::run::MOST_DEATHS;
-use crate::shrink::smaller;
+use crate::shrink::ProgramSteps;
 
 /// A question that the program was given, with its answer and what is computed of both.
 pub struct LearnedCase {
@@ -95,35 +96,26 @@ pub trait Learnable {
     fn says(change: &Self::Change) -> String;
 }
 
-/// Learns of a program that is wrong in a check, with as many questions at most.
-pub fn learn(
-    program: &mut dyn Subject,
-    check: Check,
-    truth: &Truth,
-    most: usize,
-) -> Option<Learned> {
+/// Learns of a program that is wrong in a check.
+pub async fn learn(asker: &StageAsker, check: Check, truth: &Truth) -> Option<Learned> {
     match check {
-        Check::Values => Learner::<values::Values>::new(program, check, truth, most).learn(),
-        Check::Samples => Learner::<samples::Samples>::new(program, check, truth, most).learn(),
-        Check::Depth => Learner::<depth::Depths>::new(program, check, truth, most).learn(),
+        Check::Values => Learner::<values::Values>::new(asker, check, truth).learn().await,
+        Check::Samples => Learner::<samples::Samples>::new(asker, check, truth).learn().await,
+        Check::Depth => Learner::<depth::Depths>::new(asker, check, truth).learn().await,
         Check::Near | Check::Carried => {
-            Learner::<near::Polygons>::new(program, check, truth, most).learn()
+            Learner::<near::Polygons>::new(asker, check, truth).learn().await
         }
-        Check::Wide => {
-            Learner::<pixels::Pixels<WideDrawn>>::new(program, check, truth, most).learn()
-        }
+        Check::Wide => Learner::<pixels::Pixels<WideDrawn>>::new(asker, check, truth).learn().await,
         Check::SampleValues => {
-            Learner::<pixels::Pixels<SampleShading>>::new(program, check, truth, most).learn()
+            Learner::<pixels::Pixels<SampleShading>>::new(asker, check, truth).learn().await
         }
-        Check::Area => {
-            Learner::<pixels::Pixels<AreaDrawn>>::new(program, check, truth, most).learn()
-        }
+        Check::Area => Learner::<pixels::Pixels<AreaDrawn>>::new(asker, check, truth).learn().await,
         _ => None,
     }
 }
 
 /// All questions that a program gets, at most.
-pub const MOST_TO_LEARN: usize = 2400;
+const MOST_TO_LEARN: usize = 2400;
 /// Questions before the first search, at most.
 const MOST_FIRST: usize = 900;
 /// New questions of each round: independent ones, and those beside wrong ones.
@@ -193,7 +185,7 @@ fn spread<T: Copy>(all: &[T], most: usize) -> Vec<T> {
 }
 
 struct Learner<'a, L: Learnable> {
-    program: &'a mut dyn Subject,
+    asker: &'a StageAsker,
     check: Check,
     truth: &'a Truth,
     /// Questions that may still be asked.
@@ -208,12 +200,12 @@ struct Learner<'a, L: Learnable> {
 }
 
 impl<'a, L: Learnable> Learner<'a, L> {
-    fn new(program: &'a mut dyn Subject, check: Check, truth: &'a Truth, most: usize) -> Self {
+    fn new(asker: &'a StageAsker, check: Check, truth: &'a Truth) -> Self {
         Self {
-            program,
+            asker,
             check,
             truth,
-            left: most.saturating_sub(NEAREST_ASKED),
+            left: asker.at_most(MOST_TO_LEARN).saturating_sub(NEAREST_ASKED),
             rng: Rng::new(L::TOPIC.name, SEED, 0),
             number: 0,
             answered: Vec::new(),
@@ -223,13 +215,13 @@ impl<'a, L: Learnable> Learner<'a, L> {
         }
     }
 
-    fn learn(mut self) -> Option<Learned> {
-        self.ask_first()?;
+    async fn learn(mut self) -> Option<Learned> {
+        self.ask_first().await?;
         if self.wrong().len() < LEAST_WRONG {
             return None;
         }
-        let (trial, chain) = self.explained()?;
-        Some(self.learned(trial, &chain))
+        let (trial, chain) = trial::explained(&mut self).await?;
+        Some(self.learned(trial, &chain).await)
     }
 
     fn wrong(&self) -> Vec<usize> {
@@ -237,14 +229,14 @@ impl<'a, L: Learnable> Learner<'a, L> {
     }
 
     /// Asks for more until there are enough wrong answers; nothing where the program stops answering.
-    fn ask_first(&mut self) -> Option<()> {
+    async fn ask_first(&mut self) -> Option<()> {
         while self.answered.len() < MOST_FIRST && self.left > 0 {
             let wrong = self.wrong();
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
                 break;
             }
             let cases = (0..AT_ONCE).map(|i| self.case(&wrong, i % 3 == 2)).collect();
-            self.ask(cases)?;
+            self.ask(cases).await?;
         }
         Some(())
     }
@@ -281,7 +273,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
         adapt_case::put(case, &self.truth.declared)
     }
 
-    fn ask(&mut self, cases: Vec<Case>) -> Option<()> {
+    async fn ask(&mut self, cases: Vec<Case>) -> Option<()> {
         let (mut single, mut questions) = (Vec::new(), Vec::new());
         for case in cases.into_iter().flat_map(|case| self.singles(case)) {
             let mut of_case = Vec::new();
@@ -293,7 +285,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
         }
         let count = questions.len().min(self.left);
         self.left -= count;
-        let answers = self.program.ask(&questions[..count], MOST_DEATHS);
+        let answers = self.asker.ask(&questions[..count]).await;
         if answers.len() < count {
             return None;
         }
@@ -325,10 +317,10 @@ impl<'a, L: Learnable> Learner<'a, L> {
         }
     }
 
-    fn ask_in_batches(&mut self, mut cases: Vec<Case>) -> Option<()> {
+    async fn ask_in_batches(&mut self, mut cases: Vec<Case>) -> Option<()> {
         while !cases.is_empty() && self.left > 0 {
             let rest = cases.split_off(cases.len().min(AT_ONCE));
-            self.ask(std::mem::replace(&mut cases, rest))?;
+            self.ask(std::mem::replace(&mut cases, rest)).await?;
         }
         Some(())
     }
@@ -359,22 +351,28 @@ impl<'a, L: Learnable> Learner<'a, L> {
 
     /// The smallest wrong case that is reached from the shortest one, and one beside it that differs in one number, or lacks one
     /// triangle, and comes out right.
-    fn nearest_right(&mut self) -> Option<String> {
+    async fn nearest_right(&mut self) -> Option<String> {
         let shortest =
             self.wrong().into_iter().min_by_key(|&i| self.answered[i].question.text(1).len())?;
         let case = self.answered[shortest].case.clone();
-        let (check, left) = (self.check, Cell::new(NEAREST_ASKED));
-        let this = RefCell::new(self);
-        let case = smaller(check, case, |case| {
-            left.set(left.get().saturating_sub(1));
-            left.get() > NEAREST_ASKED / 3 && this.borrow_mut().is_wrong_now(case) == Some(true)
-        });
-        let this = this.into_inner();
-        let wrong = this.text(&case)?;
-        let mut others = beside(&case).into_iter().take(left.get());
-        let right = others.find(|other| this.is_wrong_now(other) == Some(false))?;
-        let right = this.text(&right)?;
-        Some(format!("'{wrong}' comes out wrong; beside it, '{right}' comes out right."))
+        let steps = ProgramSteps::new(self.check, &case, &|_| true);
+        let mut search = SmallerSearch::new(case, &steps);
+        let mut left = NEAREST_ASKED;
+        while let Some(case) = search.next(&steps, 1).pop() {
+            left = left.saturating_sub(1);
+            let is_asked = left > NEAREST_ASKED / 3;
+            search.answer(&steps, &[is_asked && self.is_wrong_now(&case).await == Some(true)]);
+        }
+        let wrong = self.text(&search.smallest)?;
+        for other in beside(&search.smallest).into_iter().take(left) {
+            if self.is_wrong_now(&other).await == Some(false) {
+                let right = self.text(&other)?;
+                return Some(format!(
+                    "'{wrong}' comes out wrong; beside it, '{right}' comes out right."
+                ));
+            }
+        }
+        None
     }
 
     /// The first request that a case leads to, as the protocol writes it.
@@ -385,13 +383,13 @@ impl<'a, L: Learnable> Learner<'a, L> {
     }
 
     /// Asks a case, and says whether the answer is wrong; nothing where there is none.
-    fn is_wrong_now(&mut self, case: &Case) -> Option<bool> {
+    async fn is_wrong_now(&self, case: &Case) -> Option<bool> {
         if !adapt_case::holds(case, &self.truth.declared) {
             return None;
         }
         let mut questions = Vec::new();
         self.check.questions(case, self.truth, &mut questions);
-        let answer = self.program.ask(&questions, 1).pop()?;
+        let answer = self.asker.ask(&questions).await.pop()?;
         let (number, case, question) = (0, case.clone(), questions.pop()?);
         let asked =
             LearnedCase { number, case, question, answer, facts: Vec::new(), is_refuting: false };
@@ -399,11 +397,11 @@ impl<'a, L: Learnable> Learner<'a, L> {
         (!parts.is_empty()).then(|| !parts.iter().all(L::is_right))
     }
 
-    fn learned(&mut self, trial: Trial, chain: &Chain<L>) -> Learned {
+    async fn learned(&mut self, trial: Trial, chain: &Chain<L>) -> Learned {
         let mut learned = Learned::default();
         learned.part = L::PART;
         learned.is_certain = trial.missed() == 0 && trial.is_enough();
-        let nearest = if learned.is_certain { None } else { self.nearest_right() };
+        let nearest = if learned.is_certain { None } else { self.nearest_right().await };
         let work = Work::default();
         let search = Search::<L>::of(&self.answered, &self.truth.declared, &work);
         if trial.explains() {
@@ -427,13 +425,13 @@ impl<L: Learnable> Learn for Learner<'_, L> {
     }
 
     /// Asks new questions, questions beside wrong ones, and questions at the limits of a chain.
-    fn try_out(&mut self, chain: &Chain<L>) -> Option<Trial> {
+    async fn try_out(&mut self, chain: &Chain<L>) -> Option<Trial> {
         let start = self.answered.len();
         let mut trial = Trial::default();
         for _ in 0..MOST_FRESH {
             let from = self.answered.len();
             let cases = (0..FRESH[0]).map(|_| self.case(&[], false)).collect();
-            self.ask_in_batches(cases)?;
+            self.ask_in_batches(cases).await?;
             trial.independent +=
                 self.is_wrong[from..].iter().filter(|wrong| **wrong).count() as u64;
             if trial.independent >= ENOUGH_INDEPENDENT {
@@ -443,7 +441,7 @@ impl<L: Learnable> Learn for Learner<'_, L> {
         let wrong = self.wrong();
         let mut cases: Vec<Case> = (0..FRESH[1]).map(|_| self.case(&wrong, true)).collect();
         cases.extend(self.at_limits(chain));
-        self.ask_in_batches(cases)?;
+        self.ask_in_batches(cases).await?;
         for (asked, is_wrong) in self.answered.iter_mut().zip(&self.is_wrong).skip(start) {
             let parts = L::parts(asked, &self.truth.declared);
             let fits = parts.iter().all(|part| predicts(chain, asked, part));

@@ -5,10 +5,11 @@ use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_registry::engines;
+use rasterproof_verify::ask::Search;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::mistakes::values::{sum, weights};
 
-use super::{Learned, MOST_TO_LEARN, learn};
+use super::{Learned, learn};
 use crate::ask::{Answer, Asked, Question, Subject};
 use crate::check::{Check, Truth};
 use crate::declared::Declared;
@@ -16,6 +17,7 @@ use crate::depth::Pile;
 use crate::expected::{Expect as _, exact_values};
 use crate::in_process::Inside;
 use crate::pixels::masks_of;
+use crate::run::MOST_DEATHS;
 
 /// What is wrong of an answer to a question.
 type Alter = fn(&Question, &mut Answer, &mut Inside);
@@ -36,10 +38,22 @@ impl Subject for AlteredEngine {
     }
 }
 
+/// What is learned of a program by so many questions.
+fn learned_of(
+    program: &mut dyn Subject,
+    check: Check,
+    truth: &Truth,
+    most: usize,
+) -> Option<Learned> {
+    let mut search = Search::new(async |asker| learn(&asker, check, truth).await);
+    search.allow(most);
+    search.answered_by(|questions| program.ask(questions, MOST_DEATHS))
+}
+
 fn learned(check: Check, alter: Alter) -> Learned {
     let mut program = AlteredEngine(Inside::new(engines::find("scanline").unwrap()), alter);
     let truth = Truth::of(program.declared());
-    let learned = learn(&mut program, check, &truth, MOST_TO_LEARN).unwrap();
+    let learned = learned_of(&mut program, check, &truth, usize::MAX).unwrap();
     println!("{}", learned.sentences().join("\n"));
     learned
 }
@@ -322,7 +336,7 @@ fn right_programs_of_other_conventions_are_not_explained() {
         let mut program = Conventional(Declared::parse(&words).unwrap());
         let truth = Truth::of(&program.0);
         for check in [Check::Depth, Check::Values] {
-            let learned = learn(&mut program, check, &truth, 700);
+            let learned = learned_of(&mut program, check, &truth, 700);
             assert!(learned.is_none(), "{words}: {:?}", learned.map(|l| l.sentences()));
         }
     }
@@ -334,7 +348,7 @@ fn right_samples_and_polygons_are_not_explained() {
     for check in [Check::Samples, Check::Near, Check::Carried] {
         let mut program = Inside::new(engines::find("scanline").unwrap());
         let truth = Truth::of(program.declared());
-        let learned = learn(&mut program, check, &truth, 700);
+        let learned = learned_of(&mut program, check, &truth, 700);
         assert!(learned.is_none(), "{:?}", learned.map(|l| l.sentences()));
     }
 }
