@@ -7,7 +7,7 @@ use rasterproof_verify::cases::facts::{self, Topic};
 use rasterproof_verify::cases::{self, Family, Limits};
 use rasterproof_verify::partition::{self, Coordinates, Family as PolygonFamily};
 
-/// What of all pairs and triples is asked.
+/// How many of the pairs and triples of a design's facts occur in some numbers of cases, and in the families alone.
 pub struct Shares {
     pub whole: DesignShare,
     /// By 1,000 cases of the design, by the default numbers of `judge` and `verify` (nothing where it does not ask the design), and by
@@ -25,13 +25,13 @@ fn counts([of_judge, of_verify]: Defaults) -> [Option<u64>; 4] {
 }
 
 impl Shares {
-    /// Of pairs and of triples.
+    /// The shares of pairs and of triples in percent.
     pub fn percent(&self, asked: &AskedClasses) -> [f64; 2] {
         let percent = |part: usize, of: usize| 100.0 * part as f64 / of as f64;
         [percent(asked.pairs, self.whole.of_pairs), percent(asked.triples, self.whole.of_triples)]
     }
 
-    /// Its row of the table.
+    /// Its row of the table, the same in both languages.
     pub fn row(&self) -> String {
         let DesignShare { family, facts, classes, of_pairs, of_triples, .. } = &self.whole;
         let share = |asked: Option<&AskedClasses>| {
@@ -78,7 +78,7 @@ fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
     (chosen.collect(), cases)
 }
 
-/// What is asked of a topic.
+/// Of the design of a topic, beside the families that ask about the same.
 pub fn of_topic(topic: &Topic) -> Shares {
     let limits = Limits::default();
     let question = |index: u64| facts::design::case(topic, 1, index, &limits);
@@ -95,7 +95,7 @@ pub fn of_topic(topic: &Topic) -> Shares {
     }
 }
 
-/// The same of polygons.
+/// The same of the polygons that tessellators are asked.
 pub fn of_polygons() -> Shares {
     let (topic, limits) = (&partition::design::TOPIC, Coordinates::F64);
     let question = |index: u64| partition::design::polygon(1, index, limits);
