@@ -541,12 +541,11 @@ mod tests {
         String::from_utf8(pixels).unwrap()
     }
 
+    /// The hits of each pixel of a picture that a device draws, as digits.
+    type Draw<'a> = dyn Fn(Topic, Device, Layout, &[Drawing]) -> String + 'a;
+
     /// The smallest subject that fails, of a device that draws pictures so, and those that it was reached through.
-    fn shrunk(
-        check: &str,
-        subject: Value,
-        draw: &dyn Fn(Topic, Device, Layout, &[Drawing]) -> String,
-    ) -> (Drawing, Vec<Drawing>) {
+    fn shrunk(check: &str, subject: Value, draw: &Draw<'_>) -> (Drawing, Vec<Drawing>) {
         let (pixels, tally) = (String::new(), Tally::default());
         let mut question =
             Judge { batch: batch(check, "webgl2", json!({ "only": subject })), pixels, tally };
