@@ -62,7 +62,7 @@ async function causeOf(api, title) {
 const keptBy = (name) => `rasterproof-your-gpu-${name}`;
 
 /** What was kept of the same batches on the same renderer; nothing where the browser keeps nothing. */
-function kept(name, of) {
+function keptBefore(name, of) {
   try {
     const before = JSON.parse(localStorage.getItem(keptBy(name)));
     return before?.of === of ? before : null;
@@ -111,7 +111,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
   let losses = 0;
   readBack.uneven = 0;
   const of = JSON.stringify([state.seed, renderer, $('module').textContent.length, batches]);
-  const before = kept(name, of);
+  const before = keptBefore(name, of);
   if (before) {
     Object.assign(result, { rows: before.rows, bits: before.bits });
     api.bits ??= before.bits;
