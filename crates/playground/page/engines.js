@@ -14,8 +14,8 @@ function instantiate(module = compiled) {
 
 /** Asks the engines; an answer, or an error as its text. Pixels are bytes of ASCII. */
 function ask(question, bytes) {
-  const pixels = bytes && new TextDecoder().decode(bytes);
-  const text = new TextEncoder().encode(JSON.stringify({ ...question, pixels }));
+  const whole = bytes ? { ...question, pixels: new TextDecoder().decode(bytes) } : question;
+  const text = new TextEncoder().encode(JSON.stringify(whole));
   try {
     const at = engines.room(text.length);
     new Uint8Array(engines.memory.buffer, at, text.length).set(text);

@@ -10,7 +10,7 @@ const WORDS = {
     about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
     private: 'Nothing is sent: all of it happens in this browser, which keeps what was judged until the end, in case the page is closed.',
     judge: 'Judge my GPU', again: 'Judge again', alone: 'Or one check alone:', stop: 'Stop', stopped: 'Stopped before all checks were made.',
-    resumed: (at) => `The page was closed before: the first ${count(at, 'batch', 'batches')} were judged then.`,
+    resumed: (at) => `The page was closed before: the first ${plural(at, 'batch', 'batches')} were judged then.`,
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
     asking: (api, at) => `${api}: looking for the cause (picture ${at}) …`,
     cause: ({ cause, asked }) => `By ${plural(asked, 'more triangle')}, ${cause}`,
