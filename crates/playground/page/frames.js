@@ -31,7 +31,8 @@ function explain(answer) {
     last.look = look.error ? null : look;
   }
   const beside = scene().look && !answer.error ? scene().look(answer) : [];
-  [() => renew($('look'), beside), pressTools, drawCorners].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
+  // What is read aloud holds the tables, too, so it is said after them.
+  [() => renew($('look'), beside), pressTools, drawCorners, () => settleLater(settled, 100)].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
 }
 
 /** What is said once nothing moves: the command, and what a screen reader reads aloud. */
