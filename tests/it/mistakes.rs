@@ -83,20 +83,27 @@ fn tested(
     product: impl Fn([i64; 2], [i64; 2], [i64; 2]) -> i64,
     inside: impl Fn(usize, i64, [i64; 2]) -> bool,
 ) {
-    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-    let turns = product(p[0], p[1], p[2]);
-    if turns == 0 {
-        return;
-    }
     fill_where(picture, |x, y| {
         let at = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
-        (0..3).all(|i| {
-            let (from, to) = (p[i], p[(i + 1) % 3]);
-            let e = turns.signum() * product(from, to, at);
-            let along = [0, 1].map(|k| turns.signum() * (to[k] - from[k]));
-            inside(i, e, along)
-        })
+        is_inside(c, at, &product, &inside)
     });
+}
+
+/// The same test of one point; nothing is inside of a triangle without area.
+fn is_inside(
+    c: Corners,
+    at: [i64; 2],
+    product: &impl Fn([i64; 2], [i64; 2], [i64; 2]) -> i64,
+    inside: &impl Fn(usize, i64, [i64; 2]) -> bool,
+) -> bool {
+    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+    let turns = product(p[0], p[1], p[2]).signum();
+    turns != 0
+        && (0..3).all(|i| {
+            let (from, to) = (p[i], p[(i + 1) % 3]);
+            let along = [0, 1].map(|k| turns * (to[k] - from[k]));
+            inside(i, turns * product(from, to, at), along)
+        })
 }
 
 fn exactly(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> i64 {
@@ -110,20 +117,12 @@ fn owns([dx, dy]: [i64; 2]) -> bool {
 
 /// Whether an exact test by the rule of top and left edges takes a point for inside.
 fn covers(c: Corners, at: [i64; 2]) -> bool {
-    let turns = area(c).signum();
-    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-    turns != 0
-        && (0..3).all(|i| {
-            let (from, to) = (p[i], p[(i + 1) % 3]);
-            let e = turns * exactly(from, to, at);
-            e > 0 || (e == 0 && owns([0, 1].map(|k| turns * (to[k] - from[k]))))
-        })
+    is_inside(c, at, &exactly, &|_, e, along| e > 0 || (e == 0 && owns(along)))
 }
 
 /// The same, but every point of an edge is inside.
 fn touches(c: Corners, at: [i64; 2]) -> bool {
-    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-    (0..3).all(|i| area(c).signum() * exactly(p[i], p[(i + 1) % 3], at) >= 0)
+    is_inside(c, at, &exactly, &|_, e, _| e >= 0)
 }
 
 /// The heights of the corners, the least first.

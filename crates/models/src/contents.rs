@@ -28,7 +28,7 @@ const MOST_PARTS: usize = 1 << 16;
 
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
-    /// The file itself.
+    /// The file that it is read from, which all warnings name.
     pub path: PathBuf,
     pub parts: Vec<FilePart>,
     pub cameras: Vec<Camera>,
@@ -54,7 +54,7 @@ pub(crate) struct Contents {
 pub(crate) type Kind = (Option<usize>, [bool; 3]);
 
 impl Contents {
-    /// Nothing of a file so far.
+    /// Empty, for a reader to fill in from this file.
     pub(crate) fn of(path: &Path) -> Self {
         Self { path: path.to_owned(), warnings: Warnings::of(path), ..Self::default() }
     }

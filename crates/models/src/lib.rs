@@ -64,7 +64,7 @@ pub(crate) struct Wrong {
 }
 
 impl Wrong {
-    /// It as an error about this file.
+    /// The error that names the file, too.
     pub(crate) fn of(self, path: &Path) -> BadFile {
         BadFile {
             path: path.to_owned(),

@@ -208,7 +208,7 @@ pub fn measure(
 /// Two frames, of which the first one is expected to take longer.
 type Pair = [usize; 2];
 
-/// Places in [`PLANS`].
+/// The places of the three plans in [`PLANS`], by which their times are found.
 const EVERYTHING: usize = 0;
 const USUAL: usize = 1;
 const PLANNED: usize = 2;

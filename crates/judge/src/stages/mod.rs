@@ -63,7 +63,7 @@ const PILES_ASKED: u64 = 150;
 /// The questions are the same in every run.
 const SEED: u64 = 7;
 
-/// By which a program is asked.
+/// Asks the program that is judged, for the search of its mistake.
 type StageAsker = Asker<Question, Answer>;
 
 async fn answered(

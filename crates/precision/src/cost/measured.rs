@@ -10,7 +10,7 @@ use super::{
 pub type PreparedCell<'a> = Result<(Run, Option<Pass<'a>>), String>;
 
 impl Board {
-    /// A board without columns.
+    /// A board to which [`add_column`] adds its columns.
     #[must_use]
     pub fn new(ladder: Ladder, seed: u64, measures: Vec<Measure>, choices: Vec<Choice>) -> Self {
         let cells = choices.iter().map(|_| Vec::new()).collect();

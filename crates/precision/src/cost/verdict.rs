@@ -63,8 +63,8 @@ impl<'a> JudgedChoice<'a> {
         Some(self.run.time.as_ref()?.pixel_ns.median)
     }
 
-    /// Whether another choice of its column is faster, intervals and all, and by a measure and those that rank nothing at most as
-    /// wrong.
+    /// Whether another choice of its column is faster, intervals and all, and at most as wrong by a measure and by those that rank
+    /// nothing.
     fn is_beaten(&self, other: &Self, measure: usize) -> bool {
         // Luck on one seed does not beat a promise.
         if self.promises(measure) && !other.promises(measure) {

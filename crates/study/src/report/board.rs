@@ -114,10 +114,9 @@ fn work(board: &Board) -> [Table; 3] {
     })
 }
 
-/// What stands behind a number.
+/// A sign behind a number of a table, and whether the number is in the colour of what is exact.
 enum Mark {
     Plain(char),
-    /// The number is good, too.
     Good(char),
 }
 
