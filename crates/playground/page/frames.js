@@ -1,7 +1,10 @@
 // Frames: what is asked and drawn when something changed.
 
 let pending = false;
+// How many frames have been asked for, and with how many all that is shown has been said.
+let [asked, told] = [0, 0];
 function redraw() {
+  asked += 1;
   if (pending) return;
   pending = true;
   requestAnimationFrame(() => {
@@ -18,13 +21,12 @@ function drawFrame() {
     last.answer = answer;
     view.show(shownOf(answer));
   }
-  explainSoon(answer);
-  settleLater(settled, 100);
+  explainSoon(answer, asked);
 }
 
 /** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag some times a second. */
 const explainSoon = paced(explain, 100);
-function explain(answer) {
+function explain(answer, frames) {
   last.look = null;
   if (state.px && state.triangles) {
     const look = ask({ ask: 'look', picture: picture(), px: state.px });
@@ -32,22 +34,25 @@ function explain(answer) {
   }
   const beside = scene().look && !answer.error ? scene().look(answer) : [];
   // What is read aloud holds the tables, too, so it is said after them.
-  [() => renew($('look'), beside), pressTools, drawCorners, () => settleLater(settled, 100)].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
+  [() => renew($('look'), beside), pressTools, drawCorners, () => settleLater(() => settled(frames), 100)].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
 }
+
+const isStill = () => asked === told;
 
 /** What is said once nothing moves: the command, and what a screen reader reads aloud. */
 const settleLater = delayed();
-function settled() {
+function settled(frames) {
   const same = command();
   say($('command'), same);
   $('as-command').hidden = same === '';
   const grip = grips()[state.chosen];
   const outputs = view.shown.map((panel) => panel.canvas.getAttribute('aria-label'));
   // Of triangles the reason, which is short; elsewhere the numbers are what there is to say.
-  const told = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
-  const texts = [...told].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
+  const explained = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
+  const texts = [...explained].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
   const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。?？]$/.test(text) ? text : `${text}.`)).join(' ');
   say($('announce'), said);
+  told = frames;
 }
 
 const trouble = (text) => say($('trouble'), text ?? '');

@@ -115,10 +115,11 @@ export class Tab extends Questions {
     return this.value('new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))');
   }
 
-  /** Two frames later everything that was asked for is drawn, and soon after it is explained. */
+  /** Two frames later everything that was asked for is drawn, and soon after it is explained; a page that can tells when. */
   async settle() {
     await this.draw();
     await sleep(150);
+    await this.when(() => typeof isStill !== 'function' || isStill());
   }
 
   prefer(name, value) {
