@@ -26,6 +26,7 @@ const MOST_SINGLE_PARTS: usize = 1 << 12;
 /// Parts, merged ones too: there is at least one for each material that is used.
 const MOST_PARTS: usize = 1 << 16;
 
+/// What a reader makes of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     /// The file that it is read from, which all warnings name.
@@ -128,6 +129,7 @@ pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
 }
 
 impl FilePart {
+    /// What has to be equal for it to become one with another part.
     fn kind(&self) -> Kind {
         let lists =
             [self.colours.values.is_empty(), self.tangents.is_empty(), self.second_uvs.is_empty()];
@@ -436,10 +438,12 @@ impl Polygons {
         self.count += 1;
     }
 
+    /// How many polygons there are.
     pub(crate) fn len(&self) -> usize {
         self.count as usize
     }
 
+    /// Whether nothing has to be cut.
     pub(crate) fn are_triangles(&self) -> bool {
         self.ends.is_empty()
     }
@@ -454,6 +458,7 @@ impl Polygons {
         start as usize..self.ends[number] as usize
     }
 
+    /// The polygon that has a corner.
     pub(crate) fn of_corner(&self, corner: usize) -> usize {
         if self.ends.is_empty() {
             return corner / 3;
@@ -466,10 +471,12 @@ impl Polygons {
         self.lines.get(number).copied().unwrap_or(0)
     }
 
+    /// Whether some polygon belongs to a smoothing group.
     pub(crate) fn is_smooth(&self) -> bool {
         !self.smoothing.is_empty()
     }
 
+    /// The smoothing group of a polygon, 0 where it has none.
     #[inline]
     pub(crate) fn smoothing(&self, number: usize) -> u32 {
         if self.smoothing.is_empty() {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::{gltf, ply, stl};
 
+/// The formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ, with materials in MTL.
@@ -124,6 +125,7 @@ impl Format {
         if begins(b"FORM") {
             return refused("LightWave or Modo (LWO, LXO)");
         }
+        // The others are texts, which may begin with spaces and have small or large letters.
         let head = head(bytes).to_ascii_lowercase();
         let text = head.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
         if let Some(rest) = text.strip_prefix('{') {
@@ -147,6 +149,7 @@ impl Format {
         }
     }
 
+    /// Its name for people.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -92,12 +92,14 @@ impl From<FileError> for Wrong {
     }
 }
 
+/// The axis that points up in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
     Y,
     Z,
 }
 
+/// Which normals are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; those that are missing from the faces, smooth where the file has a smoothing group and
@@ -110,6 +112,7 @@ pub enum Normals {
     Smooth,
 }
 
+/// What a user may say about a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions {
     pub shading: Shading,
@@ -120,6 +123,7 @@ pub struct LoadOptions {
     pub pose: Option<Pose>,
 }
 
+/// A moment of an animation.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// The number of the animation, from 0.
@@ -158,6 +162,7 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
+/// Where an item comes from, so that a message about a triangle names the place in the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The name of the object, group or node; empty without one.
@@ -215,6 +220,7 @@ pub fn load(path: &Path, options: LoadOptions) -> Result<Model, BadFile> {
     read(path, options).map_err(|wrong| wrong.of(path))
 }
 
+/// Reads a file by its format, and makes a model of what it contains.
 fn read(path: &Path, options: LoadOptions) -> Result<Model, Wrong> {
     let mut file = Records::open(path)?;
     let length = file.length_bytes();
@@ -259,6 +265,7 @@ impl Warnings {
     /// Warnings of one kind that are shown; of the rest the number is.
     const MOST: u64 = 8;
 
+    /// None yet, of this file.
     pub(crate) fn of(path: &Path) -> Self {
         Self { path: path.to_owned(), ..Self::default() }
     }
@@ -293,6 +300,7 @@ impl Warnings {
         }
     }
 
+    /// The lines to show, with a count of those that are not shown.
     pub(crate) fn finish(mut self) -> Vec<String> {
         for (kind, count) in self.counts {
             if count > Self::MOST {

@@ -11,6 +11,7 @@ use crate::Warnings;
 use crate::outside::NOT_QUOTED;
 use crate::{records, textures};
 
+/// A material as its file describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct MtlMaterial {
     /// Its name, for `usemtl`.
@@ -83,6 +84,7 @@ pub(crate) fn without_comment(line: &str) -> &str {
     line
 }
 
+/// Reads a line by its first word, into the last material.
 fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result<(), String> {
     let lower = kind.to_ascii_lowercase();
     if lower == "newmtl" {
@@ -130,6 +132,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result
         _ => {}
     }
     let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
+    // What the line says and is not drawn, if it says something that could be seen.
     let key = match lower.as_str() {
         "map_kd" | "map_ka" | "map_d" | "map_tr" | "map_opacity" => return Ok(()),
         _ if is_map && parsed().is_none() => return Ok(()),

@@ -39,6 +39,7 @@ struct VectorKind {
     not_finite: &'static str,
 }
 
+/// The three kinds of vectors, in the order of a face's numbers.
 const KINDS: [VectorKind; 3] = [
     kind(0, "position", 3, "the faces that use it are left out"),
     kind(1, "texture coordinate", 1, "it is taken as 0 0"),
@@ -69,6 +70,7 @@ struct Run {
     part: FilePart,
 }
 
+/// The vectors of the file, which all runs share.
 #[derive(Default)]
 struct Vectors {
     positions: Vec<DVec3>,
@@ -85,6 +87,7 @@ impl Vectors {
     }
 }
 
+/// What the lines of the file come to.
 #[derive(Default)]
 struct Lines {
     vectors: Vectors,
@@ -127,7 +130,9 @@ struct State {
     is_new: bool,
 }
 
+/// Reads the text of an OBJ and the material files that it names.
 pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> {
+    // The whole file is read before a part is made, since faces may name what follows them.
     let mut lines = lines(file, contents)?;
     check_faces(&mut lines, contents)?;
     let Lines { vectors, runs, libraries, .. } = lines;
@@ -136,6 +141,7 @@ pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> 
     for (number, material) in described.iter().enumerate() {
         numbers.insert(&material.name, number);
     }
+    // Materials are known by their names; each becomes a surface where it is first used, and textures are decoded then.
     let mut textures = Textures::new(&contents.folder());
     // The number in `contents` of each material that is used.
     let mut used: HashMap<usize, usize> = HashMap::new();
@@ -160,6 +166,7 @@ pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> 
             }
         };
         before = number;
+        // The part has lists of its own, and the surface that its material becomes where it is first used.
         let mut part = cutter.part(&vectors, run);
         if let Some(number) = number {
             let material = &described[number];
@@ -186,10 +193,12 @@ struct Cutter {
 }
 
 impl Cutter {
+    /// No number is given yet.
     fn of(vectors: &Vectors) -> Self {
         Self { numbers: vectors.counts().map(|count| vec![NONE; count]) }
     }
 
+    /// A part with the vectors that a run uses.
     fn part(&mut self, vectors: &Vectors, Run { name, mut part, .. }: Run) -> FilePart {
         let p = self.local(0, &mut part.corners);
         let mut of = |kind: usize, numbers: &mut Numbers| match numbers {
@@ -203,9 +212,10 @@ impl Cutter {
         part.positions = p.iter().map(|&index| vectors.positions[index as usize]).collect();
         part.uvs.values = t.iter().map(|&index| vectors.uvs[index as usize]).collect();
         part.normals.values = n.iter().map(|&index| vectors.normals[index as usize]).collect();
-        let colours = p.iter().map(|&index| vectors.colours.get(index as usize).copied());
-        if colours.clone().any(|colour| colour.is_some()) {
-            let colours = colours.map(|colour| colour.unwrap_or(DVec3::ONE)).collect();
+        // Positions after the last one that has a colour are white.
+        if p.iter().any(|&index| (index as usize) < vectors.colours.len()) {
+            let colours = p.iter().map(|&index| vectors.colours.get(index as usize));
+            let colours = colours.map(|colour| *colour.unwrap_or(&DVec3::ONE)).collect();
             part.colours = contents::Vectors::of_positions(colours);
         }
         part
@@ -223,11 +233,15 @@ impl Cutter {
             }
             *index = *number;
         }
-        used.iter().for_each(|&index| numbers[index as usize] = NONE);
+        // Empty again, for the next part.
+        for &index in &used {
+            numbers[index as usize] = NONE;
+        }
         used
     }
 }
 
+/// What a material becomes; a picture that cannot be read is a warning.
 fn surface(
     material: &mtl::MtlMaterial,
     textures: &mut Textures,
@@ -331,10 +345,13 @@ fn library_names(folder: &Path, names: &str) -> Vec<String> {
     let mut at = 0;
     while at < words.len() {
         let joined = |end: usize| words[at..end].join(" ");
+        // The longest name that is there.
         let exists = (at + 1..=words.len()).rev().find(|&end| find(folder, &joined(end)).is_some());
         // A name that is not there ends where its ending is.
-        let ends = |end: &usize| words[end - 1].to_ascii_lowercase().ends_with(".mtl");
-        let end = exists.or_else(|| (at + 1..=words.len()).find(ends)).unwrap_or(words.len());
+        let is_end = |word: &&str| word.to_ascii_lowercase().ends_with(".mtl");
+        let end = exists.unwrap_or_else(|| {
+            words[at..].iter().position(is_end).map_or(words.len(), |last| at + last + 1)
+        });
         found.push(joined(end));
         at = end;
     }
@@ -371,6 +388,7 @@ fn refused(line: usize, cause: &str) -> Wrong {
     Wrong { line, cause: format!("{cause}: repair the line, or export the model again") }
 }
 
+/// Reads all lines.
 fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
     let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
@@ -391,6 +409,7 @@ fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
             joined.extend_from_slice(line);
             line = &joined;
         }
+        // A line may go on after a backslash; messages name the first of its lines.
         let result = read_line(line, first, &mut read, &mut state, contents);
         if let Some(cause) = result.map_err(|cause| refused(first, &cause))? {
             contents.warnings.add_at(first, "lines", &cause);
@@ -402,11 +421,13 @@ fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
         };
-        let ending =
-            contents.path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        let ending = ending.filter(|ending| ending != "obj").map_or(String::new(), |ending| {
-            format!(", and its name ends in .{}", printable_short(&ending, 10))
-        });
+        let ending = contents.path.extension().map(|ending| ending.to_string_lossy());
+        let ending = match ending.map(|ending| ending.to_ascii_lowercase()) {
+            Some(ending) if ending != "obj" => {
+                format!(", and its name ends in .{}", printable_short(&ending, 10))
+            }
+            _ => String::new(),
+        };
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
         return Err(format!("{what}{ending}; {hint}").into());
     }
@@ -535,6 +556,7 @@ fn vector<'a>(
     })
 }
 
+/// The words of a line, up to a comment.
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     let end = memchr::memchr_iter(b'#', line).find(|&at| !records::is_of_number(line, at));
     line[..end.unwrap_or(line.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
@@ -584,11 +606,17 @@ fn index(word: &[u8]) -> Option<u64> {
     if word.is_empty() || word.len() > 10 {
         return None;
     }
-    let digit =
-        |sum: u64, byte: &u8| byte.is_ascii_digit().then(|| sum * 10 + u64::from(byte - b'0'));
-    word.iter().try_fold(0, digit)
+    let mut value = 0;
+    for byte in word {
+        if !byte.is_ascii_digit() {
+            return None;
+        }
+        value = value * 10 + u64::from(byte - b'0');
+    }
+    Some(value)
 }
 
+/// Adds a face to the last run, or to a new one where its group or material is another.
 fn face<'a>(
     words: impl Iterator<Item = &'a [u8]>,
     number: usize,
@@ -639,16 +667,17 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
         if !all_digits {
             return Err(format!("'{}' is not a corner of a face", short(word)));
         }
-        let value = index(digits).and_then(|value| {
-            let value = usize::try_from(value).ok()?;
-            let value =
-                if is_back { counts[kind].checked_sub(value) } else { value.checked_sub(1) }?;
-            let is_there = value < ABSENT as usize && (!is_back || value < counts[kind]);
-            is_there.then_some(value as u32)
-        });
-        corner[kind] = value.unwrap_or(ABSENT);
+        corner[kind] = from_0(index(digits), is_back, counts[kind]).unwrap_or(ABSENT);
     }
     Ok(corner)
+}
+
+/// The index from 0 of a number of the file, which counts from 1, or back from the end of what was read so far.
+fn from_0(value: Option<u64>, is_back: bool, count: usize) -> Option<u32> {
+    let value = usize::try_from(value?).ok()?;
+    let value = if is_back { count.checked_sub(value) } else { value.checked_sub(1) }?;
+    let is_there = value < ABSENT as usize && (!is_back || value < count);
+    is_there.then_some(value as u32)
 }
 
 /// Looks whether what faces name is there. Takes away texture coordinates and normals that are not, and faces without all of their
@@ -662,6 +691,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
     // Why the first face is left out, if one is, and how many are.
     let (mut refusal, mut all_left_out) = (None, 0);
     for Run { part, .. } in runs.iter_mut() {
+        // Most files name nothing that is missing, so faces are looked at one by one only where something is.
         let are_there = Numbers::OfPositions.end(&part.corners) <= counts[0]
             && part.uvs.numbers.end(&part.corners) <= counts[1]
             && part.normals.numbers.end(&part.corners) <= counts[2];
@@ -686,6 +716,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
                     |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));
                 let Some(&index) = named.iter().find(|index| is_wrong(index)) else { continue };
                 // Which line has to be repaired and why, and what is said of the face.
+                // A vector that was broken is to be repaired where it is; one that is not there, where it is named.
                 let (line, cause, of_vector) = match broken.get(&(kind, index)) {
                     Some((line, cause)) => {
                         (*line, cause.clone(), format!("the {name} of the face cannot be read"))
@@ -721,6 +752,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
             part.retain(|_, number| left_out.binary_search(&number).is_err());
         }
     }
+    // A file of which nothing is left is refused for the first of its mistakes.
     if let Some((line, cause)) = refusal
         && runs.iter().all(|run| run.part.polygons.len() == 0)
     {

@@ -91,6 +91,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// The bytes of a number.
     pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -165,6 +166,7 @@ impl Records {
         self.file.length_bytes()
     }
 
+    /// The bytes that were read from the file and not yet used.
     pub(crate) fn left(&self) -> &[u8] {
         self.bytes.get(self.at..).unwrap_or_default()
     }

@@ -23,6 +23,7 @@ const MOST_ENTRIES: usize = 1 << 16;
 /// What is said of a picture that cannot be decoded; what follows may quote its bytes.
 pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP";
 
+/// A picture as a texture and, where it has some, with opacities.
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
     pub texture: Texture,
@@ -97,6 +98,7 @@ impl Pictures {
     }
 }
 
+/// Whether the name ends as that of a TGA.
 fn is_tga(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("tga"))
 }
@@ -116,6 +118,7 @@ fn decode(path: &Path, bytes: &[u8], taken_bytes: &mut u64) -> Result<Decoded, S
     sides.max_image_height = Some(MAX_SIDE_PX);
     sides.max_alloc = Some(limits::DECODED_TEXTURE_BYTES);
     reader.limits(sides);
+    // The head of the picture is read, and so much is known that its size can be refused before it is decoded.
     let decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
     let is_grey = !decoder.color_type().has_color();
@@ -166,6 +169,7 @@ fn alpha(picture: &DynamicImage) -> Option<Vec<u8>> {
 /// The file that a model means by a name that it contains: as it is written, with slashes for backslashes, with
 /// other cases of letters, or the last part of the name beside the model.
 pub(crate) fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+    // Names as files write them, from the most literal on.
     let trimmed = name.trim();
     let plain = trimmed.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
     let plain = plain.unwrap_or(trimmed);
@@ -292,6 +296,7 @@ impl TextureStatement {
     }
 }
 
+/// The first word of a text, and what follows it.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_start();
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
@@ -310,6 +315,7 @@ pub(crate) struct Textures {
 const MOST_MISSING: u32 = 1 << 10;
 
 impl Textures {
+    /// None yet, of a model in this folder.
     pub(crate) fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -341,6 +347,7 @@ impl Textures {
         Ok(Arc::new(map.clone().with(Filter::Bilinear, wrap)))
     }
 
+    /// The picture of this name, searched for and decoded once.
     fn find(&mut self, name: &str) -> Result<&Decoded, BadFile> {
         // Where options are written in another way, the last word is the name.
         let last = name.split_whitespace().next_back().unwrap_or_default();

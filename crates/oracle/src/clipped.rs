@@ -20,10 +20,6 @@ const REACH: i64 = 8;
 #[must_use]
 pub fn corner(rng: &mut Rng, in_perspective: bool) -> Whole {
     let unit = UNIT as i64;
-    let along = |rng: &mut Rng| match rng.chance(2) {
-        true => rng.int(-unit, unit),
-        false => rng.int(-REACH * unit, REACH * unit),
-    };
     let (x, y) = (along(rng), along(rng));
     if in_perspective {
         let w = rng.int(-3 * unit, 12 * unit);
@@ -31,6 +27,15 @@ pub fn corner(rng: &mut Rng, in_perspective: bool) -> Whole {
         [x, y, 9 * (w - unit), w]
     } else {
         [x, y, rng.int(-8 * unit, 16 * unit), unit]
+    }
+}
+
+/// A coordinate in the view, or one that may lie far from it.
+fn along(rng: &mut Rng) -> i64 {
+    let unit = UNIT as i64;
+    match rng.chance(2) {
+        true => rng.int(-unit, unit),
+        false => rng.int(-REACH * unit, REACH * unit),
     }
 }
 
@@ -77,12 +82,13 @@ pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
     }
     let edges = edges.map_array(|e| e.map_array(|v| v * volume.signum()));
     // Depth and w of the plane through the corners, both times the volume; z counts in 1/8 more.
-    let weighed = |of: [i128; 3]| {
-        [0, 1, 2]
-            .map_array(|axis| edges.iter().zip(of).map(|(e, value)| e[axis] * value).sum::<i128>())
-    };
-    let near = weighed(wide.map_array(|c| c[2]));
-    let far = weighed(wide.map_array(|c| 8 * c[3] - c[2]));
+    let (mut near, mut far) = ([0; 3], [0; 3]);
+    for (edge, corner) in edges.iter().zip(wide) {
+        for axis in 0..3 {
+            near[axis] += edge[axis] * corner[2];
+            far[axis] += edge[axis] * (8 * corner[3] - corner[2]);
+        }
+    }
     Some([edges[0], edges[1], edges[2], near, far].map(Linear))
 }
 

@@ -66,8 +66,8 @@ struct LinearFunction {
 impl LinearFunction {
     fn new(corners: &Corners, area: i128, values: &[Dyadic; 3]) -> Self {
         // Zero has no exponent of its own.
-        let exponent =
-            values.iter().filter(|v| !v.mantissa.is_zero()).map(|v| v.exponent).min().unwrap_or(0);
+        let of_others = values.iter().filter(|v| !v.mantissa.is_zero());
+        let exponent = of_others.map(|v| v.exponent).min().unwrap_or(0);
         let [f0, f1, f2] = [0, 1, 2].map_array(|i| {
             let value = &values[i];
             if value.mantissa.is_zero() {
@@ -76,14 +76,11 @@ impl LinearFunction {
                 &value.mantissa << (value.exponent - exponent)
             }
         });
-        let offset = |i: usize| {
-            let (p, o) = (corners[i], corners[0]);
-            (i64::from(p.x) - i64::from(o.x), i64::from(p.y) - i64::from(o.y))
-        };
-        let ((x1, y1), (x2, y2)) = (offset(1), offset(2));
+        let [o, p1, p2] = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let ([x1, y1], [x2, y2]) = ([p1[0] - o[0], p1[1] - o[1]], [p2[0] - o[0], p2[1] - o[1]]);
         let (g1, g2) = (f1 - &f0, f2 - &f0);
         Self {
-            origin: [i64::from(corners[0].x), i64::from(corners[0].y)],
+            origin: o,
             at_origin: f0 * area,
             per_x: &g1 * y2 - &g2 * y1,
             per_y: &g2 * x1 - &g1 * x2,

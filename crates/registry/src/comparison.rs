@@ -56,10 +56,12 @@ impl EnginesToJudge {
         }
     }
 
+    /// Whether nobody is judged.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.lines.is_empty() && self.unsnapped.is_empty()
     }
 
+    /// Whether an engine of this name is among them.
     fn has(&self, name: &str) -> bool {
         self.triangles.iter().any(|e| e.name() == name)
             || self.lines.iter().any(|e| e.name() == name)
@@ -76,6 +78,7 @@ impl EnginesToJudge {
         these
     }
 
+    /// The engines with their names, and with the bounds of their values.
     fn engines(&self) -> Engines<Engine, LineEngine, ExactEngine> {
         let triangles = self.triangles.iter().map(|e| (e.name(), *e, Some(e.tolerance())));
         Engines {
@@ -85,6 +88,7 @@ impl EnginesToJudge {
         }
     }
 
+    /// The verdict about these engines.
     pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
         self.engines().judge(options, progress)
     }
@@ -95,6 +99,7 @@ impl EnginesToJudge {
         self.engines().cause(engine)
     }
 
+    /// What is found of each engine in one case.
     #[must_use]
     pub fn judge_case(&self, case: &Case) -> Vec<([String; 2], Finding)> {
         self.engines().judge_case(case)
@@ -102,27 +107,31 @@ impl EnginesToJudge {
 
     /// The hits of each engine that draws such shapes, after its name.
     pub fn hits(&self, case: &Case) -> Vec<(String, Hits)> {
-        let drawn = |name: &str, hits: Result<Coverage, EnginePanic>| {
-            (name.to_owned(), hits.map_err(String::from))
-        };
         let window = case.window;
+        let mut all = Vec::new();
+        let mut add = |name: &str, hits: Result<Coverage, EnginePanic>| {
+            all.push((name.to_owned(), hits.map_err(String::from)));
+        };
         match &case.shape {
             Shape::Triangles { list, .. } => {
-                let hits = |e: &Engine| drawn(e.name(), engine_coverage(e, list, window));
-                self.triangles.iter().map(hits).collect()
+                for engine in &self.triangles {
+                    add(engine.name(), engine_coverage(engine, list, window));
+                }
             }
             Shape::Lines(list) => {
-                let hits = |e: &LineEngine| drawn(e.name(), line_coverage(e, list, window));
-                self.lines.iter().map(hits).collect()
+                for engine in &self.lines {
+                    add(engine.name(), line_coverage(engine, list, window));
+                }
             }
             Shape::Unsnapped { list, .. } => {
-                let hits = |e: &ExactEngine| {
-                    drawn(e.name(), exact_coverage(e, list, window).map(|(hits, _)| hits))
-                };
-                self.unsnapped.iter().map(hits).collect()
+                for engine in &self.unsnapped {
+                    add(engine.name(), exact_coverage(engine, list, window).map(|(hits, _)| hits));
+                }
             }
-            Shape::Numbers { .. } => Vec::new(),
+            // Tessellators are asked about polygons, and nobody draws these.
+            Shape::Numbers { .. } => {}
         }
+        all
     }
 }
 

@@ -23,6 +23,7 @@ use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::{Scene, chapters, random};
 use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 
+/// Of how much a digest is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestOptions {
     pub seed: u64,
@@ -40,6 +41,7 @@ pub struct DigestRow {
     pub sha256: String,
 }
 
+/// A kind of result of an engine, which has a digest of its own.
 #[derive(Clone, Copy)]
 enum Job {
     /// Hit counts of triangles.
@@ -53,6 +55,7 @@ enum Job {
     Frames(Drawer),
 }
 
+/// The engines of each kind that are digested: the judged ones, and the oracle.
 const ENGINES: [Engine; 3] = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle];
 const LINE_ENGINES: [LineEngine; 3] = [LineEngine::Dda, LineEngine::Bresenham, LineEngine::Oracle];
 const EXACT_ENGINES: [ExactEngine; 3] =
@@ -63,6 +66,7 @@ fn drawn(families: &'static [Family]) -> impl Iterator<Item = &'static Family> {
     families.iter().filter(|family| family.design().is_none())
 }
 
+/// Everything that is digested, in the order of the table.
 fn jobs() -> Vec<Job> {
     let mut jobs = Vec::new();
     jobs.extend(ENGINES.iter().flat_map(|&e| [Job::Coverage(e), Job::Values(e)]));
@@ -73,6 +77,7 @@ fn jobs() -> Vec<Job> {
 }
 
 impl Job {
+    /// The name of the engine, and what is digested of it.
     fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Coverage(engine) => (engine.name(), "coverage"),
@@ -83,6 +88,7 @@ impl Job {
         }
     }
 
+    /// How many cases are digested.
     fn count(self, cases: u64) -> u64 {
         let families = match self {
             Self::Coverage(_) | Self::Values(_) => drawn(cases::triangles::FAMILIES).count(),
@@ -93,12 +99,12 @@ impl Job {
         families as u64 * cases
     }
 
+    /// The hash of one case.
     fn hash(self, DigestOptions { seed, cases }: DigestOptions, index: u64) -> [u8; 32] {
         let mut hash = Hash(Sha256::new());
         let of = |families: &'static [Family]| {
-            let family =
-                drawn(families).nth((index / cases) as usize).expect("as many as are counted");
-            family.case(seed, index % cases)
+            let family = drawn(families).nth((index / cases) as usize);
+            family.expect("as many as are counted").case(seed, index % cases)
         };
         match self {
             Self::Coverage(engine) => coverage(engine, &of(cases::triangles::FAMILIES), &mut hash),
@@ -121,6 +127,7 @@ impl Job {
     }
 }
 
+/// The names of all engines that have a digest, in alphabetical order.
 pub fn engines() -> Vec<&'static str> {
     let mut names: Vec<_> = jobs().into_iter().map(|job| job.names().0).collect();
     names.sort_unstable();
@@ -135,28 +142,32 @@ pub fn digest(
     engine: Option<&str>,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<DigestRow> {
-    let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
-    jobs()
-        .into_iter()
-        .filter(wanted)
-        .map(|job| {
-            let hashes = parallel::map(job.count(options.cases) as usize, |index| {
-                let hash = job.hash(options, index as u64);
-                progress(1);
-                hash
-            });
-            let ((engine, what), sha256) = (job.names(), hex(&Sha256::digest(hashes.concat())));
-            DigestRow { engine, what, sha256 }
-        })
-        .collect()
+    let mut rows = Vec::new();
+    for job in jobs_of(engine) {
+        let hashes = parallel::map(job.count(options.cases) as usize, |index| {
+            let hash = job.hash(options, index as u64);
+            progress(1);
+            hash
+        });
+        let (engine, what) = job.names();
+        rows.push(DigestRow { engine, what, sha256: hex(&Sha256::digest(hashes.concat())) });
+    }
+    rows
+}
+
+/// The jobs of one engine, or of all.
+fn jobs_of(engine: Option<&str>) -> Vec<Job> {
+    let mut jobs = jobs();
+    jobs.retain(|job| engine.is_none_or(|name| job.names().0 == name));
+    jobs
 }
 
 /// How many cases [`digest`] goes through.
 pub fn case_count(options: DigestOptions, engine: Option<&str>) -> u64 {
-    let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
-    jobs().into_iter().filter(wanted).map(|job| job.count(options.cases)).sum()
+    jobs_of(engine).into_iter().map(|job| job.count(options.cases)).sum()
 }
 
+/// One digest of all.
 pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();
     for DigestRow { engine, what, sha256 } in parts {
@@ -165,6 +176,7 @@ pub fn total(parts: &[DigestRow]) -> String {
     hex(&all.finalize())
 }
 
+/// Bytes in hexadecimal.
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -173,29 +185,38 @@ fn hex(bytes: &[u8]) -> String {
 struct Hash(Sha256);
 
 impl Hash {
+    /// A whole number.
     fn whole(&mut self, number: u64) {
         self.0.update(number.to_le_bytes());
     }
 
+    /// The place of a pixel.
     fn pixel(&mut self, x_px: i32, y_px: i32) {
         self.0.update(x_px.to_le_bytes());
         self.0.update(y_px.to_le_bytes());
     }
 
+    /// A float by its bits.
     fn number(&mut self, value: f64) {
         self.whole(canonical(value));
     }
 
+    /// A fragment with its values.
     fn fragment<const N: usize>(&mut self, fragment: &Fragment<impl Varying>, values: [f64; N]) {
         self.pixel(fragment.x_px, fragment.y_px);
         self.number(fragment.depth);
-        values.into_iter().for_each(|value| self.number(value));
+        for value in values {
+            self.number(value);
+        }
     }
 
+    /// The hits of all pixels, row by row.
     fn coverage(&mut self, hits: &Coverage) {
         for (y_px, row) in hits.rows() {
             self.pixel(hits.bounds().x0, y_px);
-            row.iter().for_each(|&count| self.whole(u64::from(count)));
+            for &count in row {
+                self.whole(u64::from(count));
+            }
         }
     }
 }
@@ -205,6 +226,7 @@ fn canonical(value: f64) -> u64 {
     if value.is_nan() { 0x7ff8 << 48 } else { value.to_bits() }
 }
 
+/// Hashes the hits of a case.
 fn coverage(engine: Engine, case: &Case, hash: &mut Hash) {
     let Shape::Triangles { list, .. } = &case.shape else { return };
     let mut hits = Coverage::new(case.window, 0);
@@ -215,6 +237,7 @@ fn coverage(engine: Engine, case: &Case, hash: &mut Hash) {
     hash.coverage(&hits);
 }
 
+/// Hashes depths and attributes of a case.
 fn values(engine: Engine, case: &Case, hash: &mut Hash) {
     let Shape::Triangles { list, .. } = &case.shape else { return };
     // The oracle divides big integers at each pixel: a few rows stand for all.
@@ -227,6 +250,7 @@ fn values(engine: Engine, case: &Case, hash: &mut Hash) {
     }
 }
 
+/// Hashes the fragments of lines, with a mark after each line.
 fn lines(engine: LineEngine, case: &Case, hash: &mut Hash) {
     let Shape::Lines(list) = &case.shape else { return };
     for line in list {
@@ -235,11 +259,13 @@ fn lines(engine: LineEngine, case: &Case, hash: &mut Hash) {
     }
 }
 
+/// Hashes how triangles off the lattice were decided, and their hits.
 fn off_grid(engine: ExactEngine, case: &Case, hash: &mut Hash) {
     let mut hits = Coverage::new(case.window, 0);
     for corners in case.free_corners() {
-        let hit = |s: rasterproof_core::triangle::Span| hits.hit(s.y_px, s.x0_px, s.x1_px);
-        let decisions = engine.cover_exact(corners, case.window, hit);
+        let decisions = engine.cover_exact(corners, case.window, |s| {
+            hits.hit(s.y_px, s.x0_px, s.x1_px);
+        });
         hash.whole(decisions.by_filter);
         hash.whole(decisions.by_fallback);
     }
@@ -248,6 +274,7 @@ fn off_grid(engine: ExactEngine, case: &Case, hash: &mut Hash) {
 
 /// A scene planned, and with every depth of every sample.
 fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
+    // With every depth and every sample, so that nothing is left out that could differ.
     let complete =
         Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
     let antialias = [Antialias::None, Antialias::Multisample4, Antialias::Supersample(2)];
@@ -268,7 +295,9 @@ fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
         for plane in &target.planes {
             for ((_, colours), (_, keys)) in plane.colour.rows().zip(plane.depth.rows()) {
                 hash.0.update(colours.as_flattened());
-                keys.iter().for_each(|&key| hash.whole(key));
+                for &key in keys {
+                    hash.whole(key);
+                }
             }
         }
     }

@@ -42,6 +42,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_tiles::coverage::{CoverList as _, Tiles};
 use rasterproof_verify::oracle::Oracle;
 
+/// A rasterizer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
@@ -57,10 +58,12 @@ pub enum Engine {
 }
 
 impl Engine {
+    /// The rasterizers of a verdict.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
     /// The rasterizers that are judged when they are asked for.
     pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
 
+    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline",
@@ -95,6 +98,7 @@ impl Interpolate for Engine {
 // A word of the command line is no hot loop: engines are called through `dyn` here, so that they are
 // compiled once and not for every caller.
 impl Engine {
+    /// What [`Rasterize::cover`] does.
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::Scanline => Scanline.cover(corners, bounds, emit),
@@ -108,6 +112,7 @@ impl Engine {
         }
     }
 
+    /// What [`Interpolate::fragments`] does.
     fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
@@ -130,6 +135,7 @@ impl Engine {
     }
 }
 
+/// A line drawer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum LineEngine {
     /// The book's DDA, repaired.
@@ -141,8 +147,10 @@ pub enum LineEngine {
 }
 
 impl LineEngine {
+    /// The line drawers of a verdict.
     pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
 
+    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Dda => "dda",
@@ -166,6 +174,7 @@ impl DrawLine for LineEngine {
 }
 
 impl LineEngine {
+    /// What [`DrawLine::draw`] does.
     fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
@@ -195,6 +204,7 @@ enum FrameEngine {
     EdgeFunction(EdgeFunctionIn),
 }
 
+// Frames are drawn by runs of fragments, which are the hot loop; what is called once for each triangle may choose here.
 impl Rasterize for FrameEngine {
     #[inline]
     fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
@@ -237,8 +247,10 @@ impl Interpolate for FrameEngine {
 }
 
 impl Drawer {
+    /// Both of them.
     pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
+    /// The name of its rasterizer.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scanline => Engine::Scanline.name(),
@@ -246,6 +258,7 @@ impl Drawer {
         }
     }
 
+    /// The name of its line drawer, for edges.
     pub fn line_name(self) -> &'static str {
         match self {
             Self::Scanline => LineEngine::Dda.name(),
@@ -253,6 +266,7 @@ impl Drawer {
         }
     }
 
+    /// The rasterizer, with the numbers that an effect allows to edge functions.
     fn engine(self, wide_words: Mode) -> FrameEngine {
         match self {
             Self::Scanline => FrameEngine::Scanline,
@@ -362,8 +376,10 @@ pub enum ExactEngine {
 }
 
 impl ExactEngine {
+    /// The rasterizers of a verdict about corners that are not snapped.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
+    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline-exact",
@@ -411,7 +427,9 @@ pub enum Specimen {
 /// What a name stands for: some engines rasterize, some draw lines, the oracle does both.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
+    /// The name on the command line.
     pub name: &'static str,
+    /// What it is, in a sentence.
     pub about: &'static str,
     pub engine: Option<Engine>,
     pub line_engine: Option<LineEngine>,
@@ -435,6 +453,7 @@ pub enum Variant {
     SampleValues(SampleValues),
 }
 
+/// An entry that can do nothing, which the tables fill in.
 const NOBODY: Entry = Entry {
     name: "",
     about: "",
@@ -533,11 +552,14 @@ pub fn speaking() -> impl Iterator<Item = &'static Entry> {
     ENTRIES.iter().chain(&VARIANTS).chain(&SPECIMENS)
 }
 
+/// The entry of this name, of those that speak the line protocol.
 pub fn find(name: &str) -> Option<&'static Entry> {
     speaking().find(|entry| entry.name == name)
 }
 
+/// An entry for the planted fault of this name, by all kinds of engines that have it.
 pub fn find_planted(name: &str) -> Option<Entry> {
+    // One name may be that of several faults, in engines of different kinds.
     let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);

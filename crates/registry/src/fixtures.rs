@@ -27,7 +27,9 @@ use rasterproof_verify::comparison::{caught, line_coverage};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::partition::{Coordinates, Family};
 
+/// The name and the version of the format.
 pub const FORMAT: &str = "rasterproof-fixtures/2";
+/// How many cases there are of each kind.
 pub const QUOTAS: [(Kind, usize); 5] = [
     (Kind::Triangle, 400),
     (Kind::Fan, 150),
@@ -56,6 +58,7 @@ pub enum Kind {
 /// Row, first column, one past the last.
 pub type Run = [i32; 3];
 
+/// The file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fixtures {
@@ -79,20 +82,23 @@ pub struct PolygonFixture {
     pub twice_area: i64,
 }
 
+/// How many polygons there are.
 pub const POLYGONS: usize = 200;
 /// Of each family, the smallest of so many are taken.
 const POLYGONS_LOOKED_AT: u64 = 200;
 
 impl PolygonFixture {
+    /// The polygon of a family, in whole numbers.
     fn new(family: Family, seed: u64, index: u64) -> Self {
         let polygon = family.polygon(seed, index, Coordinates::Integer);
-        let whole = |contour: &Vec<[f64; 2]>| {
-            contour.iter().map(|point| point.map(|v| v as i32)).collect::<Vec<_>>()
-        };
-        let contours: Vec<_> = polygon.contours.iter().map(whole).collect();
-        // Contours turn one way around what is inside and the other way around holes, so their areas add up.
-        let twice_area = contours.iter().map(|contour| shoelace(contour)).sum::<i64>().abs();
-        Self { family: family.name().to_owned(), contours, twice_area }
+        let (mut contours, mut twice_area) = (Vec::new(), 0);
+        for contour in &polygon.contours {
+            let whole: Vec<_> = contour.iter().map(|point| point.map(|v| v as i32)).collect();
+            // Contours turn one way around what is inside and the other way around holes, so their areas add up.
+            twice_area += shoelace(&whole);
+            contours.push(whole);
+        }
+        Self { family: family.name().to_owned(), contours, twice_area: twice_area.abs() }
     }
 
     /// Fewer vertices come first, then fewer digits.
@@ -102,17 +108,20 @@ impl PolygonFixture {
     }
 }
 
+/// Twice the area of a polygon, with the sign of the way in which it turns.
 fn shoelace(contour: &[[i32; 2]]) -> i64 {
-    let next = contour.iter().cycle().skip(1);
-    let cross = |(&[ax, ay], &[bx, by]): (&[i32; 2], &[i32; 2])| {
-        i64::from(ax) * i64::from(by) - i64::from(bx) * i64::from(ay)
-    };
-    contour.iter().zip(next).map(cross).sum()
+    let mut sum = 0;
+    for (i, &[ax, ay]) in contour.iter().enumerate() {
+        let [bx, by] = contour[(i + 1) % contour.len()];
+        sum += i64::from(ax) * i64::from(by) - i64::from(bx) * i64::from(ay);
+    }
+    sum
 }
 
 /// The smallest polygons of each family: the same number of each, but for one.
 fn polygons(seed: u64) -> Vec<PolygonFixture> {
     let mut all = Vec::new();
+    // What is left is shared evenly among the families that follow.
     let mut families = Family::ALL.len();
     for family in Family::ALL {
         let mut found: Vec<_> =
@@ -171,13 +180,17 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// Every fault that can be seen in pixels, engines first.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let triangles = TriangleMutant::ALL.into_iter().map(Self::Triangle);
-        let tiles = TileMutant::ALL.into_iter().map(Self::Tile);
-        triangles.chain(tiles).chain(LineMutant::ALL.into_iter().map(Self::Line)).collect()
+        let mut all = Vec::new();
+        all.extend(TriangleMutant::ALL.map(Self::Triangle));
+        all.extend(TileMutant::ALL.map(Self::Tile));
+        all.extend(LineMutant::ALL.map(Self::Line));
+        all
     }
 
+    /// The name for `--plant`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Triangle(mutant) => mutant.name(),
@@ -187,6 +200,7 @@ impl Fault {
     }
 }
 
+/// Whoever draws a case: engines of both kinds, or a planted fault.
 #[derive(Clone, Copy, Debug)]
 pub enum Drawer {
     Engines(Engine, LineEngine),
@@ -202,13 +216,17 @@ struct Drawing {
 }
 
 impl Drawing {
+    /// The drawing that a fixture holds.
     fn of(fixture: &Fixture) -> Self {
         let unit = if fixture.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
-        let point = |[x, y]: [f64; 2]| SubpixelPoint::new((x * unit) as i32, (y * unit) as i32);
-        let points = fixture.points.iter().copied().map(point).collect();
+        let mut points = Vec::with_capacity(fixture.points.len());
+        for [x, y] in &fixture.points {
+            points.push(SubpixelPoint::new((x * unit) as i32, (y * unit) as i32));
+        }
         Self { kind: fixture.kind, window: fixture.window, points }
     }
 
+    /// The drawing as a fixture, with what is expected of it.
     fn fixture(&self, found_by: &str) -> Fixture {
         let unit = if self.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
         let points = self.points.iter().map(|p| [f64::from(p.x) / unit, f64::from(p.y) / unit]);
@@ -221,6 +239,7 @@ impl Drawing {
         }
     }
 
+    /// The pixels of the picture.
     fn rect(&self) -> PixelRect {
         PixelRect::window(self.window[0], self.window[1])
     }
@@ -235,22 +254,26 @@ impl Drawing {
         }
     }
 
+    /// The triangles of these points; a line has none.
     fn triangles(&self, points: &[SubpixelPoint]) -> Vec<Corners> {
-        match self.kind {
-            Kind::Line => Vec::new(),
-            Kind::Fan => match points.split_first() {
-                Some((&hub, ring)) => ring.windows(2).map(|two| [hub, two[0], two[1]]).collect(),
-                None => Vec::new(),
-            },
-            _ => points.windows(3).map(|three| [three[0], three[1], three[2]]).collect(),
+        let mut triangles = Vec::new();
+        for i in 2..points.len() {
+            match self.kind {
+                Kind::Line => {}
+                Kind::Fan => triangles.push([points[0], points[i - 1], points[i]]),
+                _ => triangles.push([points[i - 2], points[i - 1], points[i]]),
+            }
         }
+        triangles
     }
 
+    /// The line between the first two points, which are pixels.
     fn line(&self) -> cases::Line {
         let [a, b] = [0, 1].map_array(|i| PixelPoint::new(self.points[i].x, self.points[i].y));
         plain_line(a, b)
     }
 
+    /// What is expected for every number of bits, neighbouring numbers with the same pictures together.
     fn expected(&self) -> Vec<ExpectedPictures> {
         if self.kind == Kind::Line {
             let (mut hit, outline) = (Coverage::new(self.rect(), 0), self.halfway());
@@ -274,32 +297,30 @@ impl Drawing {
     }
 
     /// The pixels for so many bits, by every way to move corners to that grid.
-    fn pixels(&self, bits: u32, [dx, dy]: [i32; 2]) -> Pixels {
+    fn pixels(&self, bits: u32, offset: [i32; 2]) -> Pixels {
         let window = self.rect();
         let [mut always, mut ever, mut outline] = [(); 3].map_array(|()| Coverage::new(window, 0));
-        let moved =
-            |p: &SubpixelPoint| SubpixelPoint::new(p.x.saturating_add(dx), p.y.saturating_add(dy));
         for (number, points) in self.on_grid(bits).into_iter().enumerate() {
-            let points: Vec<_> = points.iter().map(moved).collect();
-            let triangles = self.triangles(&points);
+            let triangles = self.triangles(&moved(&points, offset));
             let mut hits = Coverage::new(window, 0);
             for corners in &triangles {
                 Oracle.spans(*corners, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
-            for y in window.y0..window.y1 {
-                let all = always.row_mut(y).iter_mut().zip(ever.row_mut(y));
-                for ((always, ever), (_, &hits)) in all.zip((window.x0..).zip(hits.row(y))) {
+            for (y, row) in hits.rows() {
+                for (x, &hits) in row.iter().enumerate() {
                     let is_hit = u8::from(hits > 0);
+                    let always = &mut always.row_mut(y)[x];
                     *always = if number == 0 { is_hit } else { *always & is_hit };
-                    *ever |= is_hit;
+                    ever.row_mut(y)[x] |= is_hit;
                 }
             }
             mark_outline(&triangles, &mut outline);
         }
+        // What is hit by some ways and not by all of them may be either.
         let mut either = ever;
-        for y in window.y0..window.y1 {
-            for (either, always) in either.row_mut(y).iter_mut().zip(always.row(y)) {
-                *either &= 1 - always;
+        for (y, row) in always.rows() {
+            for (x, &always) in row.iter().enumerate() {
+                either.row_mut(y)[x] &= 1 - always;
             }
         }
         Pixels { hit: runs(&always), either: runs(&either), outline: runs(&outline) }
@@ -308,18 +329,22 @@ impl Drawing {
     /// The points on the grid of so many bits, in each way that moves every coordinate by less than a step.
     fn on_grid(&self, bits: u32) -> Vec<Vec<SubpixelPoint>> {
         let step = SUBPIXELS >> bits;
-        let mut ways = vec![Vec::new()];
+        let mut ways: Vec<Vec<SubpixelPoint>> = vec![Vec::new()];
         for p in &self.points {
-            let places = [p.x, p.y].map_array(|v| {
+            let [xs, ys] = [p.x, p.y].map_array(|v| {
                 let down = v.div_euclid(step) * step;
                 if down == v { vec![v] } else { vec![down, down + step] }
             });
-            let [xs, ys] = &places;
-            ways = ways
-                .iter()
-                .flat_map(|way| xs.iter().flat_map(move |x| ys.iter().map(move |y| (way, *x, *y))))
-                .map(|(way, x, y)| [&way[..], &[SubpixelPoint::new(x, y)]].concat())
-                .collect();
+            // Each way so far, with each place of this point.
+            let mut longer = Vec::new();
+            for way in &ways {
+                for &x in &xs {
+                    for &y in &ys {
+                        longer.push([&way[..], &[SubpixelPoint::new(x, y)]].concat());
+                    }
+                }
+            }
+            ways = longer;
         }
         ways
     }
@@ -336,6 +361,7 @@ impl Drawing {
             [self.points[0], self.points[1]].map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let steps = dx.abs().max(dy.abs());
+        // A step along the longer axis moves by minor / steps across it.
         let is_flat = dx.abs() >= dy.abs();
         let (minor, sign) = if is_flat { (dy, dx.signum()) } else { (dx, dy.signum()) };
         for y in 0..i64::from(self.window[1]) {
@@ -370,12 +396,10 @@ impl Drawing {
         }
     }
 
-    fn drawn_moved(&self, drawer: Drawer, [dx, dy]: [i32; 2]) -> Option<Coverage> {
+    /// What is drawn at one place of samples.
+    fn drawn_moved(&self, drawer: Drawer, offset: [i32; 2]) -> Option<Coverage> {
         let window = self.rect();
-        let by = |v: i32, d: i32| v.saturating_add(d);
-        let points: Vec<_> =
-            self.points.iter().map(|p| SubpixelPoint::new(by(p.x, dx), by(p.y, dy))).collect();
-        let triangles = self.triangles(&points);
+        let triangles = self.triangles(&moved(&self.points, offset));
         let drawn = caught(|| {
             let mut hits = Coverage::new(window, 0);
             match drawer {
@@ -388,10 +412,9 @@ impl Drawing {
                 }
                 Drawer::Fault(Fault::Triangle(mutant)) => {
                     for &corners in &triangles {
-                        let mut hit = |s: rasterproof_core::triangle::Span| {
-                            hits.hit(s.y_px, s.x0_px, s.x1_px)
-                        };
-                        mutant.spans(corners, window, &mut hit);
+                        mutant.spans(corners, window, &mut |s| {
+                            hits.hit(s.y_px, s.x0_px, s.x1_px);
+                        });
                     }
                 }
                 Drawer::Engines(engine, _) => {
@@ -417,12 +440,15 @@ impl Drawing {
         self.drawn(oracle).unwrap_or_default()
     }
 
+    /// Which of the faults draw it wrong.
     fn killed(&self, faults: &[Fault]) -> Vec<bool> {
         let truth = self.truth();
-        let is_wrong = |fault: &Fault| {
-            self.applies(*fault) && self.drawn(Drawer::Fault(*fault)).as_ref() != Some(&truth)
-        };
-        faults.iter().map(is_wrong).collect()
+        let mut killed = Vec::with_capacity(faults.len());
+        for &fault in faults {
+            let is_right = || self.drawn(Drawer::Fault(fault)).as_ref() == Some(&truth);
+            killed.push(self.applies(fault) && !is_right());
+        }
+        killed
     }
 
     /// Whether every pixel is hit at most once, as in meshes that do not fold over.
@@ -432,8 +458,18 @@ impl Drawing {
     }
 }
 
+/// Points moved by an offset, as far as there are coordinates.
+fn moved(points: &[SubpixelPoint], [dx, dy]: [i32; 2]) -> Vec<SubpixelPoint> {
+    let mut moved = Vec::with_capacity(points.len());
+    for p in points {
+        moved.push(SubpixelPoint::new(p.x.saturating_add(dx), p.y.saturating_add(dy)));
+    }
+    moved
+}
+
 /// Marks samples on edges that belong to one triangle alone; a triangle without area has none.
 fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
+    // How many triangles each edge belongs to, whichever way they run along it.
     let mut edges: BTreeMap<[SubpixelPoint; 2], u32> = BTreeMap::new();
     for [a, b, c] in triangles.iter().filter(|corners| twice_area(corners) != 0) {
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -441,12 +477,16 @@ fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
         }
     }
     let window = outline.bounds();
-    for [a, b] in edges.into_iter().filter(|(_, count)| count % 2 == 1).map(|(edge, _)| edge) {
+    for ([a, b], count) in edges {
+        // An edge of two triangles lies inside of both together.
+        if count % 2 == 0 {
+            continue;
+        }
+        let (xs, ys) = (a.x.min(b.x)..=a.x.max(b.x), a.y.min(b.y)..=a.y.max(b.y));
         for y_px in window.y0..window.y1 {
             for x_px in window.x0..window.x1 {
                 let sample = centre_of(x_px, y_px);
-                let is_between = |v: i32, p: i32, q: i32| (p.min(q)..=p.max(q)).contains(&v);
-                let is_near = is_between(sample.x, a.x, b.x) && is_between(sample.y, a.y, b.y);
+                let is_near = xs.contains(&sample.x) && ys.contains(&sample.y);
                 if is_near && twice_area(&[a, b, sample]) == 0 {
                     outline.row_mut(y_px)[(x_px - window.x0) as usize] = 1;
                 }
@@ -455,17 +495,43 @@ fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
     }
 }
 
+/// The pixels that are hit, as runs of the rows.
 fn runs(pixels: &Coverage) -> Vec<Run> {
     let mut found: Vec<Run> = Vec::new();
     for (y, row) in pixels.rows() {
-        for (x, _) in (pixels.bounds().x0..).zip(row).filter(|(_, hits)| **hits > 0) {
+        for (x, hits) in (pixels.bounds().x0..).zip(row) {
             match found.last_mut() {
+                _ if *hits == 0 => {}
                 Some(run) if run[0] == y && run[2] == x => run[2] += 1,
                 _ => found.push([y, x, x + 1]),
             }
         }
     }
     found
+}
+
+impl Pixels {
+    /// Whether these are hit once: all that must be, and of the others only those that may be.
+    fn accept(&self, drawn: &Coverage) -> bool {
+        for (y, row) in drawn.rows() {
+            for (x, &hits) in (0..).zip(row) {
+                let is_right = match hits {
+                    0 => !holds(&self.hit, x, y),
+                    1 => holds(&self.hit, x, y) || holds(&self.either, x, y),
+                    _ => false,
+                };
+                if !is_right {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+}
+
+/// Whether a pixel lies in one of these runs.
+fn holds(runs: &[Run], x: i32, y: i32) -> bool {
+    runs.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x))
 }
 
 impl Fixture {
@@ -477,18 +543,7 @@ impl Fixture {
             return false;
         };
         drawn.len() == expected.samples.len()
-            && drawn.iter().zip(&expected.samples).all(|(drawn, pixels)| {
-                let holds = |runs: &[Run], x: i32, y: i32| {
-                    runs.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x))
-                };
-                drawn.rows().all(|(y, row)| {
-                    (0..).zip(row).all(|(x, &hits)| match hits {
-                        0 => !holds(&pixels.hit, x, y),
-                        1 => holds(&pixels.hit, x, y) || holds(&pixels.either, x, y),
-                        _ => false,
-                    })
-                })
-            })
+            && drawn.iter().zip(&expected.samples).all(|(drawn, pixels)| pixels.accept(drawn))
     }
 
     /// Whether a fault is of what is drawn here.
@@ -506,17 +561,21 @@ impl Fixture {
 
 /// The families that cases of a kind come from, by name; windows of `far` do not begin at the origin.
 fn families(kind: Kind) -> Vec<&'static cases::Family> {
-    let wanted = |name: &str| match kind {
-        Kind::Fan => name == "fan",
-        Kind::Strip => name == "strip",
-        Kind::Line => name.starts_with("line-"),
+    cases::families().filter(|family| has_cases_of(family.name, kind)).collect()
+}
+
+/// Whether cases of a family are drawings of this kind that begin at the origin.
+fn has_cases_of(family: &str, kind: Kind) -> bool {
+    match kind {
+        Kind::Fan => family == "fan",
+        Kind::Strip => family == "strip",
+        Kind::Line => family.starts_with("line-"),
         Kind::Triangle | Kind::Samples4 => {
-            !name.starts_with("line-")
-                && !name.starts_with("w-")
-                && !["fan", "strip", "rectangle", "far", "off-screen"].contains(&name)
+            !family.starts_with("line-")
+                && !family.starts_with("w-")
+                && !["fan", "strip", "rectangle", "far", "off-screen"].contains(&family)
         }
-    };
-    cases::families().filter(|family| wanted(family.name)).collect()
+    }
 }
 
 /// A generated case as a drawing; nothing for one that is no drawing of this kind.
@@ -534,12 +593,11 @@ fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             let first = corners.first()?;
             match kind {
-                Kind::Fan => {
-                    let ring = corners.iter().map(|c| c[2]);
-                    [first[0], first[1]].into_iter().chain(ring).collect()
-                }
-                Kind::Strip => {
-                    first.iter().copied().chain(corners[1..].iter().map(|c| c[2])).collect()
+                // Each further triangle adds one point.
+                Kind::Fan | Kind::Strip => {
+                    let mut points = first.to_vec();
+                    points.extend(corners[1..].iter().map(|corners| corners[2]));
+                    points
                 }
                 _ => first.to_vec(),
             }
@@ -570,15 +628,19 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
 
 /// Points, then coordinates that are no multiple of half a pixel, then how far the points lie, then the window.
 fn mesh_size(drawing: &Drawing) -> (usize, usize, i64, u32) {
-    let all = || drawing.points.iter().flat_map(|p| [p.x, p.y]);
-    let odd = all().filter(|v| v.rem_euclid(HALF_PIXEL) != 0).count();
-    let far = all().map(|v| i64::from(v).abs()).sum();
+    let (mut odd, mut far) = (0, 0);
+    for v in drawing.points.iter().flat_map(|p| [p.x, p.y]) {
+        odd += usize::from(v.rem_euclid(HALF_PIXEL) != 0);
+        far += i64::from(v).abs();
+    }
     (drawing.points.len(), odd, far, drawing.window[0] + drawing.window[1])
 }
 
+/// Drawings that may be smaller than a mesh, the greatest steps first.
 fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
     let mut found = Vec::new();
     let mut add = |points: Vec<SubpixelPoint>| found.push(Drawing { points, ..drawing.clone() });
+    // Without one of its points.
     if drawing.points.len() > 4 {
         for i in 0..drawing.points.len() {
             let mut fewer = drawing.points.clone();
@@ -586,15 +648,21 @@ fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
             add(fewer);
         }
     }
+    // Nearer to the origin as a whole, by whole pixels.
     for (dx, dy) in [(4, 0), (0, 4), (1, 0), (0, 1)] {
-        let by = |p: &SubpixelPoint| SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS);
-        add(drawing.points.iter().map(by).collect());
+        let mut nearer = drawing.points.clone();
+        for p in &mut nearer {
+            *p = SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS);
+        }
+        add(nearer);
     }
+    // One coordinate simpler: on the border or in the middle of its pixel, or nearer to 0.
     for i in 0..drawing.points.len() {
         for axis in 0..2 {
             let SubpixelPoint { x, y } = drawing.points[i];
             let v = if axis == 0 { x } else { y };
             let border = v.div_euclid(SUBPIXELS) * SUBPIXELS;
+            // Half of it on a grid of sixteenths, and a pixel or half of one nearer to 0.
             let nearer = [
                 v / 2 / 16 * 16,
                 v - v.signum() * SUBPIXELS.min(v.abs()),
@@ -642,6 +710,7 @@ fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> O
         if !start.is_single() || is_fine && start.fine_coordinates() == 0 {
             continue;
         }
+        // It stays small only while it shows everything that it shows now.
         let killed = start.killed(faults);
         if !killed[number] {
             continue;
@@ -676,6 +745,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
             found.insert(wider_than_i32(), TileMutant::WrappedWidth.name());
         }
         for round in 0.. {
+            // Each fault that is still looked for gets a drawing a round.
             let drawings = parallel::map(alive.len(), |i| {
                 (alive[i], find(kind, &faults, alive[i], seed, round))
             });
@@ -700,8 +770,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
         }
         cases.extend(found.iter().map(|(drawing, found_by)| drawing.fixture(found_by)));
     }
-    let place = |(x, y): (i32, i32)| [f64::from(x) / 16.0, f64::from(y) / 16.0];
-    let four = SAMPLES.iter().copied().map(place).collect();
+    let four = SAMPLES.map(|(x, y)| [f64::from(x) / 16.0, f64::from(y) / 16.0]).to_vec();
     Fixtures {
         format: FORMAT.to_owned(),
         rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
@@ -726,6 +795,7 @@ impl Fixtures {
     }
 }
 
+/// A line of JSON for each.
 fn lines<T: Serialize>(all: &[T]) -> String {
     let json = |one: &T| serde_json::to_string(one).unwrap_or_default();
     all.iter().map(json).collect::<Vec<_>>().join(",\n")

@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 
 use super::html::{Figure, escape};
 
+/// A colour by red, green and blue.
 pub type Ink = [u8; 3];
 
 /// The black of titles and labels.
@@ -36,6 +37,7 @@ pub struct Drawing {
 
 // Writing to a string does not fail.
 impl Drawing {
+    /// An empty drawing.
     pub fn new(title: &str, size: [f64; 2]) -> Self {
         Self { title: escape(title), size, inks: [PAPER].into(), body: String::new() }
     }
@@ -46,6 +48,7 @@ impl Drawing {
         format!("{what}=\"#{0}\" class=\"{1}{0}\"", hex(ink), &what[..1])
     }
 
+    /// A straight line.
     fn path(&mut self, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2], width: u32, ink: Ink) {
         let stroke = self.paint("stroke", ink);
         let _ = writeln!(
@@ -54,10 +57,12 @@ impl Drawing {
         );
     }
 
+    /// A line 1 unit wide.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.path(from, to, 1, ink);
     }
 
+    /// A line 2 units wide.
     pub fn wide_line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.path(from, to, 2, ink);
     }
@@ -71,10 +76,12 @@ impl Drawing {
         );
     }
 
+    /// A circle that is painted in this way.
     fn circle(&mut self, [x, y]: [f64; 2], radius: f64, paint: &str) {
         let _ = writeln!(self.body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {paint}/>");
     }
 
+    /// A filled circle.
     pub fn disc(&mut self, at: [f64; 2], radius: f64, ink: Ink) {
         let fill = self.paint("fill", ink);
         self.circle(at, radius, &fill);
@@ -96,10 +103,12 @@ impl Drawing {
         );
     }
 
+    /// The same by its right end.
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
     }
 
+    /// The same by its middle.
     pub fn text_about(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text) / 2.0, at[1]], text, ink);
     }
@@ -118,17 +127,18 @@ pub fn width(text: &str) -> f64 {
     text.chars().map(letter).sum()
 }
 
+/// The drawing as a document, with its colours for dark pages.
 pub fn svg(drawing: &Drawing) -> String {
     let Drawing { title, size: [width, height], inks, body } = drawing;
-    let dark = inks.iter().map(|ink| {
+    let mut classes = String::new();
+    for ink in inks {
         let (name, dark) = (hex(*ink), hex(dark(*ink)));
-        format!(".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}")
-    });
-    let dark: String = dark.collect();
+        let _ = write!(classes, ".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}");
+    }
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n<title>{title}</title>\n\
-         <style>@media (prefers-color-scheme: dark){{{dark}}}</style>\n\
+         <style>@media (prefers-color-scheme: dark){{{classes}}}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\" class=\"fffffff\"/>\n{body}</svg>\n"
     )
 }
@@ -139,6 +149,7 @@ pub fn figure(caption: &str, [wide, usual, narrow]: [Drawing; 3]) -> Figure {
     Figure { caption: caption.to_owned(), svg: svg(&usual), others: others.into() }
 }
 
+/// A colour as six digits.
 fn hex([r, g, b]: Ink) -> String {
     format!("{r:02x}{g:02x}{b:02x}")
 }

@@ -13,6 +13,7 @@ use super::{html, json as json_text, text};
 use json_text::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
 
+/// A format that machines read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Text,
@@ -84,6 +85,7 @@ fn xml(text: &str) -> String {
     html::escape(text).replace('\n', "&#10;")
 }
 
+/// The verdict as JUnit's XML: a property is a test.
 fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let count = |wanted: &dyn Fn(Outcome) -> bool| {
         verdict.more.properties.iter().filter(|p| wanted(p.outcome)).count()
@@ -127,6 +129,7 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     out + "  </testsuite>\n</testsuites>\n"
 }
 
+/// The verdict by the Test Anything Protocol: a line for each property.
 fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let mut out = format!("TAP version 14\n1..{}\n", verdict.more.properties.len());
     for (p, number) in verdict.more.properties.iter().zip(1..) {
@@ -164,6 +167,7 @@ pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> 
     })
 }
 
+/// The verdict for GitHub Classroom: a property is a test with a point.
 fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let tests = verdict.more.properties.iter().map(|p| {
         let good = p.outcome.is_good();

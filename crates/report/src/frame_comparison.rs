@@ -14,6 +14,7 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
 
+/// What was found of two frames.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
     pub pixels: u64,
@@ -37,13 +38,17 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Whether nothing differs that may not.
     pub fn agrees(&self) -> bool {
         self.wrong_pixels == 0 && self.wrong_depths == 0
     }
 }
 
+/// Marks what differs and may not.
 const RED: Colour = [255, 40, 40, 255];
+/// Marks what is undecided.
 const BROWN: Colour = [120, 84, 0, 255];
+/// Marks what is undecided and differs.
 const YELLOW: Colour = [255, 200, 0, 255];
 
 /// What the colours of [`Comparison::picture`] mark.
@@ -98,6 +103,7 @@ pub fn compare(
             };
         }
     }
+    // Several samples may belong to a pixel.
     let scale = a.1.antialias().scale() as i32;
     for (x_px, y_px) in wrong {
         found.picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
@@ -124,9 +130,15 @@ fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
     excused > 0
 }
 
+/// How many pixels of two pictures differ.
 pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
-    let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
-    pixels.filter(|(a, b)| a != b).count() as u64
+    let mut count = 0;
+    for ((_, a), (_, b)) in a.rows().zip(b.rows()) {
+        for (a, b) in a.iter().zip(b) {
+            count += u64::from(a != b);
+        }
+    }
+    count
 }
 
 /// How many depths were compared, and the samples where they differ.
@@ -163,9 +175,15 @@ pub fn mapped() -> impl Iterator<Item = Effect> {
     Effect::ALL.into_iter().filter(|effect| effect.map_colour().is_some())
 }
 
+/// How many pixels pay for an effect.
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
-    let pays = |paid: &&u32| **paid & (1 << effect as u32) != 0;
-    map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
+    let mut count = 0;
+    for (_, row) in map.rows() {
+        for paid in row {
+            count += u64::from(paid & (1 << effect as u32) != 0);
+        }
+    }
+    count
 }
 
 /// Panels in a row of a map, and the widest such row.
@@ -183,6 +201,7 @@ pub struct Amount {
 }
 
 impl Amount {
+    /// What a frame of counts holds.
     pub fn of(counts: &Frame<u32>) -> Self {
         let x0 = counts.bounds().x0;
         let mut amount = Self { mean: 0.0, most: 0, at: [0; 2], pixels: 0 };
@@ -235,19 +254,24 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
         let words = [name, (words, Size::Small, panels::FAINT)];
         panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0])
     };
-    let amounts =
-        [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
-    let amounts = amounts.map(|(name, counts)| {
+    let mut cells = Vec::new();
+    for (name, counts) in
+        [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)]
+    {
         let Amount { mean, most, .. } = Amount::of(counts);
-        cell(name, panels::INK.0, format!("mean {mean:.2}, at most {most}"), &|x, y| {
+        let words = format!("mean {mean:.2}, at most {most}");
+        cells.push(cell(name, panels::INK.0, words, &|x, y| {
             heat(counts.get(x, y).unwrap_or(0).into(), most)
-        })
-    });
+        }));
+    }
     let pixels = u64::from(width) * u64::from(height);
-    let effects = mapped().filter(|effect| paid(map, *effect) > 0).filter_map(|effect| {
-        let (count, paint) = (paid(map, effect), effect.map_colour()?);
+    for effect in Effect::ALL {
+        let (count, Some(paint)) = (paid(map, effect), effect.map_colour()) else { continue };
+        if count == 0 {
+            continue;
+        }
         let words = format!("{count} px, {:.1}%", 100.0 * count as f64 / pixels.max(1) as f64);
-        Some(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
+        cells.push(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
             let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
             let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
             // The frame shows through.
@@ -256,9 +280,8 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
                 0 => [(40 + grey / 5) as u8; 3],
                 _ => paint.map_array(lit),
             }
-        }))
-    });
-    let cells = amounts.into_iter().chain(effects).collect();
+        }));
+    }
     let scale = (1..=9).map(|count| Rgb(heat(count.into(), 9))).collect();
     let entries = [
         (vec![Rgb(heat(0.0, 1))], "none".to_owned()),

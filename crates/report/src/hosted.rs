@@ -6,7 +6,6 @@
 //! standard error, and the exit status is that of `judge`. A module's host is called for every read, so it needs no `unsafe`.
 
 use std::io::{self, BufRead as _, Write as _};
-use std::iter;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -38,22 +37,29 @@ impl Subject for Host {
         requests.push(b'\n');
         let heard = io::stdin().lock();
         let sent = io::stdout().write_all(&requests).and_then(|()| io::stdout().flush());
-        let lines: Vec<_> = heard.lines().take(questions.len()).map_while(Result::ok).collect();
-        let lines = lines.iter().map(String::as_bytes).chain(iter::repeat(&b""[..]));
-        let answer = |(question, line): (&Question, _)| {
-            let mut words = Words(line);
-            let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
-            words.word();
-            let read = question.read(letter, &mut words);
-            read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
-        };
+        let mut lines = heard.lines().map_while(Result::ok).fuse();
+        let mut answers = Vec::with_capacity(questions.len());
+        for question in questions {
+            // A line that is not there is an answer that cannot be read.
+            answers.push(answer(question, lines.next().unwrap_or_default().as_bytes()));
+        }
         match sent {
-            Ok(()) => questions.iter().zip(lines).map(answer).collect(),
+            Ok(()) => answers,
             Err(error) => vec![Answer::Died(Breach::Exits.by(error.to_string()))],
         }
     }
 }
 
+/// The answer in a line: a letter and a number, which the judge does not need, then what was drawn.
+fn answer(question: &Question, line: &[u8]) -> Answer {
+    let mut words = Words(line);
+    let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
+    words.word();
+    let read = question.read(letter, &mut words);
+    read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
+}
+
+/// What is to be judged, as the options say it.
 #[derive(Default)]
 struct Job {
     options: Options,
@@ -68,6 +74,7 @@ struct Job {
 }
 
 impl Job {
+    /// Reads options up to the line HELLO.
     fn read() -> Result<(Self, Declared), String> {
         let mut job = Self::default();
         for line in io::stdin().lines().map_while(Result::ok) {
@@ -82,6 +89,7 @@ impl Job {
         Err("no line with HELLO was read".to_owned())
     }
 
+    /// Takes an option.
     fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
         let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
         let number = |least: u64| {
@@ -136,12 +144,15 @@ impl Job {
         if self.hits {
             all.push(("hits", if self.is_python { "True" } else { "true" }.to_owned()));
         }
-        let all: Vec<_> =
-            all.iter().map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
+        let mut arguments = Vec::new();
+        for (name, value) in all {
+            arguments.push(format!("{name}{}{value}", self.is()));
+        }
         let [open, close] = if self.is_python { ["", ""] } else { ["{ ", " }"] };
-        format!("{}, {open}{}{close})", self.call, all.join(", "))
+        format!("{}, {open}{}{close})", self.call, arguments.join(", "))
     }
 
+    /// Whether all is right, and the report; an error where nothing could be judged.
     fn judge(self, declared: Declared) -> Result<(bool, String), String> {
         let one = |family: &str, index: u64| {
             self.line(&[("family", format!("'{family}'")), ("case", index.to_string())])
@@ -157,16 +168,16 @@ impl Job {
                 if declared.partition { polygons::polygon_that_asks } else { case_that_asks };
             let found = find(&self.locate, &self.options, &declared);
             let seed = self.options.seed;
-            let said = found.map(|(family, index)| {
-                format!(
+            let said = match found {
+                Some((family, index)) => format!(
                     "family {family}, case {index}, seed {seed}\nrepeat with: {}",
                     one(family, index)
-                )
-            });
-            let of_none = format!(
-                "a request of the judge that is no generated case; seed {seed}\nrepeat with: {all}"
-            );
-            return Ok((true, said.unwrap_or(of_none)));
+                ),
+                None => format!(
+                    "a request of the judge that is no generated case; seed {seed}\nrepeat with: {all}"
+                ),
+            };
+            return Ok((true, said));
         }
         if declared.partition {
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
@@ -176,8 +187,10 @@ impl Job {
         let scope = Scope::of(&self.options);
         // A module has one thread.
         let hosts = if cfg!(target_family = "wasm") { 1 } else { 2 };
-        let host = |_| Box::new(Host(declared.clone())) as Box<dyn Subject>;
-        let mut askers: Vec<_> = (0..hosts).map(host).collect();
+        let mut askers: Vec<Box<dyn Subject>> = Vec::new();
+        for _ in 0..hosts {
+            askers.push(Box::new(Host(declared.clone())));
+        }
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
         if let Some(why) = verdict.judged_nothing() {
             return Err(why);
@@ -202,6 +215,7 @@ fn cause_first(report: &Report) -> String {
     }
 }
 
+/// What the started program does.
 pub fn main() -> ExitCode {
     let judged = Job::read().and_then(|(job, declared)| job.judge(declared));
     let (status, said) = match judged {

@@ -23,14 +23,18 @@ use super::picture;
 use super::table::{Mark, Table};
 use super::words::{grouped, same, serialize_grouped, word};
 
+/// Lines of a text that are shown around what differs.
 const CONTEXT: usize = 3;
+/// Names of what is left out that a page lists.
 const MOST_LEFT_OUT_NAMES: usize = 20;
 /// Of a table with more rows than these a page shows the wrong ones and six others, and all once the reader asks for them.
 const MOST_ROWS: usize = 8;
 /// Below a table with more notes than these, they are folded: a list of them is longer than the table.
 const MOST_NOTES: usize = 4;
+/// What a table takes at most.
 const MOST_TABLE_BYTES: usize = 500_000;
 
+/// The frame of all pages around that of reports.
 static TEMPLATE: LazyLock<String> = LazyLock::new(|| {
     rasterproof_view::FRAME.replacen("{{body}}", include_str!("page/page.html"), 1)
 });
@@ -118,6 +122,7 @@ pub struct Excerpt {
     pub places: Vec<(&'static str, String)>,
 }
 
+/// The verdict of a report.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Whether all is well; decides the colour.
@@ -130,6 +135,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// An outcome in these words.
     pub fn new(good: bool, word: &str, sentence: impl Into<String>) -> Self {
         let (word, answer) = (word.to_owned(), String::new());
         Self { good, word, answer, sentence: sentence.into() }
@@ -161,6 +167,7 @@ impl Outcome {
     }
 }
 
+/// A plot.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -172,6 +179,7 @@ pub struct Figure {
     pub others: Vec<(&'static str, String)>,
 }
 
+/// Two versions of a text.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
@@ -196,6 +204,7 @@ pub struct PictureView {
     pub layers: Vec<PictureLayer>,
 }
 
+/// One of the pictures that can be compared.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
     pub name: String,
@@ -215,6 +224,7 @@ impl PictureLayer {
         Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
     }
 
+    /// A picture that is a file already.
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
         Self {
             name: name.to_owned(),
@@ -226,14 +236,15 @@ impl PictureLayer {
 
     /// A picture whose colours mark pixels of another layer, and what each of them marks.
     pub fn map(name: &str, image: &RgbImage, marks: &[(Rgb<u8>, &'static str)]) -> Self {
-        let named = |(Rgb([r, g, b]), what): &(Rgb<u8>, &'static str)| {
-            (format!("#{r:02x}{g:02x}{b:02x}"), *what)
-        };
-        let legend = marks.iter().map(named).collect();
+        let mut legend = Vec::new();
+        for (Rgb([r, g, b]), what) in marks {
+            legend.push((format!("#{r:02x}{g:02x}{b:02x}"), *what));
+        }
         Self { is_map: true, legend, ..Self::new(name, image) }
     }
 }
 
+/// Bytes as an address that contains them.
 fn data_address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }
@@ -286,15 +297,16 @@ pub fn page(report: &Report) -> String {
         }
     };
     let last = Instant::now() + limits::ALL_DIFFS_TIME;
-    let diff = |diff: &TextDiff| {
-        kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
-    };
-    let diffs: String = report.diffs.iter().filter_map(diff).collect();
-    let figures = report.figures.iter().filter_map(|one| {
+    let (mut diffs, mut figures) = (String::new(), String::new());
+    for diff in &report.diffs {
+        let text = text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME));
+        diffs.extend(kept(&diff.name, text));
+    }
+    for one in &report.figures {
         let figure = figure(one);
-        kept(&one.caption, if is_folded { folded(&one.caption, &figure) } else { figure })
-    });
-    let figures: String = figures.collect();
+        let figure = if is_folded { folded(&one.caption, &figure) } else { figure };
+        figures.extend(kept(&one.caption, figure));
+    }
     let cases = report.cases.iter().filter_map(|case| kept(&case.name, json(case)));
     let cases = cases.collect::<Vec<_>>().join(",");
     let frames = report.frames.iter().filter_map(|view| kept(&view.name, json(view)));
@@ -307,11 +319,16 @@ pub fn page(report: &Report) -> String {
     let run = command(&report.command) + &notes(&report.notes, &left_out);
     let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
     let has_cases = !cases.is_empty() || !frames.is_empty();
-    let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
-    let first = has_cases.then(|| ("cases".to_owned(), cases_title));
-    let others = titles.map(|title| (title.to_ascii_lowercase(), title));
-    let links: Vec<_> = first.into_iter().chain(others).collect();
+    let mut links = Vec::new();
+    if has_cases {
+        links.push(("cases".to_owned(), cases_title));
+    }
+    for (title, inside) in &sections {
+        if !inside.is_empty() {
+            links.push((title.to_ascii_lowercase(), *title));
+        }
+    }
     let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&title(report)),
@@ -336,11 +353,13 @@ fn title(report: &Report) -> String {
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.
 fn fill(part: impl Fn(&str) -> String) -> String {
     let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((&TEMPLATE, ""));
-    let pieces = pieces.split("{{").map(|piece| {
+    let mut page = first.to_owned();
+    for piece in pieces.split("{{") {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        part(name) + rest
-    });
-    first.to_owned() + &pieces.collect::<String>()
+        page += &part(name);
+        page += rest;
+    }
+    page
 }
 
 /// JSON that cannot end the script element it stands in.
@@ -359,6 +378,7 @@ fn jump(sections: &[(String, &str)]) -> String {
     format!("<nav class=\"jump\" aria-label=\"on this page\">{links}</nav>\n")
 }
 
+/// A section with its title; nothing where it is empty.
 fn section(title: &str, inside: &str) -> String {
     if inside.is_empty() {
         return String::new();
@@ -369,6 +389,7 @@ fn section(title: &str, inside: &str) -> String {
     )
 }
 
+/// What stands above the cases: the verdict, the answers, and what it is about.
 fn head(report: &Report) -> String {
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
     if let Some(outcome) = &report.outcome {
@@ -403,6 +424,7 @@ fn head(report: &Report) -> String {
 /// What an index says of a page stands in its head.
 const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
 
+/// The line of the head by which an index describes the page.
 fn about(report: &Report) -> String {
     let outcome = report.outcome.as_ref();
     let said = outcome.map(|o| format!("{}: {}", o.word, o.first()));
@@ -443,6 +465,7 @@ pub fn index(pages: &[(String, String)]) -> String {
     )
 }
 
+/// A command that can be copied.
 fn command(text: &str) -> String {
     if text.is_empty() {
         return String::new();
@@ -453,6 +476,7 @@ fn command(text: &str) -> String {
     )
 }
 
+/// What is said below everything else, and what was left out.
 fn notes(notes: &[String], left_out: &[String]) -> String {
     let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", prose(note))).collect();
     if !left_out.is_empty() {
@@ -490,6 +514,7 @@ fn with_links(html: &str, docs: &str) -> String {
     out
 }
 
+/// A table with its notes, folded or not.
 fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     let mut out = String::new();
     if !table.rows.is_empty() {
@@ -509,6 +534,7 @@ fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     }
 }
 
+/// The rows of a table, of which some may be hidden until they are asked for.
 fn rows(table: &Table, is_folded: bool) -> String {
     // A table without a caption belongs to the one above it, and has the name of its rows.
     let name = match (&*table.caption, table.columns.first()) {
@@ -585,6 +611,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
     out
 }
 
+/// A plot with its caption, in the version for the width of the page.
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());

@@ -11,6 +11,7 @@ use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
 pub fn text(data: &Value) -> String {
+    /// The longest file that is read back.
     const MOST_READ_BYTES: usize = 1 << 16;
     let line = data.to_string();
     if line.len() > MOST_READ_BYTES { line + "\n" } else { pretty(data) }
@@ -22,11 +23,13 @@ pub fn line(of: &impl Serialize) -> String {
     serde_json::to_string(of).unwrap_or_default()
 }
 
+/// JSON with a member a line.
 pub fn pretty(value: &impl Serialize) -> String {
     // Numbers and strings only: this cannot fail.
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
+/// A value as JSON; nothing that is written here can fail.
 pub fn value(of: &impl Serialize) -> Value {
     // Numbers and strings only: this cannot fail.
     serde_json::to_value(of).unwrap_or_default()

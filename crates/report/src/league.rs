@@ -25,6 +25,7 @@ struct Words {
     made: fn(&League) -> String,
 }
 
+/// The words of both languages, in the same order.
 const ENGLISH: Words = Words {
     header: "| library | as is | by its convention | holes | doubles | order | lines as is | lines by theirs | from either \
              end |",
@@ -70,6 +71,7 @@ const CHINESE: Words = Words {
     },
 };
 
+/// The league: a table of numbers, then what each library does.
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
     let mut out = format!("{}\n\n{}\n|---|", (words.made)(league), words.header);
@@ -79,20 +81,23 @@ pub fn tables(league: &League, chinese: bool) -> String {
         let [as_is, found] = scores(row.triangles.as_ref(), words);
         let [lines, lines_found] = scores(row.lines.as_ref(), words);
         let [meshes, holes, doubles] = row.meshes;
-        let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
+        let [holes, doubles] = [holes, doubles].map(|pixels| match meshes {
+            0 => "-".to_owned(),
+            _ => pixels.to_string(),
+        });
         let _ = writeln!(
             out,
-            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
+            "| {} | {as_is} | {found} | {holes} | {doubles} | {} | {lines} | {lines_found} | {} |",
             row.name,
-            of(holes, meshes),
-            of(doubles, meshes),
             percent(row.orders),
             percent(row.directions)
         );
     }
     out.push('\n');
     let mut said = BTreeMap::new();
-    league.rows.iter().for_each(|row| one(&mut out, row, words, &mut said));
+    for row in &league.rows {
+        one(&mut out, row, words, &mut said);
+    }
     out
 }
 
@@ -102,8 +107,8 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
     let call = (words.say)(&row.call);
     let version = row.version.strip_prefix(&format!("{}-", row.name)).unwrap_or(&row.version);
     let _ = writeln!(out, "- **{}**, {version}{colon}{call}{stop}", row.name);
-    let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
-    for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+    for (about, kind) in words.kinds.iter().zip([&row.triangles, &row.lines]) {
+        let Some(kind) = kind else { continue };
         let does = match &kind.mistake {
             // A mistake that is known explains more than a convention beside it.
             Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
@@ -135,21 +140,25 @@ const IN_THE_DATA: [&str; 8] = [
 
 /// A convention without what the table or the data says better.
 fn beyond_the_table(sentence: &str) -> String {
-    let is_kept = |one: &&str| {
-        !one.contains("of its lines are the same from either end.")
+    let mut kept = String::new();
+    for one in sentence.split_inclusive(". ") {
+        if !one.contains("of its lines are the same from either end.")
             && !IN_THE_DATA.iter().any(|begin| one.starts_with(begin))
-    };
-    let kept: String = sentence.split_inclusive(". ").filter(is_kept).collect();
+        {
+            kept += one;
+        }
+    }
     kept.trim_end().to_owned()
 }
 
 /// A sentence without the shares of each direction of an edge, from north on, which the data has.
 fn without_shares(sentence: &str) -> String {
-    let shares = sentence.split_once(" (N ").and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(')')?;
-        Some(format!("{before}{after}"))
-    });
-    shares.unwrap_or_else(|| sentence.to_owned())
+    if let Some((before, rest)) = sentence.split_once(" (N ")
+        && let Some((_, after)) = rest.split_once(')')
+    {
+        return format!("{before}{after}");
+    }
+    sentence.to_owned()
 }
 
 /// Wrong pixels in a million, as declared and by the convention.
@@ -165,6 +174,7 @@ fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     [share(kind.as_declared), found]
 }
 
+/// The part that changed, of all.
 fn percent([all, changed]: [u64; 2]) -> String {
     if all == 0 { "-".to_owned() } else { format!("{:.0}%", 100.0 * changed as f64 / all as f64) }
 }

@@ -5,6 +5,7 @@ use image::{Rgb, RgbImage};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, RasterizedChar, get_raster};
 use rasterproof_verify::judge::ascii::lines;
 
+/// The two sizes of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
     /// Words beside a picture, numbers of rows and columns.
@@ -24,6 +25,7 @@ impl Size {
         }
     }
 
+    /// The bitmap of a character.
     fn glyph(self, character: char) -> Option<RasterizedChar> {
         let raster = |drawn| match self {
             Self::Small => get_raster(drawn, FontWeight::Regular, RasterHeight::Size16),

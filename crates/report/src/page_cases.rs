@@ -12,8 +12,8 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted;
+use rasterproof_faults::published::RealVertex;
 use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
-use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_registry::comparison::{EnginesToJudge, Hits};
 use rasterproof_registry::engines::SPECIMENS;
@@ -23,6 +23,7 @@ use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::cases::{self, Case, Family, Shape};
 use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 
+/// A case of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
@@ -66,6 +67,7 @@ enum ShapeView {
     Free(Vec<[[f64; 2]; 3]>),
 }
 
+/// What one of them draws, or several of them who draw alike.
 #[derive(Clone, Debug, Serialize)]
 struct Layer {
     names: Vec<String>,
@@ -78,6 +80,7 @@ struct Layer {
     refused: String,
 }
 
+/// Who draws a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Role {
@@ -89,6 +92,7 @@ enum Role {
     Specimen,
 }
 
+/// Who draws, as what, and what it is.
 type EngineHits = (String, Role, Hits);
 
 /// The failing cases of a run, then for each family the one that came closest to a bound, then
@@ -117,25 +121,27 @@ pub fn of_verdict(
 /// For each family the case whose values came closest to their bound, the closest family first.
 fn closest(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView> {
     let seed = verdict.options.seed;
-    let closest = verdict.families.iter().filter_map(|f| {
+    let mut worst = Vec::new();
+    for f in &verdict.families {
         let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
-        let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
-        (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
-    });
-    let mut worst: Vec<_> = closest.collect();
+        let Some(pair) = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst())) else { continue };
+        if pair.worst() > 0.0 && pair.worst() <= 1.0 {
+            worst.push((f, pair));
+        }
+    }
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
-    let views = worst.into_iter().filter_map(|(report, pair)| {
-        let family = cases::families().find(|f| f.name == report.family)?;
+    let mut views = Vec::new();
+    for (report, pair) in worst {
+        let Some(family) = cases::families().find(|f| f.name == report.family) else { continue };
         let view = of_family(family, seed, pair.worst_case, Kind::Closest, judged);
         // Wrong pixels are the news of such a case, and stand among the failing ones.
         let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
-        if view.layers.iter().any(is_wrong) {
-            return None;
+        if !view.layers.iter().any(is_wrong) {
+            let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
+            views.push(CaseView { found, ..view });
         }
-        let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
-        Some(CaseView { found, ..view })
-    });
-    views.collect()
+    }
+    views
 }
 
 /// The first case of each family that is not snapped: they have no bounds to come close to.
@@ -146,6 +152,7 @@ fn unsnapped_samples(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView
     families.map(|family| of_family(family, seed, 0, Kind::OffGrid, judged)).collect()
 }
 
+/// A case of a family.
 fn of_family(
     family: &Family,
     seed: u64,
@@ -159,39 +166,45 @@ fn of_family(
     CaseView { command, ..view }
 }
 
+/// The named cases that are drawn.
 fn every_named(judged: &EnginesToJudge) -> Vec<CaseView> {
-    let views = named::named().into_iter().filter_map(|named| {
-        let Input::Drawn { case, .. } = named.input else { return None };
+    let mut views = Vec::new();
+    for named in named::named() {
+        let Input::Drawn { case, .. } = named.input else { continue };
         let (name, about) = (named.name.to_owned(), named.about.to_owned());
         let view = of_case(name, about, Kind::Named, &case, judged);
-        Some(CaseView { command: format!("rasterproof inspect {}", named.name), ..view })
-    });
-    views.collect()
+        views.push(CaseView { command: format!("rasterproof inspect {}", named.name), ..view });
+    }
+    views
 }
 
 /// The case that exposes each specimen that draws triangles or lines.
 pub fn of_specimens() -> Vec<CaseView> {
     let judged = EnginesToJudge::all();
-    let views = CARDS.iter().filter_map(|card| {
+    let mut views = Vec::new();
+    for card in CARDS {
         let (case, shown) = match &card.exhibit {
-            Exhibit::Triangles([case, _]) => (snapped(case)?, case.name),
+            Exhibit::Triangles([case, _]) => match snapped(case) {
+                Some(snapped) => (snapped, case.name),
+                None => continue,
+            },
             Exhibit::Lines([case, _]) => (line_case(case), case.name),
-            Exhibit::Scene(..) => return None,
+            Exhibit::Scene(..) => continue,
         };
         let about = format!("{}: {shown}", card.source);
         let mut view = of_case(card.name.to_owned(), about, Kind::Specimen, &case, &judged);
         let place = view.place(card.name, 0);
         // A fault of the values alone is for the pictures to show.
         if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
-            return None;
+            continue;
         }
         view.start = [place, view.place("oracle", 1)];
         let found = format!("{}; cure: {}", card.fault, card.cure);
         let command = format!("rasterproof specimens --specimen {}", card.name);
         let chapter = chapter_of_source(card.source);
-        Some(CaseView { found, command, chapter, ..view })
-    });
-    views.collect()
+        views.push(CaseView { found, command, chapter, ..view });
+    }
+    views
 }
 
 /// The case on the lattice: the page shows whole subpixels.
@@ -200,10 +213,10 @@ fn snapped(case: &TriangleCase) -> Option<Case> {
         let (x, y) = (v.position_px.x, v.position_px.y);
         ScreenVertex::new(x, y, v.depth, v.w, v.varying).ok()
     };
-    let triangle = |[a, b, c]: &RealTriangle| {
-        Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
-    };
-    let list = real_triangles(case).iter().map(triangle).collect::<Option<Vec<_>>>()?;
+    let mut list = Vec::new();
+    for [a, b, c] in &real_triangles(case) {
+        list.push(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] });
+    }
     let window = PixelRect::window(case.side_px, case.side_px);
     Some(Case { window, shape: Shape::Triangles { list, disjoint: false } })
 }
@@ -242,6 +255,7 @@ pub fn of_program(
     view
 }
 
+/// Gives views of one name names that differ.
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();
     for view in views {
@@ -262,12 +276,15 @@ pub fn of_case(
     judged: &EnginesToJudge,
 ) -> CaseView {
     let truth = oracle_hits(case);
-    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(truth.clone()));
-    let specimens = SPECIMENS.iter().filter_map(|entry| {
-        Some((entry.name.to_owned(), Role::Specimen, drawn::by_specimen(entry, case)?))
-    });
-    let engines = judged.with_others().hits(case).into_iter();
-    let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
+    // Everybody who draws the case: the engines, then the oracle, then the specimens.
+    let mut drawn: Vec<EngineHits> =
+        judged.with_others().hits(case).into_iter().map(with_role).collect();
+    drawn.push(("oracle".to_owned(), Role::Oracle, Ok(truth.clone())));
+    for entry in &SPECIMENS {
+        if let Some(hits) = drawn::by_specimen(entry, case) {
+            drawn.push((entry.name.to_owned(), Role::Specimen, hits));
+        }
+    }
     let shape = match &case.shape {
         Shape::Triangles { list, .. } => {
             let corners = list.iter().map(|t| t.corners().map_array(|p| [p.x, p.y]));
@@ -300,6 +317,7 @@ pub fn of_case(
     CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
 }
 
+/// What an engine draws, or a planted fault.
 fn with_role((name, hits): (String, Hits)) -> EngineHits {
     let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
     (name, role, hits)
@@ -317,6 +335,7 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     Chapter { title, path }
 }
 
+/// A layer with its counts.
 fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
     let (runs, covered, tally, refused) = match hits {
         Ok(hits) => (runs(&hits), hits.covered(), Tally::between(&hits, truth), String::new()),
@@ -325,12 +344,16 @@ fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
     Layer { names: vec![name], role, runs, covered, tally, refused }
 }
 
+/// The hits as lengths of runs.
 fn runs(hits: &Coverage) -> Vec<u32> {
     let mut runs: Vec<u32> = Vec::new();
-    for &hits in hits.rows().flat_map(|(_, row)| row) {
-        match runs.as_mut_slice() {
-            [.., count, last] if *last == u32::from(hits) => *count += 1,
-            _ => runs.extend([1, u32::from(hits)]),
+    // A run may go on in the next row.
+    for (_, row) in hits.rows() {
+        for &hits in row {
+            match runs.as_mut_slice() {
+                [.., count, last] if *last == u32::from(hits) => *count += 1,
+                _ => runs.extend([1, u32::from(hits)]),
+            }
         }
     }
     runs
@@ -340,15 +363,20 @@ fn runs(hits: &Coverage) -> Vec<u32> {
 /// two engines.
 fn start(layers: &[Layer]) -> [usize; 2] {
     let oracle = layers.iter().position(|l| l.role == Role::Oracle).unwrap_or(0);
-    let is_wrong = |l: &&Layer| l.tally.total() > 0;
-    let engines = layers.iter().filter(|l| l.role != Role::Specimen);
-    let specimens = layers.iter().filter(|l| l.role == Role::Specimen);
-    let worst = engines.filter(is_wrong).max_by_key(|l| l.tally.total());
-    let worst = worst.or_else(|| specimens.filter(is_wrong).max_by_key(|l| l.tally.total()));
-    match worst.and_then(|w| layers.iter().position(|l| l.names == w.names)) {
-        Some(at) => [at, oracle],
-        None => [0, 1.min(layers.len().saturating_sub(1))],
+    for of_specimens in [false, true] {
+        let (mut worst, mut most) = (0, 0);
+        for (at, layer) in layers.iter().enumerate() {
+            let wrong = layer.tally.total();
+            // Of layers that are as wrong, the last one.
+            if (layer.role == Role::Specimen) == of_specimens && wrong > 0 && wrong >= most {
+                (worst, most) = (at, wrong);
+            }
+        }
+        if most > 0 {
+            return [worst, oracle];
+        }
     }
+    [0, 1.min(layers.len().saturating_sub(1))]
 }
 
 impl CaseView {

@@ -28,10 +28,13 @@ const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
 const ABOVE: u32 = 16;
 const BESIDE: u32 = 34;
+/// The colours of words: headings, and what stands below them.
 pub const INK: Rgb<u8> = Rgb([30, 30, 30]);
 pub const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
+/// The paper.
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 
+/// The name of an engine, and what it draws.
 pub type EnginePicture = (String, Coverage);
 
 /// What each engine draws, judged by `target`; then the target, as `oracle`.
@@ -46,21 +49,28 @@ pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Cove
     let outlines = scaled(&segments, shown, zoom);
     let is_line = matches!(case.shape, Shape::Lines(_));
     let mut occurring = BTreeSet::new();
-    let panels = all.iter().map(|(name, hits)| {
+    let mut panels = Vec::new();
+    for (name, hits) in &all {
         let colour = |x_px, y_px| {
             let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
             colour(of(hits), of(target), owners.as_ref().map_or(0, of))
         };
-        occurring.extend(pixels(shown).map(|(x, y)| colour(x, y).0));
+        for (x, y) in pixels(shown) {
+            occurring.insert(colour(x, y).0);
+        }
         let counts = (counts(hits, target), Size::Small, FAINT);
         let words = [(name.clone(), Size::Heading, INK), counts];
-        panel(&words, (shown, zoom, true), &outlines, &colour)
-    });
-    let panels = panels.collect();
-    let owned = (1..).zip(OWNERS).filter(|(_, colour)| occurring.contains(&colour.0));
-    let owned = owned.map(|(number, colour)| (vec![colour], format!("right: triangle {number}")));
+        panels.push(panel(&words, (shown, zoom, true), &outlines, &colour));
+    }
+    // The legend of what occurs: triangles that have a colour of their own, then the others.
+    let mut entries: Vec<Entry> = Vec::new();
+    for (number, colour) in (1..).zip(OWNERS) {
+        if occurring.contains(&colour.0) {
+            entries.push((vec![colour], format!("right: triangle {number}")));
+        }
+    }
     let edges = if is_line { "the line itself" } else { "edges" };
-    let words = [
+    for (occurs, colour, text) in [
         (occurring.contains(&AGREES.0), AGREES, "as the oracle"),
         (occurring.contains(&MISSING.0), MISSING, "missing"),
         (occurring.contains(&EXTRA.0), EXTRA, "extra"),
@@ -68,10 +78,11 @@ pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Cove
         (occurring.contains(&OVERLAP.0), OVERLAP, "rightly more than once"),
         (true, EDGE, edges),
         (zoom >= SAMPLED, SAMPLE, "samples"),
-    ];
-    let words = words.into_iter().filter(|(occurs, ..)| *occurs);
-    let words = words.map(|(_, colour, text)| (vec![colour], text.to_owned()));
-    let entries: Vec<Entry> = owned.chain(words).collect();
+    ] {
+        if occurs {
+            entries.push((vec![colour], text.to_owned()));
+        }
+    }
     let mut note = String::new();
     if shown != window {
         let (x, y) = (shown.x1 - 1, shown.y1 - 1);
@@ -82,6 +93,7 @@ pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Cove
     arranged(&[(title.to_owned(), Size::Heading, INK)], panels, columns, &entries, &note)
 }
 
+/// A line of words, in a size and a colour.
 pub(super) type Words = (String, Size, Rgb<u8>);
 
 /// Words, below them pictures in so many columns, below these what the colours mean, and a note.
@@ -94,6 +106,7 @@ pub fn arranged(
 ) -> RgbImage {
     let wide = cells.iter().map(|cell| cell.width()).max().unwrap_or(1);
     let high = cells.iter().map(|cell| cell.height()).max().unwrap_or(1);
+    // Every cell has the room of the largest one.
     let rows = (cells.len() as u32).div_ceil(columns);
     let width = (GAP + columns * (wide + GAP)).max(420);
     let mut heading = Vec::new();
@@ -130,8 +143,10 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
     let mut owners = Coverage::new(case.window, 0);
     for (number, triangle) in (1..).zip(list) {
         for (y, row) in oracle_coverage(std::slice::from_ref(triangle), case.window).rows() {
-            for (owner, _) in owners.row_mut(y).iter_mut().zip(row).filter(|(_, hits)| **hits > 0) {
-                *owner = number;
+            for (owner, hits) in owners.row_mut(y).iter_mut().zip(row) {
+                if *hits > 0 {
+                    *owner = number;
+                }
             }
         }
     }
@@ -147,6 +162,7 @@ fn crop(
     outline: &[[PixelPoint; 2]],
 ) -> PixelRect {
     let hits = |c: &Coverage, x: i32, y: i32| c.get(x, y).unwrap_or(0);
+    // What is hit, what differs, and where the shape is, each with some room.
     let hit = around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) > 0), 1);
     let wrong =
         around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) != hits(target, x, y)), 4);
@@ -163,6 +179,7 @@ fn crop(
     shape.filter(is_small).or(wrong).or(hit).or(shape).unwrap_or(window)
 }
 
+/// The box around two boxes.
 fn union(a: PixelRect, b: PixelRect) -> PixelRect {
     PixelRect { x0: a.x0.min(b.x0), y0: a.y0.min(b.y0), x1: a.x1.max(b.x1), y1: a.y1.max(b.y1) }
 }
@@ -173,6 +190,7 @@ fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Op
     Some(wider(boxes.reduce(union)?, spare, window))
 }
 
+/// The box of one pixel.
 fn pixel((x0, y0): (i32, i32)) -> PixelRect {
     PixelRect { x0, y0, x1: x0 + 1, y1: y0 + 1 }
 }
@@ -202,6 +220,7 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     (zoom(best), best)
 }
 
+/// Room for the numbers of the rows.
 fn left_of(shown: PixelRect) -> u32 {
     let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
@@ -209,10 +228,10 @@ fn left_of(shown: PixelRect) -> u32 {
 
 /// Pictures side by side, each below its name.
 pub fn beside(title: &str, pictures: &[(&str, RgbImage)]) -> RgbImage {
-    let cell = |(name, picture): &(&str, RgbImage)| {
-        titled(&[((*name).to_owned(), Size::Small, INK)], picture, [0, 0])
-    };
-    let cells: Vec<_> = pictures.iter().map(cell).collect();
+    let mut cells = Vec::new();
+    for (name, picture) in pictures {
+        cells.push(titled(&[((*name).to_owned(), Size::Small, INK)], picture, [0, 0]));
+    }
     let columns = cells.len() as u32;
     arranged(&[(title.to_owned(), Size::Heading, INK)], cells, columns, &[], "")
 }
@@ -232,6 +251,7 @@ pub(super) fn titled(words: &[Words], picture: &RgbImage, [left, above]: [u32; 2
     image
 }
 
+/// The height of words above a picture.
 fn head(words: &[Words]) -> u32 {
     words.iter().map(|(_, size, _)| size.cell()[1]).sum::<u32>() + 2
 }
@@ -258,9 +278,12 @@ pub fn panel(
 /// What is wrong in words, or how many pixels are right.
 fn counts(hits: &Coverage, target: &Coverage) -> String {
     let Tally { missing, extra, twice, .. } = Tally::between(hits, target);
-    let parts = [(missing, "missing"), (extra, "extra"), (twice, "twice")];
-    let wrong: Vec<_> =
-        parts.iter().filter(|(n, _)| *n > 0).map(|(n, word)| format!("{n} {word}")).collect();
+    let mut wrong = Vec::new();
+    for (pixels, word) in [(missing, "missing"), (extra, "extra"), (twice, "twice")] {
+        if pixels > 0 {
+            wrong.push(format!("{pixels} {word}"));
+        }
+    }
     let covered = format!("{} px", hits.covered());
     if wrong.is_empty() { covered } else { format!("{covered}: {}", wrong.join(", ")) }
 }
@@ -270,11 +293,8 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
     let widest = [shown.x0, shown.x1 - 1].map_array(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
-    let step = |room: u32| {
-        let mut steps = (0..6).flat_map(|e| [1, 2, 5].map_array(|m| m * 10i32.pow(e)));
-        steps.find(|s| *s as u32 * zoom >= room).unwrap_or(1_000_000)
-    };
-    for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(step(rooms[0])) == 0) {
+    let steps = rooms.map_array(|room| step_of_numbers(room, zoom));
+    for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(steps[0]) == 0) {
         let text = x.to_string();
         let middle = left + (x - shown.x0) as u32 * zoom + zoom / 2;
         let half = lettering::width(&text, Size::Small) / 2;
@@ -284,13 +304,25 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
         let place = (i64::from(middle) - i64::from(half), i64::from(top) - i64::from(ABOVE));
         write(image, place, &text, Size::Small, FAINT);
     }
-    for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(step(rooms[1])) == 0) {
+    for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(steps[1]) == 0) {
         let text = y.to_string();
         let middle = top + (y - shown.y0) as u32 * zoom + zoom / 2;
         let from = i64::from(left) - 4 - i64::from(lettering::width(&text, Size::Small));
         let place = (from, i64::from(middle) - i64::from(cell_height / 2));
         write(image, place, &text, Size::Small, FAINT);
     }
+}
+
+/// The least of 1, 2, 5, 10, 20 ... of which the pixels have room for a number.
+fn step_of_numbers(room: u32, zoom: u32) -> i32 {
+    for power in [1, 10, 100, 1000, 10_000, 100_000] {
+        for step in [power, 2 * power, 5 * power] {
+            if step as u32 * zoom >= room {
+                return step;
+            }
+        }
+    }
+    1_000_000
 }
 
 /// Pixels as squares with a border around all of them, and with a grid where squares are large enough.
@@ -317,6 +349,7 @@ fn squares(
     })
 }
 
+/// The colour of a pixel that is hit so often, and should be hit so often, by the number of the triangle that it belongs to.
 fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {
     match (actual, target) {
         (0, 0) => BACKGROUND,
@@ -345,6 +378,7 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
         places.push([left, top]);
         left += wide + 16;
     }
+    // The places of all entries are known, and so is the height.
     let rows = if entries.is_empty() { 0 } else { top + ROW };
     let note_rows = if note.is_empty() { 0 } else { ROW };
     let end = if rows + note_rows > 0 { GAP / 2 } else { 0 };
@@ -356,8 +390,10 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
                 SAMPLE => (4..7, 5..8),
                 _ => (0..12, 1..13),
             };
-            for (x, y) in wide.flat_map(|x| high.clone().map(move |y| (x, y))) {
-                image.put_pixel(left + x, top + y, colour);
+            for x in wide {
+                for y in high.clone() {
+                    image.put_pixel(left + x, top + y, colour);
+                }
             }
             left += 12;
         }
@@ -367,6 +403,7 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
     image
 }
 
+/// The pixels of a rectangle, row by row.
 fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32, i32)> {
     (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
 }

@@ -14,6 +14,7 @@ use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::cases::{Case, Shape};
 
+/// The colours of pictures of cases; the module says what they mean.
 pub const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
 pub(super) const GRID: Rgb<u8> = Rgb([222, 222, 216]);
 pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
@@ -49,11 +50,14 @@ pub fn plain(width: u32, height: u32, colour: Rgb<u8>) -> RgbImage {
 pub fn painted(width: u32, height: u32, colour: impl Fn(u32, u32) -> Rgb<u8>) -> RgbImage {
     let mut bytes = Vec::with_capacity(3 * width as usize * height as usize);
     for y in 0..height {
-        (0..width).for_each(|x| bytes.extend_from_slice(&colour(x, y).0));
+        for x in 0..width {
+            bytes.extend_from_slice(&colour(x, y).0);
+        }
     }
     from_bytes(width, height, bytes)
 }
 
+/// A picture of bytes that are its pixels.
 fn from_bytes(width: u32, height: u32, bytes: Vec<u8>) -> RgbImage {
     RgbImage::from_raw(width, height, bytes).expect("three bytes for each pixel")
 }
@@ -72,8 +76,13 @@ pub(super) fn place(onto: &mut RgbImage, picture: &RgbImage, left: u32, top: u32
 /// The pixels of a frame as a picture of the same size, of their first three channels.
 pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
-    let pixels = (bounds.y0..bounds.y1).flat_map(|y| frame.row(y));
-    from_bytes(bounds.width(), bounds.height(), pixels.flat_map(|p| [p[0], p[1], p[2]]).collect())
+    let mut bytes = Vec::with_capacity(3 * bounds.width() as usize * bounds.height() as usize);
+    for (_, row) in frame.rows() {
+        for pixel in row {
+            bytes.extend_from_slice(&pixel[..3]);
+        }
+    }
+    from_bytes(bounds.width(), bounds.height(), bytes)
 }
 
 /// Whether all pixels have the colour of the first.
@@ -85,6 +94,7 @@ pub fn is_plain<P: PartialEq>(mut pixels: impl Iterator<Item = P>) -> bool {
 /// A line from one position to another, in pixels.
 pub type Segment = [[f64; 2]; 2];
 
+/// The three edges of a triangle.
 pub fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
     [[a, b], [b, c], [c, a]]
 }
@@ -96,8 +106,12 @@ pub fn outline(case: &Case) -> Vec<Segment> {
             list.iter().flat_map(|t| edges(t.corners().map(|p| p.to_px().into()))).collect()
         }
         Shape::Lines(lines) => {
-            let centre = |at: PixelPoint| [at.x, at.y].map(|v| f64::from(v) + 0.5);
-            lines.iter().map(|l| l.ends.each_ref().map(|end| centre(end.pixel))).collect()
+            let mut segments = Vec::new();
+            for line in lines {
+                let ends = line.ends.each_ref().map(|end| [end.pixel.x, end.pixel.y]);
+                segments.push(ends.map(|end| end.map(|v| f64::from(v) + 0.5)));
+            }
+            segments
         }
         Shape::Unsnapped { list, .. } => list.iter().flat_map(|t| edges(t.px())).collect(),
         Shape::Numbers { .. } => Vec::new(),
@@ -108,8 +122,11 @@ pub fn outline(case: &Case) -> Vec<Segment> {
 pub fn scaled(segments: &[Segment], shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
     // Saturating: a corner far outside stays far outside.
     let at = |v: f64, origin: i32| ((v - f64::from(origin)) * f64::from(zoom)).floor() as i32;
-    let place = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
-    segments.iter().map(|ends| ends.map(place)).collect()
+    let mut scaled = Vec::with_capacity(segments.len());
+    for ends in segments {
+        scaled.push(ends.map(|[x, y]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0))));
+    }
+    scaled
 }
 
 /// Room between two pictures of a stack.

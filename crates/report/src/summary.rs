@@ -6,6 +6,7 @@ use super::words::{of_bound, thousands};
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
+/// A kind of hard cases.
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
@@ -19,6 +20,7 @@ macro_rules! dangers {
     };
 }
 
+/// All of them, in the order of the first screen.
 pub const DANGERS: &[Danger] = dangers![
     "corners anywhere", "docs/ch02-edge-functions.md":
         "uniform";
@@ -87,6 +89,7 @@ pub fn chapter(failure: &Failure) -> &'static str {
     }
 }
 
+/// What came of the families of a danger.
 #[derive(Default)]
 pub(super) struct Sum {
     pub cases: u64,
@@ -97,6 +100,7 @@ pub(super) struct Sum {
     oracle: u64,
 }
 
+/// The families of a danger together.
 fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
     let mut sum = Sum::default();
     for f in verdict.families.iter().filter(|f| danger.families.contains(&f.family.as_str())) {
@@ -114,6 +118,7 @@ fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
 }
 
 impl Sum {
+    /// In words: a line, and what there is to say beyond it.
     pub fn describe(&self) -> String {
         let cases = thousands(self.cases);
         if self.wrong_cases == 0 && self.oracle == 0 {
@@ -149,16 +154,23 @@ pub(super) fn judged(caption: &str, rows: Vec<Row>) -> Table {
 
 /// A row for each danger that was judged, then one for the values.
 pub fn table(verdict: &Verdict) -> Table {
-    let dangers = DANGERS.iter().map(|danger| (danger, sum(danger, verdict)));
-    let dangers = dangers.filter(|(_, sum)| sum.cases > 0);
-    let of_danger = |(danger, sum): (&Danger, Sum)| {
-        row(sum.wrong_cases == 0 && sum.oracle == 0, danger.name, &sum.describe())
-    };
-    let pairs = verdict.families.iter().flat_map(|f| &f.pairs);
-    let (values, worst) =
-        pairs.fold((0, 0.0), |(n, worst), pair| (n + pair.values, pair.worst().max(worst)));
-    let values = (values > 0).then(|| row(worst <= 1.0, "values and depths", &of_bound(worst)));
-    judged("", dangers.map(of_danger).chain(values).collect())
+    let mut rows = Vec::new();
+    for danger in DANGERS {
+        let sum = sum(danger, verdict);
+        if sum.cases > 0 {
+            let is_right = sum.wrong_cases == 0 && sum.oracle == 0;
+            rows.push(row(is_right, danger.name, &sum.describe()));
+        }
+    }
+    let (mut values, mut worst) = (0, 0.0);
+    for pair in verdict.families.iter().flat_map(|f| &f.pairs) {
+        values += pair.values;
+        worst = pair.worst().max(worst);
+    }
+    if values > 0 {
+        rows.push(row(worst <= 1.0, "values and depths", &of_bound(worst)));
+    }
+    judged("", rows)
 }
 
 #[cfg(test)]

@@ -22,6 +22,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
         Some(outcome) if !report.about.is_empty() => format!("{} ", mark(outcome.good, colour)),
         _ => String::new(),
     };
+    // The verdict stands behind the first line of what it is about.
     let answer = verdict.map(|outcome| &outcome.answer).filter(|answer| !answer.is_empty());
     let mut answer = answer.map(|answer| format!(": {answer}"));
     for part in report.about.lines() {
@@ -45,6 +46,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
             note(&mut out, words, columns, ["", "  "]);
         }
     }
+    // Last of all what to do, and the verdict again, since the beginning may have scrolled away.
     let repeat = if report.repeat.is_empty() { &report.command } else { &report.repeat };
     if !repeat.is_empty() {
         let _ = writeln!(out, "repeat with: {repeat}");
@@ -71,7 +73,9 @@ fn answers(answers: &[Statement], columns: usize) -> String {
 /// A case with its pixels, what is said of it, and where to go on.
 pub fn excerpt(of: &Excerpt, columns: usize) -> String {
     let mut out = String::new();
-    of.title.lines().for_each(|line| lines(&mut out, line, columns, ["", "  "]));
+    for line in of.title.lines() {
+        lines(&mut out, line, columns, ["", "  "]);
+    }
     labelled(&mut out, &of.exchanges);
     if !of.grid.is_empty() {
         let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };

@@ -41,6 +41,7 @@ pub fn count(number: u64, one: &str, several: &str) -> String {
     format!("{} {}", thousands(number), if number == 1 { one } else { several })
 }
 
+/// The verdict of a comparison in a word.
 pub fn word(agrees: bool) -> &'static str {
     if agrees { "AGREES" } else { "DISAGREES" }
 }

@@ -48,6 +48,7 @@ impl Language {
         }
     }
 
+    /// The file beside this one that holds what does not depend on the cases.
     fn template(self) -> &'static str {
         match self {
             Self::Python => include_str!("written_test/python.txt"),
@@ -90,6 +91,7 @@ pub fn write(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> WrittenTest {
     let mut out = WrittenTest::default();
+    // Each request becomes a test of its own, and one that was asked before does not become another.
     let truth = Truth::of(&verdict.more.declared);
     let mut questions: Vec<&Question> = Vec::new();
     let mut tests = String::new();
@@ -135,6 +137,7 @@ pub fn write(
     out
 }
 
+/// Whether a request is answered with pixels.
 fn is_of_pixels(question: &Question) -> bool {
     !matches!(
         question.of,
@@ -176,6 +179,7 @@ fn file_of(
     let declared = &verdict.more.declared;
     // Nothing that a program says of itself ends a comment.
     let program = declared.name.replace("*/", "* /");
+    // The template, section by section, then the words that stand for something in it.
     let mut parts = vec![language.section("head").to_owned()];
     parts.extend(functions.iter().map(|name| language.section(name).to_owned()));
     parts.push(language.section("check").to_owned());
@@ -207,6 +211,7 @@ fn file_of(
     text + "\n"
 }
 
+/// The constant of the language.
 fn counts_hits(language: Language, counts: bool) -> &'static str {
     match (language, counts) {
         (Language::Python, true) => "True",
@@ -236,10 +241,14 @@ fn setter(function: &str) -> String {
 
 /// Calls every test of a file in C.
 fn main_of_c(tests: &str) -> String {
-    let names = tests
-        .lines()
-        .filter_map(|line| line.strip_prefix("static void ")?.strip_suffix("(void) {"));
-    let calls: String = names.map(|name| format!("    {name}();\n")).collect();
+    let mut calls = String::new();
+    for line in tests.lines() {
+        if let Some(rest) = line.strip_prefix("static void ")
+            && let Some(name) = rest.strip_suffix("(void) {")
+        {
+            calls += &format!("    {name}();\n");
+        }
+    }
     format!("int main(void) {{\n{calls}    return failed > 0;\n}}\n")
 }
 
@@ -292,13 +301,13 @@ fn test(
 ) -> String {
     let none =
         |count: usize, name: &str| if count == 0 { "NULL".to_owned() } else { name.to_owned() };
-    let either = plain.either.iter().map(|[x, y]| PlainPixel { x: *x, y: *y, values: Vec::new() });
-    let either: Vec<String> = either
-        .map(|p| match language {
-            Language::Rust => format!("({}, {})", p.x, p.y),
-            _ => pixel(language, &p),
-        })
-        .collect();
+    let mut either = Vec::new();
+    for &[x, y] in &plain.either {
+        either.push(match language {
+            Language::Rust => format!("({x}, {y})"),
+            _ => pixel(language, &PlainPixel { x, y, values: Vec::new() }),
+        });
+    }
     let pixels: Vec<String> = plain.expected.iter().map(|p| pixel(language, p)).collect();
     let (count, count_of_either) = (plain.expected.len(), plain.either.len());
     let bounds: Vec<String> = plain.bounds.iter().map(|bound| number(language, *bound)).collect();
@@ -368,6 +377,7 @@ struct Kind {
 }
 
 impl Kind {
+    /// The function that answers a request.
     fn of(question: &Question) -> Self {
         let function = function(question);
         let (setter, taken, given, values) = match function {
@@ -396,6 +406,7 @@ fn pixel(language: Language, pixel: &PlainPixel) -> String {
     }
 }
 
+/// The brackets of lists.
 fn brackets(language: Language) -> [&'static str; 2] {
     if language == Language::C { ["{", "}"] } else { ["[", "]"] }
 }

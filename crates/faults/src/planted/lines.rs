@@ -32,6 +32,13 @@ impl DrawLine for LineMutant {
     }
 }
 
+/// How far a line that moves by `all` in all its steps has moved after some of them; what is added before the division
+/// decides about halves.
+fn moved(all: i64, step: i64, steps: i64, half: i64) -> i32 {
+    (all.signum() * ((2 * all.abs() * step + half) / (2 * steps))) as i32
+}
+
+/// The right line.
 fn bresenham<V: Varying>(
     line: &ScreenLine<V>,
     bounds: PixelRect,
@@ -41,6 +48,7 @@ fn bresenham<V: Varying>(
 }
 
 impl LineMutant {
+    /// What [`DrawLine::draw`] does.
     pub fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
@@ -57,7 +65,9 @@ impl LineMutant {
             Self::DrawsBackwards => {
                 let mut fragments = Vec::new();
                 bresenham(line, bounds, &mut |f| fragments.push(f));
-                fragments.into_iter().rev().for_each(emit);
+                for f in fragments.into_iter().rev() {
+                    emit(f);
+                }
             }
             Self::WeightsFromClip => {
                 let mut fragments = Vec::new();
@@ -115,6 +125,7 @@ impl LineMutant {
         if steps == 0 || steps > 1 << 16 {
             return bresenham(line, bounds, emit);
         }
+        // What the book's line adds at each step, and where it is then.
         let (slope_x, slope_y) = (dx as f32 / steps as f32, dy as f32 / steps as f32);
         let (mut x, mut y) = (a.pixel.x as f32, a.pixel.y as f32);
         for i in 0..=steps {
@@ -129,15 +140,11 @@ impl LineMutant {
                     let steep = dy.abs() > dx.abs();
                     let backwards = if steep { dy > 0 } else { dx < 0 };
                     let half = steps - i64::from(backwards);
-                    let round =
-                        |d: i64| (d.signum() * ((2 * d.abs() * i + half) / (2 * steps))) as i32;
-                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                    (a.pixel.x + moved(dx, i, steps, half), a.pixel.y + moved(dy, i, steps, half))
                 }
                 _ => {
                     // Rounds half away from the first end, whichever end that is.
-                    let round =
-                        |d: i64| (d.signum() * ((2 * d.abs() * i + steps) / (2 * steps))) as i32;
-                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                    (a.pixel.x + moved(dx, i, steps, steps), a.pixel.y + moved(dy, i, steps, steps))
                 }
             };
             (x, y) = (x + slope_x, y + slope_y);

@@ -15,6 +15,7 @@ macro_rules! planted {
         }
 
         impl $kind {
+            /// What is wrong, in a sentence.
             pub fn about(self) -> &'static str {
                 match self {
                     $(Self::$fault => $sentence,)+
@@ -48,6 +49,7 @@ use rasterproof_core::triangle::Span;
 /// Declares [`Mutant`] from the kinds of faults.
 macro_rules! kinds {
     ($($kind:ident($mutant:ty),)+) => {
+        /// A planted fault of any kind.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Mutant {
             $($kind($mutant),)+
@@ -68,6 +70,7 @@ macro_rules! kinds {
                 }
             }
 
+            /// What is wrong, in a sentence.
             fn about(&self) -> &'static str {
                 match self {
                     $(Self::$kind(mutant) => mutant.about(),)+
@@ -92,6 +95,7 @@ kinds! {
 }
 
 impl Mutant {
+    /// The fault of this name, but for those of corners that are not snapped.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|mutant| mutant.name() == name)
     }
@@ -108,6 +112,7 @@ pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
+/// The names of [`all`].
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

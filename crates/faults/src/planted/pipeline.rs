@@ -25,8 +25,11 @@ planted! {
     }
 }
 
+/// Clips a triangle by some planes.
 type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
+/// Decides whether a triangle is removed.
 type CullStage = fn(Cull, Corners) -> bool;
+/// Which effects are paid for, of those that are asked for.
 type ChooseStage = fn(Effects) -> Effects;
 
 impl StageMutant {
@@ -64,6 +67,7 @@ impl StageMutant {
     }
 }
 
+/// The right clipping.
 fn real(triangle: &[ClipVertex<DVec2>; 3], planes: Outcode) -> Vec<ClipVertex<DVec2>> {
     clip::clip(triangle, planes).0.vertices().copied().collect()
 }
@@ -97,6 +101,7 @@ fn textbook(
                 kept.push(*start);
             }
             if (from >= 0.0) != (to >= 0.0) {
+                // Always from the inner end, which is the right way to count.
                 let turned = inside_out && from < 0.0;
                 let (a, b, t) = if turned {
                     (end, start, to / (to - from))
@@ -107,6 +112,7 @@ fn textbook(
                     position: a.position + (b.position - a.position) * t,
                     varying: a.varying + (b.varying - a.varying) * t,
                 };
+                // The coordinate that the plane gives is exact, and the interpolated one is rounded.
                 if assigns {
                     let p = &mut vertex.position;
                     match plane {

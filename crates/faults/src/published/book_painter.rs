@@ -29,13 +29,14 @@ fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
     })
 }
 
+/// The blades by the published order, or by the depth of each pixel.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let blades = blades(setting);
     let mut image = empty(SIDE);
     if version == Version::Published {
-        let mean = |i: usize| blades[i].iter().map(|(_, depth)| depth).sum::<f64>();
-        let order = sorted([0, 1, 2], |&a, &b| mean(a).total_cmp(&mean(b)).is_lt());
-        for i in order {
+        // A sum orders them as their mean would.
+        let depths = blades.map_array(|[(_, a), (_, b), (_, c)]| a + b + c);
+        for i in sorted([0, 1, 2], |&a, &b| depths[a] < depths[b]) {
             fill(&mut image, &blades[i].map_array(|(corner, _)| corner), COLOURS[i]);
         }
         return image;

@@ -13,6 +13,7 @@ use super::{
 };
 use rasterproof_core::arrays::MapArray as _;
 
+/// A specimen: where it is from, what is wrong with it, and how it is shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
     pub name: &'static str,
@@ -22,6 +23,7 @@ pub struct Card {
     pub exhibit: Exhibit,
 }
 
+/// What shows the fault, and a case of the same kind in which it does not show.
 #[derive(Clone, Copy, Debug)]
 pub enum Exhibit {
     /// A rasterizer: the exposing and the harmless case.
@@ -32,6 +34,7 @@ pub enum Exhibit {
     Scene(&'static str, fn(Version, Setting) -> Image),
 }
 
+/// Triangles in a square window, with w and values of their corners.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
     pub name: &'static str,
@@ -41,12 +44,14 @@ pub struct TriangleCase {
     pub values: [f64; 3],
 }
 
+/// A line between two pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCase {
     pub name: &'static str,
     pub pixels: [(i32, i32); 2],
 }
 
+/// An input for which the book shows what its code draws.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
@@ -55,9 +60,11 @@ pub struct RecordedCase {
     pub corners: &'static [[(f64, f64); 3]],
 }
 
+/// The side of the book's window.
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {
+    /// The corners in this project's coordinates: y down, samples at halves.
     pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
         let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];
         self.corners.iter().map(|corners| corners.map_array(to_window)).collect()
@@ -70,10 +77,12 @@ macro_rules! recorded {
     };
 }
 
+/// Values and w of corners: growing, all the same, and without perspective.
 const RAMP: [f64; 3] = [0.0, 0.5, 1.0];
 const FLAT: [f64; 3] = [0.5; 3];
 const ONES: [f64; 3] = [1.0; 3];
 
+/// A case with a name.
 const fn case(
     name: &'static str,
     corners_px: &'static [[(f64, f64); 3]],
@@ -83,6 +92,7 @@ const fn case(
     TriangleCase { name, side_px: 14, corners_px, w, values }
 }
 
+/// A line with a name.
 const fn line(name: &'static str, pixels: [(i32, i32); 2]) -> LineCase {
     LineCase { name, pixels }
 }
@@ -117,6 +127,7 @@ macro_rules! cards {
     };
 }
 
+/// Every specimen, in the order of the contact sheet.
 pub const CARDS: &[Card] = cards![
     "book-dda", "book 2.1", "no last pixel, rounds down, slope drifts",
         "exact slope, rounded height, both ends",
@@ -227,6 +238,7 @@ pub const RECORDED: &[RecordedCase] = recorded![
     "t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]];
 ];
 
+/// The card of this name.
 pub fn find(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)
 }

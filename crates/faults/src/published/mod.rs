@@ -53,6 +53,7 @@ pub struct RealVertex {
     pub varying: DVec2,
 }
 
+/// A triangle as published code takes it.
 pub type RealTriangle = [RealVertex; 3];
 
 /// Positions alone, with depth 0, w 1 and no values.
@@ -161,6 +162,7 @@ impl Columns {
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
+/// Whether it was drawn, or why the published code gives no result.
 pub type DrawResult = Result<(), NoResult>;
 
 pub trait Published: fmt::Debug + Sync {
@@ -200,6 +202,7 @@ pub trait Published: fmt::Debug + Sync {
     }
 }
 
+/// A published line drawer.
 pub trait PublishedLine: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` in the published order, as often as they are set.
     fn draw(

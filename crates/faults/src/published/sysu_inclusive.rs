@@ -16,6 +16,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
+/// The published rule and values.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuInclusive;
 
@@ -38,6 +39,7 @@ fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], NoResult> {
     Ok(corners)
 }
 
+/// The triangle with its corners in the order of a front face.
 pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, NoResult> {
     let [a, b, c] = whole(triangle)?.map_array(|corner| corner.map_array(i128::from));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -65,8 +67,10 @@ pub(super) fn samples(
     let start = edges.map_array(|(i, j, k)| {
         k.wrapping_add(i.wrapping_mul(*columns.start())).wrapping_add(j.wrapping_mul(*rows.start()))
     });
+    // The sum of the three is the same everywhere: twice the area.
     let delta = start.into_iter().fold(0i32, i32::wrapping_add);
     let inverse = (1.0 / f64::from(delta)) as f32;
+    // From pixel to pixel and from row to row each function changes by a constant.
     let mut at_row = start;
     for y_px in rows {
         let mut at = at_row;

@@ -22,6 +22,7 @@ pub(super) fn version(json: &[u8]) -> Option<String> {
     Some(asset.version.as_str().map_or_else(|| asset.version.to_string(), str::to_owned))
 }
 
+/// What a document says of itself.
 #[derive(Deserialize)]
 struct Asset<V> {
     version: V,
@@ -32,6 +33,7 @@ struct Asset<V> {
 /// read a second time.
 pub(super) fn read(json: &[u8]) -> Result<Root, serde_json::Error> {
     serde_json::from_slice(json).or_else(|error| {
+        // The first error is said, for it has the line of the file.
         let usual = serde_json::from_slice(json).map(usual);
         let json = usual.and_then(|document| serde_json::to_vec(&document));
         json.and_then(|json| serde_json::from_slice(&json)).map_err(|_| error)
@@ -55,12 +57,14 @@ fn usual(value: Value) -> Value {
     }
 }
 
+/// A document: its lists, whose entries name each other by their numbers.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
     /// Every document has it, and no other JSON.
     #[serde(rename = "asset")]
     _asset: Asset<IgnoredAny>,
+    /// The scene that is shown first.
     pub scene: Option<usize>,
     #[serde(default)]
     pub scenes: Vec<Scene>,
@@ -88,6 +92,7 @@ pub(super) struct Root {
     pub cameras: Vec<Camera>,
     #[serde(default)]
     pub animations: Vec<Value>,
+    /// What extensions add to the document as a whole, as the lights do.
     #[serde(default)]
     pub extensions: Value,
     #[serde(default)]
@@ -96,12 +101,14 @@ pub(super) struct Root {
     pub extensions_required: Vec<String>,
 }
 
+/// The nodes that a scene begins with.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Scene {
     pub nodes: Vec<usize>,
 }
 
+/// A place, with what is there, and the nodes that move with it.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Node {
@@ -110,6 +117,7 @@ pub(super) struct Node {
     pub mesh: Option<usize>,
     pub skin: Option<usize>,
     pub camera: Option<usize>,
+    /// Where it is in its parent, as a matrix or as three parts of one.
     pub matrix: Option<[f32; 16]>,
     pub translation: Option<[f32; 3]>,
     pub rotation: Option<[f32; 4]>,
@@ -154,6 +162,7 @@ pub(super) struct Light {
     pub spot: Option<Spot>,
 }
 
+/// The angles of a cone of light.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Spot {
@@ -167,6 +176,7 @@ pub(super) struct Instances {
     pub attributes: HashMap<String, usize>,
 }
 
+/// A camera of one of two kinds.
 #[derive(Deserialize)]
 pub(super) struct Camera {
     pub name: Option<String>,
@@ -178,21 +188,27 @@ pub(super) struct Camera {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Lens {
+    /// With perspective: the angle from below to above.
     pub yfov: f64,
+    /// Without: half of the height.
     pub ymag: f64,
     pub znear: f64,
+    /// Without it a camera with perspective sees infinitely far.
     pub zfar: Option<f64>,
 }
 
+/// Primitives that are shown together.
 #[derive(Deserialize)]
 pub(super) struct Mesh {
     pub primitives: Vec<Primitive>,
     pub weights: Option<Vec<f32>>,
 }
 
+/// Triangles, lines or points of one material.
 #[derive(Deserialize)]
 pub(super) struct Primitive {
     pub attributes: HashMap<String, usize>,
+    /// The accessor of the vertices of each corner; without it the vertices are the corners, one after the other.
     pub indices: Option<usize>,
     pub material: Option<usize>,
     /// [`TRIANGLES`] where there is none.
@@ -203,6 +219,7 @@ pub(super) struct Primitive {
     pub extensions: Extensions,
 }
 
+/// The modes of primitives, as OpenGL numbers them.
 pub(super) const POINTS: u64 = 0;
 pub(super) const LINES: u64 = 1;
 pub(super) const LINE_LOOP: u64 = 2;
@@ -219,6 +236,7 @@ pub(super) struct Target {
     pub normal: Option<usize>,
 }
 
+/// The nodes that bend a mesh, and where the mesh is when it is not bent.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Skin {
@@ -226,10 +244,12 @@ pub(super) struct Skin {
     pub inverse_bind_matrices: Option<usize>,
 }
 
+/// How a surface looks.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Material {
     pub name: Option<String>,
+    /// What becomes of opacities: `OPAQUE`, `MASK` or `BLEND`.
     pub alpha_mode: String,
     pub alpha_cutoff: Option<f32>,
     pub double_sided: bool,
@@ -241,6 +261,7 @@ pub(super) struct Material {
     pub extensions: Extensions,
 }
 
+/// A surface by metal and roughness.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Metallic {
@@ -251,6 +272,7 @@ pub(super) struct Metallic {
     pub metallic_roughness_texture: Option<Info>,
 }
 
+/// A surface by a specular colour and gloss, as an extension has it.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Glossiness {
@@ -284,6 +306,7 @@ pub(super) struct OneNumber {
     pub ior: Option<f32>,
 }
 
+/// What is reflected where there is no metal, as an extension has it.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Specular {
@@ -293,6 +316,7 @@ pub(super) struct Specular {
     pub specular_color_texture: Option<IgnoredAny>,
 }
 
+/// What extensions say of how a material reads a texture.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct InfoExtensions {
@@ -300,15 +324,18 @@ pub(super) struct InfoExtensions {
     pub transform: Option<Transform>,
 }
 
+/// How texture coordinates are moved before a texture is read.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Transform {
     pub offset: [f32; 2],
     pub rotation: f32,
     pub scale: Option<[f32; 2]>,
+    /// Other coordinates than those that the material names.
     pub tex_coord: Option<u32>,
 }
 
+/// A picture, and how it is read.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Texture {
@@ -318,6 +345,7 @@ pub(super) struct Texture {
     pub extensions: TextureExtensions,
 }
 
+/// The picture of another kind that an extension names.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct TextureExtensions {
@@ -325,11 +353,13 @@ pub(super) struct TextureExtensions {
     pub webp: Option<Source>,
 }
 
+/// The number of a picture.
 #[derive(Deserialize)]
 pub(super) struct Source {
     pub source: Option<usize>,
 }
 
+/// A picture as a file, or as bytes of a buffer.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Image {
@@ -347,6 +377,7 @@ pub(super) struct Sampler {
     pub wrap_t: Option<u64>,
 }
 
+/// Filters and wrapping, as OpenGL numbers them.
 pub(super) const NEAREST: u64 = 9728;
 pub(super) const LINEAR: u64 = 9729;
 pub(super) const NEAREST_MIPMAP_NEAREST: u64 = 9984;
@@ -356,6 +387,7 @@ pub(super) const LINEAR_MIPMAP_LINEAR: u64 = 9987;
 pub(super) const CLAMP_TO_EDGE: u64 = 33_071;
 pub(super) const MIRRORED_REPEAT: u64 = 33_648;
 
+/// Numbers in a buffer view: where they are, of which type, and how many belong together.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -366,6 +398,7 @@ pub(super) struct Accessor {
     #[serde(default)]
     pub normalized: bool,
     pub count: u64,
+    /// How many numbers an element has, as `VEC3`.
     #[serde(rename = "type")]
     pub form: String,
     pub sparse: Option<Sparse>,
@@ -379,6 +412,7 @@ pub(super) struct Sparse {
     pub values: SparsePart,
 }
 
+/// Where the numbers or the values of the elements are that differ.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparsePart {
@@ -390,6 +424,7 @@ pub(super) struct SparsePart {
     pub component_type: u64,
 }
 
+/// A part of a buffer.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct View {
@@ -397,11 +432,13 @@ pub(super) struct View {
     pub byte_length: u64,
     #[serde(default)]
     pub byte_offset: u64,
+    /// From one element to the next; without it they follow each other.
     pub byte_stride: Option<usize>,
     #[serde(default)]
     pub extensions: ViewExtensions,
 }
 
+/// How a part is compressed, where it is.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct ViewExtensions {
@@ -423,6 +460,7 @@ pub(super) struct Compressed {
     pub filter: Option<String>,
 }
 
+/// Bytes of a file, or without a name those of the GLB.
 #[derive(Deserialize)]
 pub(super) struct Buffer {
     pub uri: Option<String>,

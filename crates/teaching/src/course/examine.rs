@@ -15,6 +15,7 @@ use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::{Explanation, Mistakes, NOTHING};
 
+/// How much is asked, and how long.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     pub cases: u64,
@@ -25,6 +26,7 @@ pub struct Amount {
     pub patience: Duration,
 }
 
+/// What came of a step.
 #[derive(Debug, Default)]
 pub struct Outcome {
     pub cases: u64,
@@ -64,6 +66,7 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
     let mut failing = None;
     let mut restarts = run::MOST_DEATHS;
     program.end_at(Some(amount.end));
+    // All exercises are asked, also after one has failed, so that the number of wrong cases is that of the step.
     for exercise in &step.exercises {
         let mut asked = Vec::new();
         let had_failed = failing.is_some();
@@ -85,6 +88,7 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
             );
             failing = failing.or(first);
         }
+        // The first exercise that fails is the one that is explained.
         if !had_failed && failing.is_some() {
             outcome.misconception = misconceptions::find(exercise.check, &asked, &truth(exercise));
         }
@@ -95,12 +99,15 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
     let unexplained = failing.as_ref().filter(|_| !is_named);
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
     let is_nothing = |cause: &Explanation| cause.name == NOTHING;
+    // Of both explanations one is said: the judge's where it knows the mistake, else the misconception.
     match &outcome.cause {
         Some(cause) if cause.causes.iter().any(is_nothing) => outcome.cause = None,
         Some(cause) if cause.is_known() => outcome.misconception = None,
         _ => {}
     }
+    // Last of all, for this may take long, and everything else is known by now.
     outcome.failure = failing.map(|Wrong { exercise, is, case, truth, asked }| {
+        // What preparation would change is no case of the step.
         let may_be = |case: &Case| (exercise.prepare)(case.clone()).as_ref() == Some(case);
         let &Amount { seed, patience, .. } = amount;
         let search =
@@ -127,6 +134,7 @@ fn ask_family<'a>(
     let check = exercise.check;
     let truth = truth(exercise);
     let family = adapt_case::families(&[name.to_owned()])[0];
+    // All requests of the family in one list, and which of them belong to each case.
     let mut cases = Vec::new();
     let mut questions = Vec::new();
     for index in 0..amount.cases {
@@ -138,6 +146,7 @@ fn ask_family<'a>(
         check.questions(&case, &truth, &mut questions);
         cases.push((index, case, start..questions.len()));
     }
+    // They are sent together, until the program has died or was started again too often.
     let mut answers = Vec::new();
     while answers.len() < questions.len() && *restarts > 0 {
         // The first one alone: if it hangs, it need not be looked for among those in flight.
@@ -157,6 +166,7 @@ fn ask_family<'a>(
         outcome.given_up |= strayed && *restarts == 0;
         answers.extend(here);
     }
+    // Every case is judged by its own answers, and the first one that fails is kept.
     let mut first = None;
     for (index, case, range) in cases {
         // Where the program was given up, the rest of the answers is not there.
@@ -196,6 +206,7 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     if !failing.asked.judged.died.is_empty() {
         return None;
     }
+    // The judge asks more than the step did: cases that tell mistakes apart.
     let checks = [failing.exercise.check.of_its_cause()];
     let mut asked = Timed::new(program, None).within(Some(patience));
     let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None, &[]);

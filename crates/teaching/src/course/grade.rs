@@ -19,6 +19,7 @@ use super::progress::{self, Progress};
 use super::sandbox::{self, Bounds};
 use super::{STEPS, verdict};
 
+/// What is graded: a program, and the folder in which it is built and started.
 pub struct Submission {
     /// The name of its folder; a dot where a program is named.
     pub id: OsString,
@@ -55,6 +56,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
             paths.push(path);
         }
     }
+    // The order of a folder is that of its file system, which differs between machines.
     paths.sort();
     if paths.is_empty() {
         return Err(format!("{shown} holds no folder\n  expected one for each submission"));
@@ -65,6 +67,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
         if !path.is_dir() {
             return Err((name, "it is no folder".to_owned()));
         }
+        // The same words for everybody, with the folder of each in the place of `{}`.
         if let Some(template) = template {
             let word = |word: &str| {
                 word.split("{}").map(OsStr::new).collect::<Vec<_>>().join(path.as_os_str())
@@ -84,6 +87,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
     Ok(paths.into_iter().map(one).collect())
 }
 
+/// The points of a submission and how it came to them.
 #[derive(Default, Serialize, Deserialize)]
 pub struct Grade {
     pub name: String,
@@ -95,6 +99,7 @@ pub struct Grade {
     pub steps: Vec<StepResult>,
 }
 
+/// What became of one step.
 #[derive(Serialize, Deserialize)]
 pub struct StepResult {
     pub step: String,
@@ -104,11 +109,13 @@ pub struct StepResult {
 }
 
 impl Grade {
+    /// The grade of a submission that cannot be judged: no points, and why.
     #[must_use]
     pub fn failed(name: String, error: String) -> Self {
         Self { name, of: STEPS.len(), error: Some(error), ..Self::default() }
     }
 
+    /// Whether the step at this place was passed.
     #[must_use]
     pub fn has_passed(&self, at: usize) -> bool {
         self.steps.get(at).is_some_and(|step| step.passed)
@@ -127,6 +134,7 @@ pub struct Terms {
     pub bounds: Bounds,
 }
 
+/// Builds and starts a program, and asks it all steps; it is started once, so that a slow start counts once.
 #[must_use]
 pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
     let start = Instant::now();
@@ -136,6 +144,7 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
             let (&Terms { cases, seed, .. }, seconds) = (terms, Duration::from_secs(terms.seconds));
+            // A small part of the time for each step may go into a smaller failing case.
             let patience = Duration::from_secs(1).min(seconds / 24);
             let amount = Amount { cases, seed, end: start + seconds, patience };
             for step in STEPS.iter() {
@@ -154,8 +163,10 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
     grade
 }
 
+/// A program that is built, and has said HELLO.
 fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     let Submission { folder, build, run, .. } = submission;
+    // Time that waits is bounded by `Terms::seconds` itself; this bounds what a process computes.
     let processor_s = Some(terms.seconds);
     let longest = terms.bounds.build.min(Duration::from_secs(terms.seconds));
     let bounds = Bounds { processor_s, build: longest, ..terms.bounds };
@@ -165,6 +176,7 @@ fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     sandbox::start(folder, run, &bounds, Limits { answer: terms.answer, start })
 }
 
+/// The JSON file of a teacher: by which cases all were judged, and what became of each.
 #[derive(Serialize, Deserialize)]
 struct Grades {
     version: String,
@@ -173,6 +185,7 @@ struct Grades {
     submissions: Vec<Grade>,
 }
 
+/// The grades as JSON, which [`read`] reads.
 pub fn json(submissions: Vec<Grade>, seed: u64, cases: u64) -> String {
     let version = env!("CARGO_PKG_VERSION").to_owned();
     pretty(&Grades { version, seed, cases, submissions })
@@ -187,6 +200,7 @@ pub fn read(json: &[u8]) -> Option<Grade> {
 /// A row of the table of submissions by steps, as it is printed when it is known.
 pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
     // A column is as wide as the number of its step, and holds two digits.
+    // The heads of the columns are printed above all rows, so the widths are the same in each.
     let width = |step| super::number(step).len().max(2);
     let of_steps: String = STEPS.iter().map(|step| format!(" | >~step {}", width(step))).collect();
     let columns = format!("~name 26{of_steps} | >~points 6");

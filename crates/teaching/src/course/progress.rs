@@ -7,22 +7,28 @@ use rasterproof_host::{input, limits};
 
 use super::{STEPS, Step};
 
+/// The name of the file.
 pub const FILE: &str = "course.toml";
 
+/// What stands above the fields.
 const HEADER: &str = "\
 # Progress of `rasterproof course`. Yours to edit; `course check` writes it anew, without your comments.
 # build (may be empty) and run: commands as lists of words, run in this folder.
 # step: the current one. failures: how often it has failed; each shows one hint more.
 ";
 
+/// What the file says.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
     /// What makes the program from its source; may be empty.
     #[serde(default)]
     pub build: Vec<String>,
+    /// The words of the command that runs the program.
     pub run: Vec<String>,
+    /// The name of the current step.
     pub step: String,
+    /// The names of the steps that were passed, in the order in which they were.
     #[serde(default)]
     pub passed: Vec<String>,
     /// How often the current step failed.
@@ -30,11 +36,13 @@ pub struct Progress {
     pub failures: usize,
 }
 
+/// The progress file of a folder.
 pub fn path(folder: &Path) -> PathBuf {
     folder.join(FILE)
 }
 
 impl Progress {
+    /// The progress of somebody who begins.
     #[must_use]
     pub fn new(build: Vec<String>, run: Vec<String>) -> Self {
         let step = STEPS[0].name.clone();
@@ -67,6 +75,7 @@ impl Progress {
     /// What is wrong with it, with its line.
     pub fn parse(text: &str) -> Result<Self, String> {
         let progress: Self = toml::from_str(text).map_err(|e| e.to_string().trim().to_owned())?;
+        // A step that was renamed or misspelt is an error, and not a step that was not passed.
         let unknown = |name: &&String| super::find(name).is_none();
         let mut named = std::iter::once(&progress.step).chain(&progress.passed);
         if let Some(name) = named.find(unknown) {
@@ -75,21 +84,25 @@ impl Progress {
         Ok(progress)
     }
 
+    /// The text of the file.
     pub fn text(&self) -> String {
         // Strings, lists of them and a number: this cannot fail.
         format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
     }
 
+    /// The step to be done now.
     pub fn current(&self) -> &'static Step {
         super::find(&self.step).unwrap_or(&STEPS[0])
     }
 
     /// Notes how a step came out. A step that passes makes the next one current that did not.
     pub fn note(&mut self, step: &Step, passes: bool) {
+        // Failures are those of one step; to work on another one begins with none.
         if self.step != step.name {
             self.step.clone_from(&step.name);
             self.failures = 0;
         }
+        // A step that was passed before is not, once it fails.
         if !passes {
             self.failures += 1;
             self.passed.retain(|name| *name != step.name);
@@ -104,6 +117,7 @@ impl Progress {
         }
     }
 
+    /// Whether the step was passed.
     #[must_use]
     pub fn has_passed(&self, step: &Step) -> bool {
         self.passed.contains(&step.name)
