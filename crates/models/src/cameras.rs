@@ -12,10 +12,12 @@ pub struct Camera {
     pub eye: DVec3,
     /// The direction in which it looks, of any length.
     pub ahead: DVec3,
+    /// The direction that is upwards in the picture, not along the view.
     pub up: DVec3,
     pub lens: Lens,
     /// The nearest and, where there is one, the farthest distance that it sees.
     pub near: f64,
+    /// Nothing for a camera that sees infinitely far.
     pub far: Option<f64>,
 }
 
@@ -23,6 +25,7 @@ pub struct Camera {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     Perspective {
+        /// The angle that it sees from below to above.
         angle_rad: f64,
     },
     /// A projection without perspective.

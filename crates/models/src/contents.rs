@@ -31,7 +31,9 @@ const MOST_PARTS: usize = 1 << 16;
 pub(crate) struct Contents {
     /// The file that it is read from, which all warnings name.
     pub path: PathBuf,
+    /// In the order of the file, as far as parts are not merged.
     pub parts: Vec<FilePart>,
+    /// In the coordinates of the file, as the lights are.
     pub cameras: Vec<Camera>,
     pub lights: Vec<PunctualLight>,
     /// The names of its animations, empty where they have none.
@@ -102,6 +104,7 @@ impl Contents {
 pub(crate) struct FilePart {
     /// The name of the object, group or node; empty without one.
     pub name: String,
+    /// Its number in [`Contents::materials`]; nothing for a grey one.
     pub material: Option<usize>,
     /// From the part's coordinates to those of the file.
     pub to_file: DMat4,
@@ -118,12 +121,14 @@ pub(crate) struct FilePart {
     pub tangents: Vec<DVec4>,
     /// The numbers of the positions of all corners, one polygon after the other.
     pub corners: Vec<u32>,
+    /// Where each polygon ends, and where it comes from.
     pub polygons: Polygons,
 }
 
 /// What a map of positions does to normals. The cofactors turn them as the transposed inverse does, and exist where it does not.
 pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
     let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+    // A mirror turns the cofactors over.
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
@@ -383,7 +388,9 @@ impl Numbers {
 /// Vectors of one kind, and which of them each corner of a part has.
 #[derive(Debug, Default)]
 pub(crate) struct Vectors<V> {
+    /// Several corners may share one.
     pub values: Vec<V>,
+    /// Which value belongs to which corner.
     pub numbers: Numbers,
 }
 
@@ -493,13 +500,16 @@ pub(crate) struct Surface {
     pub name: String,
     /// Diffuse colour, each channel in [0, 1].
     pub colour: DVec3,
+    /// Multiplied with the colour.
     pub texture: Option<Arc<Texture>>,
     pub specular: Specular,
+    /// Nothing where it is opaque everywhere.
     pub opacity: Option<Opacity>,
     /// Of a surface in linear light its colour in it, and the rest. The texture, and colours of corners, are in linear light then.
     pub physical: Option<(DVec3, Arc<Physical>)>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
+    /// Which of its sides are drawn.
     pub sides: Sides,
 }
 

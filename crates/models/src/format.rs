@@ -114,6 +114,7 @@ impl Format {
                 "this is a file of the format {name}, which is not read: export the model as GLB, glTF, OBJ, PLY or STL"
             ))
         };
+        // Formats that begin with bytes of their own.
         let begins = |magic: &[u8]| bytes.starts_with(magic);
         if let Some((_, name)) = OTHERS.iter().find(|(magic, _)| begins(magic)) {
             return refused(name);

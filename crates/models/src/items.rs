@@ -133,6 +133,7 @@ pub(crate) fn model(
     }
     // What is said of the file as a whole.
     let not_drawn = counted(&contents.not_drawn);
+    // An empty picture has a reason, which is said in place of a verdict.
     let mut why_empty = clear_materials(&items, &origins, &mut warnings);
     if items.is_empty() {
         if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
@@ -215,6 +216,7 @@ fn place(part: &mut FilePart, turn: DMat4) -> Result<(), String> {
     let is_far =
         |position: &DVec3| position.is_finite() && position.abs().max_element() > MOST_COORDINATE;
     let is_far_corner = |&corner: &u32| is_far(&part.positions[corner as usize]);
+    // Only a position that some face uses ends the file.
     let far = parallel::first(&part.positions, is_far);
     match far.and_then(|_| parallel::first(&part.corners, is_far_corner)) {
         Some(corner) => Err(format!(
@@ -312,6 +314,7 @@ fn material(surface: Option<&Surface>, part: &FilePart, options: LoadOptions) ->
 /// compared by value, since many files list a position again for each face, object or material.
 #[derive(Default)]
 struct SmoothNormals {
+    /// By position and group: the sum of the normals, and of their lengths, which are twice the areas.
     sums: HashMap<([u64; 3], u32), (DVec3, f64)>,
 }
 
@@ -370,6 +373,7 @@ fn mesh(
     origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
+    // Attributes by corners of polygons become those of corners of triangles.
     let normals = part_normals(&mut part, smooth, normals);
     let uvs = attribute(std::mem::take(&mut part.uvs), DVec2::ZERO);
     let colours = attribute(std::mem::take(&mut part.colours), DVec3::ONE);
@@ -415,6 +419,7 @@ fn cut(part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32
         let line = part.polygons.line(number);
         points.clear();
         points.extend(part.corners[corners].iter().map(|&corner| part.positions[corner as usize]));
+        // The triangles of the polygon begin here.
         let first = triangles.len() as u32 / 3;
         // Each triangle with the face and the line that it comes from.
         let mut emit = |corners: [usize; 3]| {

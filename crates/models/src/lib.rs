@@ -37,9 +37,11 @@ pub use textures::load_texture;
 /// What is wrong with a file, where, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadFile {
+    /// The file, which may be another one than the model: a texture, a material file.
     pub path: PathBuf,
     /// The line, from 1, where there are lines.
     pub line: Option<usize>,
+    /// What is wrong, and what to do about it.
     pub cause: String,
 }
 
@@ -95,7 +97,9 @@ impl From<FileError> for Wrong {
 /// The axis that points up in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
+    /// As in this project's scenes.
     Y,
+    /// As in programs for buildings and for machines.
     Z,
 }
 
@@ -115,6 +119,7 @@ pub enum Normals {
 /// What a user may say about a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions {
+    /// How light is computed, where the material does not decide it.
     pub shading: Shading,
     pub normals: Normals,
     /// The axis that points up; by default the one that is usual for the format.
@@ -128,6 +133,7 @@ pub struct LoadOptions {
 pub struct Pose {
     /// The number of the animation, from 0.
     pub animation: usize,
+    /// From the beginning of the animation.
     pub time_s: f64,
 }
 
@@ -141,7 +147,9 @@ impl LoadOptions {
 /// A model: what is drawn of a file, and what is not.
 #[derive(Clone, Debug)]
 pub struct Model {
+    /// One for each part that has triangles.
     pub items: Vec<Item>,
+    /// Where each item comes from, in the same order.
     pub origins: Vec<Origin>,
     /// The cameras of the file that stand in what is drawn of it.
     pub cameras: Vec<Camera>,
@@ -176,6 +184,7 @@ pub struct Origin {
     pub lines: Vec<u32>,
     /// The triangles of polygons that are not convex, by their numbers in the item.
     pub concave: Vec<u32>,
+    /// The number of its first face in the file, from 1.
     pub first_face: u32,
 }
 
@@ -256,8 +265,11 @@ pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
 /// Warnings of a model, of which there may be as many as lines.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings {
+    /// The file that is read, which each line names.
     path: PathBuf,
+    /// Lines, as they are shown.
     shown: Vec<String>,
+    /// By kind, how many there were, shown or not.
     counts: BTreeMap<String, u64>,
 }
 

@@ -28,10 +28,12 @@ pub(crate) struct MtlMaterial {
     pub opacity_map: Option<textures::TextureStatement>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,
+    /// `Ka`, which is drawn only if it is the diffuse colour.
     ambient: Option<DVec3>,
     ambient_map: Option<textures::TextureStatement>,
     /// Its specular colour (`Ks`) and exponent (`Ns`).
     specular: Specular,
+    /// Whether `map_Ks` makes the highlights brighter and darker.
     has_specular_map: bool,
     /// Whether the model of light (`illum` 0 or 1) has no highlights.
     is_matt: bool,
@@ -95,6 +97,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result
     if WITHOUT_EFFECT.contains(&lower.as_str()) {
         return Ok(());
     }
+    // A word that the format has, whether it is drawn or not.
     let is_map = lower.starts_with("map_")
         || ["bump", "disp", "decal", "refl", "norm"].contains(&lower.as_str());
     let colour_words = ["kd", "ka", "ks", "ke", "km", "kt", "tf"];

@@ -32,6 +32,7 @@ type FaceCorner = [u32; 3];
 /// A kind of vector: the number of its index in a [`FaceCorner`], and what is said of it.
 struct VectorKind {
     number: usize,
+    /// In the singular, for messages.
     name: &'static str,
     /// How many numbers a line has at least.
     least: usize,
@@ -63,6 +64,7 @@ const ZBRUSH_COLOUR: &str = "ZBrush colour (#MRGB) of position";
 
 /// Faces of one group and material, one after the other in the file.
 struct Run {
+    /// That of the object, or of the group.
     name: Arc<str>,
     /// The name of the material, and the first line that names it.
     material: Option<(Arc<str>, usize)>,
@@ -75,6 +77,7 @@ struct Run {
 struct Vectors {
     positions: Vec<DVec3>,
     uvs: Vec<DVec2>,
+    /// Of any length, as the file has them.
     normals: Vec<DVec3>,
     /// The colours of the first positions, up to the last that has one.
     colours: Vec<DVec3>,
@@ -91,6 +94,7 @@ impl Vectors {
 #[derive(Default)]
 struct Lines {
     vectors: Vectors,
+    /// In the order of the file.
     runs: Vec<Run>,
     /// What lines of material files name, each once.
     libraries: Vec<String>,
@@ -122,9 +126,12 @@ impl Lines {
 /// Where the next face belongs.
 #[derive(Default)]
 struct State {
+    /// The name of the last `o`.
     object: Arc<str>,
     group: Arc<str>,
+    /// The last `usemtl` and its line.
     material: Option<(Arc<str>, usize)>,
+    /// The last `s`; 0 where it is off.
     smoothing: u32,
     /// Whether a face begins a new run.
     is_new: bool,
@@ -305,6 +312,7 @@ fn read_libraries(libraries: &[String], contents: &mut Contents) -> (Vec<mtl::Mt
             let beside =
                 || find(folder, &path.with_extension("mtl").file_name()?.to_string_lossy());
             let named = find(folder, &name);
+            // The file of that name, or the one beside the model that has the model's name.
             let file = named.clone().or_else(beside);
             let file = file.unwrap_or_else(|| folder.join(name.replace('\\', "/")));
             if named.is_none() && file.is_file() {
@@ -428,11 +436,13 @@ fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
             }
             _ => String::new(),
         };
+        // Most such files are of another format.
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
         return Err(format!("{what}{ending}; {hint}").into());
     }
     // Some programs write bytes.
     let is_large = |colour: &DVec3| colour.is_finite() && colour.max_element() > 1.0;
+    // From 0 to 1, whatever the program wrote.
     let colours = &mut read.vectors.colours;
     let scale = if colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
     for colour in colours.iter_mut().filter(|colour| !colour.is_nan()) {
@@ -522,6 +532,7 @@ fn vector<'a>(
     let Values { all, count, not_finite } = values;
     let vectors = &mut read.vectors;
     let vector = DVec3::from_slice(&all);
+    // The vector is kept in any case, so that the numbers of those after it are right.
     let is_finite = match kind.number {
         0 => {
             let colour = match count {
@@ -570,6 +581,7 @@ fn rest(line: &[u8], kind: &[u8]) -> String {
 
 /// The numbers of a line that describes a vector, as far as they are used.
 struct Values {
+    /// Three coordinates, then perhaps a weight and a colour.
     all: [f64; 7],
     /// How many the line has.
     count: usize,
@@ -732,6 +744,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
                         (of_face, cause.clone(), cause)
                     }
                 };
+                // Without a position there is no face; other vectors it can do without.
                 let of_faces = match kind {
                     0 => "the face is left out".to_owned(),
                     _ => format!("the face is drawn without {name}s of the file"),

@@ -58,14 +58,18 @@ fn full(kind: Kind) -> f64 {
 /// A number of an element, or a list with its length.
 struct Property {
     name: String,
+    /// The type of the number, or of the numbers of the list.
     kind: Kind,
+    /// The type of the length of a list; nothing for a single number.
     length: Option<Kind>,
 }
 
 /// A kind of things that the file lists: how many there are, and what each of them has.
 struct Element {
     name: String,
+    /// How many of them the header announces.
     count: u64,
+    /// In the order in which each element has them.
     properties: Vec<Property>,
 }
 
@@ -80,6 +84,7 @@ enum Form {
 /// The lines before the data: the form of the file, and which elements follow in which order.
 struct Header {
     form: Form,
+    /// In the order of the data.
     elements: Vec<Element>,
     /// Pictures that comments name, as some programs write them.
     textures: Vec<String>,
@@ -90,6 +95,7 @@ struct Header {
 /// The elements of a file, number after number.
 struct Body {
     file: Records,
+    /// How its numbers are written.
     form: Form,
     /// Where what is left of the line of text is.
     words: Range<usize>,
@@ -167,6 +173,7 @@ impl Body {
     /// The length of a list, which cannot be longer than what is left of the file.
     fn length(&mut self, kind: Kind) -> Result<usize, String> {
         let length = self.number(kind)?;
+        // A length is checked before anything is reserved for it.
         let is_whole = length >= 0.0 && length.fract() == 0.0;
         // Most lists end in what was read already, and then nobody has to ask for the length of the file.
         if !is_whole || length > self.file.left().len() as f64 {
@@ -199,6 +206,7 @@ fn header(body: &mut Body) -> Result<Header, Wrong> {
         let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
         // Some programs write capitals.
         let lower = line.to_ascii_lowercase();
+        // A line by its words; names are taken as they were written.
         let words: Vec<&str> = lower.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
         let wrong = || body.wrong(&format!("'{shown}' is no line of a header"));
@@ -497,6 +505,7 @@ enum Role {
     Uvs(Kind),
     /// A channel of its colour, by its number.
     Channel(usize),
+    /// It is counted, and read past.
     NotDrawn,
 }
 
@@ -511,6 +520,7 @@ fn faces(
         return Err("the header gives faces no list 'vertex_indices'".into());
     }
     // The colours of vertices are finer.
+    // A face has a colour of its own only where its vertices have none.
     let of_vertices = !part.colours.values.is_empty() && part.colours.numbers == Numbers::Nothing;
     let channels = if of_vertices { None } else { channels(element) };
     let role = |property: &Property| match property.length {
@@ -578,6 +588,7 @@ fn faces(
             continue;
         }
         // What the corners name follows what the faces before them name.
+        // Two numbers for each corner, or none of them is used.
         let (pairs, _) = uvs.as_chunks::<2>();
         let first_uv = part.uvs.values.len() as u32;
         let has_uvs = pairs.len() == corners.len();
@@ -608,6 +619,7 @@ fn triangles(
     part: &mut FilePart,
 ) -> Result<u64, Wrong> {
     const RECORD: usize = 13;
+    // A length of one byte and three numbers of four bytes are the form of nearly all files.
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
     else {

@@ -20,6 +20,7 @@ const MOST_CORNERS: usize = 1 << 16;
 pub(crate) enum Shape {
     /// Convex, or without an area.
     Convex,
+    /// Some corner turns the other way, so the polygon was triangulated.
     Concave,
 }
 
@@ -68,6 +69,7 @@ pub(crate) fn triangles(
         fan();
         return Err(Odd::TooManyCorners);
     }
+    // A polygon that is not convex is drawn as its triangulation, if that is the polygon.
     let made = delaunay(&flat);
     if let Some(triangles) = &made
         && (is_flat(points, normal) || have_outline(triangles, points))

@@ -128,6 +128,7 @@ impl Kind {
 
 /// A file whose records are read one after the other.
 pub(crate) struct Records {
+    /// What is left of the file, which is read in pieces.
     file: Pieces,
     /// What was read and is not used up.
     pub bytes: Vec<u8>,

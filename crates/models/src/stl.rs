@@ -52,6 +52,7 @@ pub(crate) fn begins_binary(path: &Path, bytes: &[u8]) -> bool {
     if is_wide(begin) || !begin.contains(&0) {
         return false;
     }
+    // Coordinates of real models are neither tiny nor huge.
     let is_usual = |word: &[u8; 4]| {
         let size = f32::from_le_bytes(*word).abs();
         size == 0.0 || (1e-20..1e20).contains(&size)
@@ -113,6 +114,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
     // Equal positions have the same hash, so they are looked for in one of many small tables, which fits into a cache. The
     // seed of the hash is random, so that no file can be written whose positions all are in the same one.
     let hasher = RandomState::default();
+    // Each table has about as many positions as a thread reads.
     let tables = count.div_ceil(SHARE).max(1);
     let hash = |[x, y, z]: [C::Bits; 3]| hasher.hash_one((x, y, z));
     let sorted: Vec<Vec<Vec<Keyed<C>>>> = parallel::map(shares.len(), |share| {
@@ -262,6 +264,7 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
         let mut words = words.peekable();
         // Most lines have one statement, and some files one line.
         while let (Some(word), None) = (words.next(), &wrong) {
+            // Some programs write `end facet` in two words.
             let mut kind = statement(word);
             if kind == Some("end")
                 && let Some(next) = words.next()
@@ -337,6 +340,7 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
             // Normals, and what is no statement.
             while words.next_if(|word| statement(word).is_none()).is_some() {}
         }
+        // A wrong line ends the file, unless it is the last one.
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
         if file.next_line()?.is_some() {

@@ -44,6 +44,7 @@ fn mirrored(DVec4 { x, y, z, w }: DVec4) -> DVec4 {
 struct Surface<'a> {
     positions: &'a [DVec3],
     corners: Vec<[Corner; 3]>,
+    /// Filled in by the algorithm, corner by corner.
     tangents: Vec<[DVec4; 3]>,
 }
 

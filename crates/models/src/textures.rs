@@ -26,6 +26,7 @@ pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF
 /// A picture as a texture and, where it has some, with opacities.
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
+    /// Its colours.
     pub texture: Texture,
     /// The opacities of its texels, where some are not opaque.
     alpha: Option<OpacityMap>,
@@ -63,6 +64,7 @@ pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
 /// The pictures that materials name, each decoded once, however often and by however many names it is named.
 #[derive(Default)]
 pub(crate) struct Pictures {
+    /// Also those that are broken, so that they are not decoded again.
     decoded: HashMap<PictureKey, Result<Decoded, String>>,
     /// Bytes of the files so far, one that was read several times counted as often.
     read_bytes: u64,
@@ -139,6 +141,7 @@ fn decode(path: &Path, bytes: &[u8], taken_bytes: &mut u64) -> Result<Decoded, S
     }
     *taken_bytes += kept_bytes;
     let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
+    // Opacities are kept apart from colours, for not all surfaces use them.
     let alpha = alpha(&picture).and_then(|alpha| Texture::grey(width, height, alpha));
     let texture = if is_grey {
         Texture::grey(width, height, picture.into_luma8().into_raw())
@@ -214,11 +217,13 @@ fn other_case(folder: &Path, name: &str) -> Option<OsString> {
 /// What follows `map_Kd`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TextureStatement {
+    /// The picture, as the file writes it.
     pub name: String,
     /// By which texture coordinates are multiplied.
     pub scale: DVec2,
     /// What is added to them afterwards.
     pub offset: DVec2,
+    /// Whether the borders go on, where usually the picture repeats.
     pub clamp: bool,
     /// Options that change the picture and are not applied.
     pub not_applied: Vec<&'static str>,
@@ -260,6 +265,7 @@ impl TextureStatement {
         while let Some((option, after)) = next_word(rest).filter(|(word, _)| word.starts_with('-'))
         {
             let fixed = NOT_APPLIED.iter().find(|(name, _)| *name == option);
+            // How many words may follow the option.
             let most = match (option, fixed) {
                 (_, Some((_, count))) => *count,
                 ("-s" | "-o" | "-t", _) => 3,
@@ -307,7 +313,9 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 pub(crate) struct Textures {
     folder: PathBuf,
     pictures: Pictures,
+    /// By the path, each once.
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
+    /// How many names were looked for and not found.
     missing: u32,
 }
 

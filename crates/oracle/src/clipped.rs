@@ -69,12 +69,7 @@ impl Linear {
 #[must_use]
 pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
     let wide = corners.map_array(|c| c.map_array(i128::from));
-    // The side of the plane through the eye and an edge, as (x, y, 1) in clip space.
-    let edge = |i: usize| {
-        let ([ax, ay, _, aw], [bx, by, _, bw]) = (wide[(i + 1) % 3], wide[(i + 2) % 3]);
-        [ay * bw - aw * by, aw * bx - ax * bw, ax * by - ay * bx]
-    };
-    let edges = [edge(0), edge(1), edge(2)];
+    let edges = [edge(wide[1], wide[2]), edge(wide[2], wide[0]), edge(wide[0], wide[1])];
     let [x, y, _, w] = wide[0];
     let volume = edges[0][0] * x + edges[0][1] * y + edges[0][2] * w;
     if volume == 0 {
@@ -90,6 +85,11 @@ pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
         }
     }
     Some([edges[0], edges[1], edges[2], near, far].map(Linear))
+}
+
+/// The side of the plane through the eye and an edge, as a function of (x, y, 1) in clip space.
+fn edge([ax, ay, _, aw]: [i128; 4], [bx, by, _, bw]: [i128; 4]) -> [i128; 3] {
+    [ay * bw - aw * by, aw * bx - ax * bw, ax * by - ay * bx]
 }
 
 #[cfg(test)]

@@ -20,10 +20,11 @@ impl Rasterize for Oracle {
         }
         // Products of differences stay below 2^61 while both the triangle and the samples tested
         // lie within 2^29 subpixels of the origin; the samples lie within a pixel of the triangle.
-        let near = corners
-            .iter()
-            .all(|corner| corner.x.unsigned_abs().max(corner.y.unsigned_abs()) < 1 << 29);
-        if near {
+        let mut farthest = 0;
+        for corner in corners {
+            farthest = farthest.max(corner.x.unsigned_abs()).max(corner.y.unsigned_abs());
+        }
+        if farthest < 1 << 29 {
             scan(&corners, rect, |a, b| a * b, emit);
         } else {
             scan(&corners, rect, |a, b| i128::from(a) * i128::from(b), emit);

@@ -180,13 +180,12 @@ fn texel(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     if !(1..=MOST_TEXELS).contains(&count) || (256.0 * place).fract() != 0.0 {
         return None;
     }
-    let at = |index: i64| Exact::from(texels[index.rem_euclid(count as i64) as usize]);
-    let nearest = at(place.floor() as i64);
     // A texel has its value at its centre.
     let from_centre = place - 0.5;
-    let left = from_centre.floor() as i64;
-    let share = Exact::from(from_centre - from_centre.floor());
-    let mixed = at(left) + (at(left + 1) - at(left)) * share;
+    let left = from_centre.floor();
+    let [nearest, first, second] = [place.floor(), left, left + 1.0]
+        .map(|index| Exact::from(texels[(index as i64).rem_euclid(count as i64) as usize]));
+    let mixed = &first + (second - &first) * Exact::from(from_centre - left);
     let scale = largest(texels);
     Some(vec![ExactNumber { exact: nearest, scale }, ExactNumber { exact: mixed, scale }])
 }

@@ -118,9 +118,12 @@ fn centre_in(px: i32, unit: i32) -> i128 {
 fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
     let [a, b, c] = corners.map_array(|corner| corner.map_array(f64::floor));
     // Within the domain, so all of them fit i32.
-    let [x0, y0] = [0, 1].map_array(|axis| a[axis].min(b[axis]).min(c[axis]) as i32);
-    let [x1, y1] = [0, 1].map_array(|axis| a[axis].max(b[axis]).max(c[axis]) as i32 + 1);
-    PixelRect { x0, y0, x1, y1 }
+    PixelRect {
+        x0: a[0].min(b[0]).min(c[0]) as i32,
+        y0: a[1].min(b[1]).min(c[1]) as i32,
+        x1: a[0].max(b[0]).max(c[0]) as i32 + 1,
+        y1: a[1].max(b[1]).max(c[1]) as i32 + 1,
+    }
 }
 
 /// A whole number of any size.

@@ -79,18 +79,19 @@ fn in_parallelogram([a, b]: &Ends, (x, y): (i32, i32), more: i64, closed: bool) 
 /// How lit pixels of a window stand to a rectangle of width 1 px, on a lattice of this step.
 #[must_use]
 pub fn rectangle(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
-    shape(|pixel, more, closed| in_rectangle(ends, pixel, more, closed), lit, side_px, step)
+    shape(in_rectangle, ends, lit, side_px, step)
 }
 
 /// How they stand to a parallelogram.
 #[must_use]
 pub fn parallelogram(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
-    shape(|pixel, more, closed| in_parallelogram(ends, pixel, more, closed), lit, side_px, step)
+    shape(in_parallelogram, ends, lit, side_px, step)
 }
 
 /// How they stand to a shape that is made wider by so many subpixels, with its border or without.
 fn shape(
-    holds: impl Fn((i32, i32), i64, bool) -> bool,
+    holds: fn(&Ends, (i32, i32), i64, bool) -> bool,
+    ends: &Ends,
     lit: &Pixels,
     side_px: i32,
     step: i32,
@@ -100,8 +101,8 @@ fn shape(
         let is_lit = lit.contains(&pixel);
         // The corners of the shape are rounded to the lattice: its sides move by a step at most.
         let [is_right, is_allowed] = match is_lit {
-            true => [0, i64::from(step)].map_array(|more| holds(pixel, more, true)),
-            false => [0, -i64::from(step)].map_array(|more| !holds(pixel, more, false)),
+            true => [0, i64::from(step)].map_array(|more| holds(ends, pixel, more, true)),
+            false => [0, -i64::from(step)].map_array(|more| !holds(ends, pixel, more, false)),
         };
         match (is_right, is_allowed) {
             (true, _) => {}

@@ -28,6 +28,7 @@ impl Engine {
 pub struct EnginesToJudge {
     pub triangles: Vec<Engine>,
     pub lines: Vec<LineEngine>,
+    /// Of corners that are not snapped.
     pub unsnapped: Vec<ExactEngine>,
 }
 
@@ -46,6 +47,7 @@ impl EnginesToJudge {
 
     /// The planted fault of this name, in each kind of engine that has one.
     pub fn planted(name: &str) -> Self {
+        // One name may belong to faults of several kinds.
         let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
         let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
         let unsnapped = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
@@ -71,6 +73,7 @@ impl EnginesToJudge {
     /// These engines, then those of [`Self::all`] that are not among them.
     #[must_use]
     pub fn with_others(&self) -> Self {
+        // By their names, so that nobody is judged twice.
         let (all, mut these) = (Self::all(), self.clone());
         these.triangles.extend(all.triangles.into_iter().filter(|e| !self.has(e.name())));
         these.lines.extend(all.lines.into_iter().filter(|e| !self.has(e.name())));

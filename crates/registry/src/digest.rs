@@ -26,6 +26,7 @@ use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 /// Of how much a digest is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestOptions {
+    /// Of all cases and scenes.
     pub seed: u64,
     /// Cases of each family, and random scenes.
     pub cases: u64,
@@ -34,6 +35,7 @@ pub struct DigestOptions {
 /// The digest of one kind of result of one engine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestRow {
+    /// Its name.
     pub engine: &'static str,
     /// What: coverage, values, lines, frames.
     pub what: &'static str,
@@ -48,6 +50,7 @@ enum Job {
     Coverage(Engine),
     /// Depths and attributes of triangles.
     Values(Engine),
+    /// Pixels of lines with their values.
     Lines(LineEngine),
     /// Hit counts of triangles off the lattice, and how they were decided.
     OffGrid(ExactEngine),
@@ -112,6 +115,7 @@ impl Job {
             Self::Lines(engine) => lines(engine, &of(cases::lines::FAMILIES), &mut hash),
             Self::OffGrid(engine) => off_grid(engine, &of(unsnapped::FAMILIES), &mut hash),
             Self::Frames(drawer) => {
+                // The scenes of the book come first, then random ones.
                 let scenes = chapters::SCENES.len() as u64;
                 let scene = match chapters::SCENES.get(index as usize) {
                     // A turn that no angle makes simple.
@@ -278,6 +282,7 @@ fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
     let complete =
         Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
     let antialias = [Antialias::None, Antialias::Multisample4, Antialias::Supersample(2)];
+    // Each scene has another format of depth, in turn.
     let depth = DepthFormat::ALL[index as usize % DepthFormat::ALL.len()];
     for antialias in antialias {
         let Ok(mut target) = Target::new(64, 48, antialias, depth) else { continue };

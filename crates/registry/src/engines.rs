@@ -47,11 +47,14 @@ use rasterproof_verify::oracle::Oracle;
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
     Scanline,
+    /// The bounding box and three integer edge functions.
     EdgeFunction,
     /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
     /// edge function.
     Tile,
+    /// What the others are judged by.
     Oracle,
+    /// A planted fault.
     Mutant(TriangleMutant),
     /// The tiles with a planted fault, of lists of one triangle.
     TileMutant(TileMutant),
@@ -143,6 +146,7 @@ pub enum LineEngine {
     /// Bresenham's algorithm.
     Bresenham,
     Oracle,
+    /// A planted fault.
     Mutant(LineMutant),
 }
 
@@ -193,7 +197,9 @@ impl LineEngine {
 /// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
+    /// With the DDA for edges.
     Scanline,
+    /// With Bresenham's lines for edges.
     EdgeFunction,
 }
 
@@ -321,6 +327,7 @@ impl Drawer {
         effect: Effect,
         target: &mut Target,
     ) -> Result<Rendered, BadScene> {
+        // Before the frame is drawn without this effect.
         target.clear_colour([255, 0, 255, 255], &mut Counters::default());
         for plane in &mut target.planes {
             plane.depth.fill(0);
@@ -372,6 +379,7 @@ pub enum ExactEngine {
     /// The bounding-box fill with filtered edge functions.
     EdgeFunction,
     Oracle,
+    /// A planted fault.
     Mutant(ExactMutant),
 }
 
@@ -431,7 +439,9 @@ pub struct Entry {
     pub name: &'static str,
     /// What it is, in a sentence.
     pub about: &'static str,
+    /// The rasterizer of this name.
     pub engine: Option<Engine>,
+    /// The line drawer of this name.
     pub line_engine: Option<LineEngine>,
     /// The rasterizer of this name for corners that are not snapped.
     pub exact_engine: Option<ExactEngine>,
@@ -450,6 +460,7 @@ pub enum Variant {
     WideLines(WideLines),
     /// The shares of pixels.
     Area(AreaLevels),
+    /// Samples with values, computed at one of three places.
     SampleValues(SampleValues),
 }
 
@@ -465,6 +476,7 @@ const NOBODY: Entry = Entry {
 };
 
 /// Entries from a table: name, what it is, and what it can do.
+// What an engine cannot do stays as it is in `NOBODY`.
 macro_rules! entries {
     ($($name:literal, $about:literal, $($can:ident: $by:expr),+;)*) => {
         [$(Entry { name: $name, about: $about, $($can: Some($by),)+ ..NOBODY }),*]

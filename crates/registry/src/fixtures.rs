@@ -44,6 +44,7 @@ const BITS: std::ops::RangeInclusive<u32> = 4..=SUBPIXEL_BITS;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
+    /// Three corners.
     Triangle,
     /// The first point with each pair of the following ones.
     Fan,
@@ -64,6 +65,7 @@ pub type Run = [i32; 3];
 pub struct Fixtures {
     /// [`FORMAT`].
     pub format: String,
+    /// The version that made it.
     pub rasterproof: String,
     pub seed: u64,
     /// Where the samples of a kind lie in a pixel, in px from its upper left corner.
@@ -79,6 +81,7 @@ pub struct PolygonFixture {
     pub family: String,
     /// Inside is where they run around a point an odd number of times.
     pub contours: Vec<Vec<[i32; 2]>>,
+    /// In square units of the coordinates.
     pub twice_area: i64,
 }
 
@@ -144,6 +147,7 @@ pub struct Fixture {
     pub window: [u32; 2],
     /// In px, y down; of a line whole columns and rows.
     pub points: Vec<[f64; 2]>,
+    /// The planted fault for which it was found.
     pub found_by: String,
     /// Its pixels, for every number of bits below the pixel.
     pub expected: Vec<ExpectedPictures>,
@@ -153,6 +157,7 @@ pub struct Fixture {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedPictures {
+    /// From the first to the last number of bits, both included.
     pub bits: [u32; 2],
     /// The pictures of the samples of a pixel, in the order of [`Fixtures::samples`].
     pub samples: Vec<Pixels>,
@@ -162,6 +167,7 @@ pub struct ExpectedPictures {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pixels {
+    /// Hit exactly once.
     pub hit: Vec<Run>,
     /// Hit once or not, since a corner off the grid may be moved to it up or down.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -203,6 +209,7 @@ impl Fault {
 /// Whoever draws a case: engines of both kinds, or a planted fault.
 #[derive(Clone, Copy, Debug)]
 pub enum Drawer {
+    /// A rasterizer for triangles, a line drawer for lines.
     Engines(Engine, LineEngine),
     Fault(Fault),
 }
@@ -212,6 +219,7 @@ pub enum Drawer {
 struct Drawing {
     kind: Kind,
     window: [u32; 2],
+    /// In subpixels; of a line whole pixels.
     points: Vec<SubpixelPoint>,
 }
 
@@ -229,11 +237,14 @@ impl Drawing {
     /// The drawing as a fixture, with what is expected of it.
     fn fixture(&self, found_by: &str) -> Fixture {
         let unit = if self.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
-        let points = self.points.iter().map(|p| [f64::from(p.x) / unit, f64::from(p.y) / unit]);
+        let mut points = Vec::with_capacity(self.points.len());
+        for p in &self.points {
+            points.push([f64::from(p.x) / unit, f64::from(p.y) / unit]);
+        }
         Fixture {
             kind: self.kind,
             window: self.window,
-            points: points.collect(),
+            points,
             found_by: found_by.to_owned(),
             expected: self.expected(),
         }
@@ -351,7 +362,11 @@ impl Drawing {
 
     /// Coordinates that are no multiple of 1/16 px.
     fn fine_coordinates(&self) -> usize {
-        self.points.iter().flat_map(|p| [p.x, p.y]).filter(|v| v.rem_euclid(16) != 0).count()
+        let mut count = 0;
+        for p in &self.points {
+            count += usize::from(p.x.rem_euclid(16) != 0) + usize::from(p.y.rem_euclid(16) != 0);
+        }
+        count
     }
 
     /// The two pixels of each step in which a line passes halfway between them.
@@ -614,6 +629,7 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
         return greedy(start, mesh_size, mesh_candidates, fails);
     }
     let window = start.rect();
+    // A single shape is shrunk as every other case is.
     let shape = match kind {
         Kind::Line => Shape::Lines(vec![start.line()]),
         _ => {
@@ -701,6 +717,7 @@ fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> O
     let is_fine = round % 2 == 1 && matches!(kind, Kind::Triangle | Kind::Samples4);
     for attempt in round * TRIES..(round + 1) * TRIES {
         let family = families[(attempt % families.len() as u64) as usize];
+        // A case of the family that this round comes to.
         let mut start = drawing(kind, &family.case(seed, attempt + 1_000_003 * number as u64))?;
         if matches!(kind, Kind::Fan | Kind::Strip) {
             for p in &mut start.points {
@@ -757,6 +774,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
             if round > 400 || alive.is_empty() {
                 break;
             }
+            // The same drawing may be found for several faults; it keeps the name of the first.
             let before = found.len();
             for (number, drawing) in drawings {
                 if let Some(drawing) = drawing.filter(|_| found.len() < quota) {

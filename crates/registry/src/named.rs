@@ -112,6 +112,7 @@ fn perspective() -> Vec<NamedCase> {
         vertex.depth = 0.1;
     }
     // Both triangles cover the same pixels.
+    // The fields that the table cannot state are changed here.
     let mut twice = clipped(&[scaled(plain, 1e-23), scaled(plain, 1e20)]);
     if let Shape::Triangles { disjoint, .. } = &mut twice.shape {
         *disjoint = false;

@@ -36,12 +36,15 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 pub struct Counts {
     /// Triangles or lines drawn.
     pub shapes: u64,
+    /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
+    /// Those with a wrong pixel.
     pub wrong_pixels: u64,
     /// Those with a wrong value at a pixel that they cover.
     pub wrong_values: u64,
     /// Those that the specimen refuses, since the published code is undefined there.
     pub refused: u64,
+    /// Pixels that the oracle covers.
     pub pixels: u64,
     /// Wrong pixels, each triangle for itself.
     pub tally: Tally,
@@ -91,10 +94,14 @@ impl Counts {
 #[derive(Clone, Debug, Serialize)]
 pub struct SpecimenReport {
     pub name: &'static str,
+    /// The book or the course that it is from.
     pub source: &'static str,
     pub fault: &'static str,
+    /// What to write instead, in a sentence.
     pub cure: &'static str,
+    /// The name of the case that shows the fault.
     pub case: &'static str,
+    /// Pixels that are wrong in it.
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
     pub harmless_wrong: u64,
@@ -102,6 +109,7 @@ pub struct SpecimenReport {
     pub recorded: Vec<(&'static str, Counts)>,
     /// Family and counts; empty for scenes.
     pub families: Vec<(&'static str, Counts)>,
+    /// All families together.
     pub all: Counts,
 }
 
@@ -194,6 +202,7 @@ pub fn exposing_name(card: &Card) -> &'static str {
 /// Pixels with a wrong hit count, a wrong value or a wrong colour in one of a card's cases; a
 /// refusal counts as one.
 pub fn wrong(card: &Card, setting: Setting) -> u64 {
+    // The exposing case is the first of the two.
     let which = usize::from(setting == Setting::Harmless);
     let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
     match (&card.exhibit, specimen) {
@@ -412,6 +421,7 @@ fn values(
     let exact = ExactTriangle::new(&triangle.corners(), depths, inv_w, attributes);
     let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
     let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
+    // Only at pixels that the triangle covers has it a value that could be wrong.
     let mut drawn: Vec<Fragment<DVec2>> = Vec::new();
     let _ = specimen.fragments(&from_screen(triangle), window, &mut |f| {
         if truth.get(f.x_px, f.y_px).is_some_and(|hits| hits > 0) {

@@ -69,6 +69,7 @@ impl Ties {
 #[derive(Clone, Copy)]
 pub struct EngineFrame<'a> {
     pub engine: Engine,
+    /// With every depth of every sample.
     pub target: &'a Target,
 }
 
@@ -84,6 +85,7 @@ pub fn find(scene: &Scene, frames: [EngineFrame<'_>; 2]) -> Result<Ties, BadScen
     let target = frames[0].target;
     let tied = TiedPieces::new(scene, target)?;
     let (size, bounds) = (tied.size(), target.bounds());
+    // As many rows as have about so many samples.
     let per_row = u64::from(size.width()) * target.antialias().samples();
     let rows = (BAND_SAMPLES / per_row).max(1) as usize;
     // Each band is judged by itself, so that the pieces of a few rows are held at once.
@@ -228,6 +230,7 @@ fn halves(rect: PixelRect) -> Option<[PixelRect; 2]> {
 /// A tied piece, and what is known of it by each of the two rasterizers.
 #[derive(Clone, Copy)]
 struct Candidate {
+    /// The piece, and the sample at which it ties.
     tied_piece: TiedPiece,
     /// The nearest and the farthest key that the rasterizer may store.
     keys: [(u64, u64); 2],
@@ -245,6 +248,7 @@ struct Judge<'a> {
 impl Judge<'_> {
     /// Judges a rectangle, by halves where it has too many tied pieces to be judged at once.
     fn judge(&self, rect: PixelRect) -> Band {
+        // A single pixel is judged, however many pieces tie there.
         let halves = halves(rect);
         let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
         match (self.tied.within(rect, most), halves) {
@@ -256,6 +260,7 @@ impl Judge<'_> {
 
     /// Judges samples by the pieces that tie there.
     fn judge_tied(&self, tied: Vec<TiedPiece>) -> Band {
+        // What may be the nearest by either rasterizer, with the colours that each would show.
         let mut candidates = self.candidates(tied);
         keep_rivals(&mut candidates);
         // By piece, to be shaded, and by sample again.
@@ -268,6 +273,7 @@ impl Judge<'_> {
         let mut band = Band::default();
         for group in candidates.chunk_by(|a, b| a.tied_piece.sample == b.tied_piece.sample) {
             let sample = group[0].tied_piece.sample;
+            // Where all of them are of one colour, it does not matter which is nearest.
             let mut colours = group.iter().flat_map(|c| c.colours.as_flattened()).flatten();
             let first = colours.next();
             if colours.any(|colour| Some(colour) != first) {

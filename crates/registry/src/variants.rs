@@ -85,6 +85,7 @@ pub struct WideLines {
 
 /// That a x + c is at most 0, of x in subpixels.
 struct HalfPlane {
+    /// Above 0 where the half plane ends at the right, below 0 where it ends at the left.
     a: i128,
     c: i128,
 }
@@ -107,6 +108,7 @@ impl HalfPlane {
 impl WideLines {
     /// The runs of a line in a window.
     pub fn cover(self, line: &WideLine, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        // Whole numbers from here on; a row is cut by four half planes.
         let [start, end] = line.ends.map(|p| [i128::from(p.x), i128::from(p.y)]);
         let [dx, dy] = [end[0] - start[0], end[1] - start[1]];
         if [dx, dy] == [0, 0] {
@@ -201,6 +203,7 @@ fn values_at(
     let at = [(pixel[0], x), (pixel[1], y)].map(|(px, part)| {
         i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
     });
+    // Weights by areas, which are below 0 outside.
     let area = twice_area(&corners) as f64;
     let (mut depth, mut over_w, mut varying) = (0.0, 0.0, DVec2::ZERO);
     for (i, v) in triangle.vertices.iter().enumerate() {

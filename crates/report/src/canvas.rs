@@ -30,8 +30,11 @@ const PAPER: Ink = [255, 255, 255];
 pub struct Drawing {
     /// What it shows, for those who cannot see it.
     title: String,
+    /// Width and height, in units of about a pixel.
     pub size: [f64; 2],
+    /// The colours that occur, each of which needs a class.
     inks: BTreeSet<Ink>,
+    /// The elements, in the order of drawing.
     body: String,
 }
 
@@ -95,6 +98,7 @@ impl Drawing {
 
     /// A line of text: its left end, at its middle height.
     pub fn text(&mut self, [x, y]: [f64; 2], text: &str, ink: Ink) {
+        // The base line lies below the middle of the letters.
         let (fill, y, length) = (self.paint("fill", ink), y + 4.5, width(text));
         let _ = writeln!(
             self.body,
@@ -156,6 +160,7 @@ fn hex([r, g, b]: Ink) -> String {
 
 /// What a colour is on a dark page: light ones become dark, dark ones light, of the same hue.
 fn dark([r, g, b]: Ink) -> Ink {
+    // The hue stays where all three are mirrored at the same place.
     let (low, high) = (r.min(g).min(b), r.max(g).max(b));
     let mirror = |v: u8| {
         // The lightness is mirrored, and black text does not become pure white.

@@ -28,6 +28,7 @@ pub fn chapter_of_source(source: &str) -> Chapter {
         ("GAMES101", "GAMES101 homework 2", "games101.md"),
         ("SYSU", "SYSU assignment 2", "sysu.md"),
     ];
+    // A source that no page is about leads to none.
     let page = PAGES.iter().find(|(from, ..)| source.starts_with(from));
     page.map_or(Chapter::default(), |&(_, title, path)| Chapter { title, path })
 }

@@ -24,6 +24,7 @@ pub fn tables(verdict: &Verdict) -> Vec<Table> {
             tables.push(table(&families));
         }
     }
+    // What is said of all tables stands below the last one.
     if let Some(last) = tables.last_mut() {
         last.notes.extend(quotas(verdict));
         last.notes.extend(disagreements(verdict));
@@ -34,9 +35,12 @@ pub fn tables(verdict: &Verdict) -> Vec<Table> {
 /// How bad a family is: what is wrong, then how close values come to their bounds, then how often floats did not suffice.
 #[derive(Default)]
 struct Badness {
+    /// Wrong pixels and fragments, and panics.
     pixels: u64,
     cases: u64,
+    /// The largest part of a bound; above 1 the value is wrong.
     closest: f64,
+    /// Decisions that took exact arithmetic.
     doubts: u64,
 }
 
@@ -86,11 +90,14 @@ fn legend<'a>(engines: impl Iterator<Item = &'a str>) -> String {
 fn table(families: &[&FamilyReport]) -> Table {
     let first = families[0];
     let shapes = shapes(first.kind);
+    // In a terminal the first word has to do.
     let short = shapes.split(' ').next().unwrap_or(shapes);
     let letter = |name: &str| {
+        // Engines have letters in the order of their columns, and the oracle has O.
         let known = ('A'..).zip(judged(first)).find(|(_, pair)| pair.actual == name);
         known.map_or('O', |(letter, _)| letter)
     };
+    // Columns of counts, then one for each pair that was compared.
     let mut columns = table::columns(&format!(
         "family 15 | >cases 6 cases judged | >{shapes} 9 shapes judged | >pixels 9 covered pixels, by the oracle | >ties 4 \
          percent of the cases, in which a sample lies exactly on an edge"
@@ -117,11 +124,13 @@ fn table(families: &[&FamilyReport]) -> Table {
             column.short(format!("{short} {}", letter(actual)))
         }));
     }
+    // The heads are short, so a legend says what they mean.
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
     let what = match first.kind {
         Kind::Unsnapped => "decided: sides of edges; exact: those in exact arithmetic",
         _ => "val, dep: worst value and depth as a fraction of its bound",
     };
+    // The letters of the engines, and what the colons mean.
     let engines = legend(judged(first).map(|pair| pair.actual.as_str()));
     let legend = format!("{engines}, O oracle; A:O wrong pixels of A against O; {what}");
     Table { caption, columns, rows: rows(families), legend, ..Table::default() }
@@ -181,6 +190,7 @@ fn rows(families: &[&FamilyReport]) -> Vec<Row> {
     if let [first, others @ ..] = families
         && !others.is_empty()
     {
+        // The sum is a row like the others, but for its name and its mark.
         let mut all = FamilyReport::clone(first);
         for family in others {
             all += FamilyReport::clone(family);
@@ -205,6 +215,7 @@ pub fn judged_shapes(verdict: &Verdict) -> String {
 /// The verdict in a word and a sentence, with the counts that `verify` prints.
 pub fn outcome(verdict: &Verdict) -> Outcome {
     let (good, judged) = (verdict.agrees(), judged_shapes(verdict));
+    // Wrong pixels are named first; without any, what else is wrong.
     let wrong = verdict.mismatches();
     let sentence = match (good, wrong) {
         (true, _) => format!("{judged}, 0 wrong pixels"),
@@ -244,6 +255,7 @@ pub fn refused() -> Table {
 fn quotas(verdict: &Verdict) -> Option<String> {
     let parts =
         verdict.quotas().map(|(what, is, wanted)| format!("{what} {is}% (quota {wanted}%)"));
+    // Quotas are of triangles, and a run of lines alone has none.
     let has_triangles = verdict.sum(Kind::Triangles, |f| f.cases) > 0;
     has_triangles.then(|| format!("of the triangle cases: {}", parts.join(", ")))
 }
@@ -287,6 +299,7 @@ fn kinds(pair: &PairReport) -> String {
             let _ = write!(out, "; worst {what} {worst:.3e} times its bound");
         }
     }
+    // An engine that draws a pixel should have a value there, and none elsewhere.
     if pair.fragments.total() > 0 {
         let what = pair.fragments.describe();
         let _ = write!(out, "; its fragments against its own coverage: {what}");

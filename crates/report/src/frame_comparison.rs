@@ -17,6 +17,7 @@ use rasterproof_verify::comparison::tolerance;
 /// What was found of two frames.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
+    /// All pixels of the picture.
     pub pixels: u64,
     /// Pixels whose colours differ by a bit.
     pub wrong_pixels: u64,
@@ -72,6 +73,7 @@ pub fn compare(
     ties: Option<&Ties>,
 ) -> Comparison {
     let bounds = a.0.bounds();
+    // Depths are compared sample by sample, colours pixel by pixel.
     let (depths, wrong) = compare_depths(a.1, b.1, ties);
     let mut found = Comparison {
         pixels: u64::from(bounds.width()) * u64::from(bounds.height()),
@@ -92,6 +94,7 @@ pub fn compare(
             let differs = first != second;
             let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
             found.wrong_pixels += u64::from(differs && !is_excused);
+            // Of what is excused, ties of depth and far textures are counted apart.
             let is_far = is_excused && ties.is_some_and(|t| t.is_far_texture(x_px, y_px));
             found.undecided_differ += u64::from(is_excused && !is_far);
             found.far_texture += u64::from(is_far);
@@ -114,6 +117,7 @@ pub fn compare(
 /// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.
 fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
     let scale = a.antialias().scale() as i32;
+    // Every sample of the pixel has to be excused, if it differs.
     let mut excused = 0;
     for (plane, (first, second)) in a.planes.iter().zip(&b.planes).enumerate() {
         for y in y_px * scale..(y_px + 1) * scale {
@@ -143,6 +147,7 @@ pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
 
 /// How many depths were compared, and the samples where they differ.
 fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32, i32)>) {
+    // Each engine may be off by its own bound.
     let error =
         tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
     let tolerance = a.format.tolerance(error);
@@ -157,6 +162,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
                 continue;
             }
             for (x_px, (&key_a, &key_b)) in (x0..).zip(row_a.iter().zip(row_b)) {
+                // Where one of them drew nothing, depths are not near.
                 let near = key_a != CLEAR
                     && key_b != CLEAR
                     && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
@@ -193,10 +199,12 @@ const MAP_WIDTH_PX: u32 = 1440;
 /// How often something occurs in the pixels of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
+    /// Over all pixels.
     pub mean: f64,
     pub most: u32,
     /// The first pixel that has the most, and how many have it.
     pub at: [i32; 2],
+    /// How many have the most.
     pub pixels: u64,
 }
 
@@ -233,6 +241,7 @@ fn heat(count: f64, most: u32) -> [u8; 3] {
         return [40; 3];
     }
     let share = (count - 1.0).max(0.0) / f64::from(most.saturating_sub(1).max(1));
+    // Between two of the stops.
     let at = share.min(1.0) * (STOPS.len() - 1) as f64;
     let low = (at as usize).min(STOPS.len() - 2);
     let part = at - low as f64;
@@ -245,6 +254,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
     let map = &paid_map.effects;
     let bounds = map.bounds();
     let (width, height) = (bounds.width(), bounds.height());
+    // Large frames are made smaller, so that a row of panels fits.
     let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
         let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
@@ -273,6 +283,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
         let words = format!("{count} px, {:.1}%", 100.0 * count as f64 / pixels.max(1) as f64);
         cells.push(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
             let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
+            // The lightness of the frame, in which green counts most.
             let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
             // The frame shows through.
             let lit = |c: u8| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8;
@@ -282,6 +293,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
             }
         }));
     }
+    // What the colours of counts mean.
     let scale = (1..=9).map(|count| Rgb(heat(count.into(), 9))).collect();
     let entries = [
         (vec![Rgb(heat(0.0, 1))], "none".to_owned()),

@@ -35,6 +35,7 @@ impl Subject for Host {
         }
         // Who reads all of it before it answers never waits for a pipe that is full.
         requests.push(b'\n');
+        // Locked before anything is sent, so that the answers are read by whoever asked.
         let heard = io::stdin().lock();
         let sent = io::stdout().write_all(&requests).and_then(|()| io::stdout().flush());
         let mut lines = heard.lines().map_while(Result::ok).fuse();
@@ -65,7 +66,9 @@ struct Job {
     options: Options,
     /// The function of the package and the name of what is judged, as in `assertRasterizer(draw`.
     call: String,
+    /// Whether arguments are written as Python writes them.
     is_python: bool,
+    /// Words of a convention, as `HELLO` has them.
     declare: String,
     /// The caller says that numbers of masks are hits.
     hits: bool,
@@ -78,11 +81,13 @@ impl Job {
     fn read() -> Result<(Self, Declared), String> {
         let mut job = Self::default();
         for line in io::stdin().lines().map_while(Result::ok) {
+            // The line HELLO ends the options.
             let line = line.trim_end();
             if let Some(mut declared) = Declared::parse(line) {
                 declared.declare(&job.declare).map_err(|why| format!("declare: {why}"))?;
                 return Ok((job, declared));
             }
+            // An option is a word, and all that follows a space is its value.
             let (option, value) = line.split_once(' ').unwrap_or((line, ""));
             job.hear(option, value)?;
         }
@@ -92,6 +97,7 @@ impl Job {
     /// Takes an option.
     fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
         let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
+        // Whole numbers, from the least that makes sense.
         let number = |least: u64| {
             let number = value.parse().ok().filter(|number| *number >= least);
             number.ok_or_else(|| is_not(&format!("a whole number from {least} to {}", u64::MAX)))
@@ -157,6 +163,7 @@ impl Job {
         let one = |family: &str, index: u64| {
             self.line(&[("family", format!("'{family}'")), ("case", index.to_string())])
         };
+        // The call that judges everything again, and the one for a single case.
         let mut all = vec![("cases", self.options.cases.to_string())];
         if !self.options.families.is_empty() {
             let names = self.options.families.join("', '");
@@ -180,10 +187,12 @@ impl Job {
             return Ok((true, said));
         }
         if declared.partition {
+            // A tessellator is judged by areas, and its verdict is written in another way.
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
             let said = judge_text::of_polygons(&declared, &report, &all, &one);
             return Ok((report.sum().wrong == 0, cause_first(&said)));
         }
+        // Pictures of triangles and lines are judged as programs are.
         let scope = Scope::of(&self.options);
         // A module has one thread.
         let hosts = if cfg!(target_family = "wasm") { 1 } else { 2 };
@@ -206,6 +215,7 @@ fn cause_first(report: &Report) -> String {
     let whole = text::text(report, false, false, text::WIDTH);
     match &report.outcome {
         Some(outcome) if !outcome.good => {
+            // The cause, or what was counted where none is known.
             let why = outcome.answer.split_once(" is not right").map_or("", |(_, why)| why);
             let why = why.trim_start_matches([':', '.', ' ']);
             let first = if why.is_empty() { &outcome.sentence } else { why };

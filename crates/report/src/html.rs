@@ -59,6 +59,7 @@ static SCRIPT: LazyLock<String> = LazyLock::new(|| {
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Report {
+    /// What stands at the top, and with the command in the head.
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
@@ -74,6 +75,7 @@ pub struct Report {
     pub command: String,
     /// The command that repeats it without pages, where that is another one.
     pub repeat: String,
+    /// Sentences below everything else.
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
@@ -81,10 +83,13 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     /// The cases that a terminal shows, above the tables.
     pub excerpts: Vec<Excerpt>,
+    /// Pictures to look into.
     pub frames: Vec<PictureView>,
+    /// Plots.
     pub figures: Vec<Figure>,
     /// The same for machines, where it is made of this value.
     pub data: serde_json::Value,
+    /// Texts that have changed.
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
@@ -104,6 +109,7 @@ pub struct PicturedAnswer {
 pub struct Statement {
     /// The question in a word or two.
     pub about: &'static str,
+    /// The answer.
     pub sentence: String,
     /// The command that says more, or nothing.
     pub command: String,
@@ -117,6 +123,7 @@ pub struct Excerpt {
     pub exchanges: Vec<(&'static str, String)>,
     /// Pixels as characters; its lines are not broken.
     pub grid: String,
+    /// What is said of it, a paragraph each.
     pub notes: Vec<String>,
     /// Commands and pages, each with what it is for.
     pub places: Vec<(&'static str, String)>,
@@ -127,6 +134,7 @@ pub struct Excerpt {
 pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
+    /// The verdict in capitals.
     pub word: String,
     /// The verdict in a sentence, with the cause where one is known; nothing where `sentence` says it.
     pub answer: String,
@@ -183,11 +191,13 @@ pub struct Figure {
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
+    /// What is said of it below its name.
     pub about: String,
     /// A command that belongs to it, or nothing.
     pub command: String,
     /// Before; nothing where there was none.
     pub old: Option<String>,
+    /// Now.
     pub new: String,
 }
 
@@ -196,10 +206,12 @@ pub struct TextDiff {
 pub struct PictureView {
     /// Its name; unique within the page.
     pub name: String,
+    /// What it shows, in words.
     #[serde(serialize_with = "serialize_grouped")]
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,
+    /// The page of the docs about what it shows.
     pub chapter: Chapter,
     pub layers: Vec<PictureLayer>,
 }
@@ -208,6 +220,7 @@ pub struct PictureView {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
     pub name: String,
+    /// As a `data:` address.
     png: String,
     /// Whether it marks pixels of another layer, so that its colours are not compared with those of others.
     is_map: bool,
@@ -278,6 +291,7 @@ pub fn page(report: &Report) -> String {
     let mut room =
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
+    // The head and the tables are always there; what comes after them has the room that they leave.
     let head = head(report);
     // A page begins with one picture or one table; all other rows are folded.
     let is_folded = report.pictured.is_some();
@@ -287,6 +301,7 @@ pub fn page(report: &Report) -> String {
         has_rows |= !one.rows.is_empty();
     }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
+    // Takes a part of the page if there is room for it, else its name.
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
             room -= text.len() + 1;
@@ -296,6 +311,7 @@ pub fn page(report: &Report) -> String {
             None
         }
     };
+    // Comparing texts may take long, so each of them and all together have a time limit.
     let last = Instant::now() + limits::ALL_DIFFS_TIME;
     let (mut diffs, mut figures) = (String::new(), String::new());
     for diff in &report.diffs {
@@ -307,17 +323,23 @@ pub fn page(report: &Report) -> String {
         let figure = if is_folded { folded(&one.caption, &figure) } else { figure };
         figures.extend(kept(&one.caption, figure));
     }
-    let cases = report.cases.iter().filter_map(|case| kept(&case.name, json(case)));
-    let cases = cases.collect::<Vec<_>>().join(",");
-    let frames = report.frames.iter().filter_map(|view| kept(&view.name, json(view)));
-    let frames = frames.collect::<Vec<_>>().join(",");
+    let (mut cases, mut frames) = (Vec::new(), Vec::new());
+    for case in &report.cases {
+        cases.extend(kept(&case.name, json(case)));
+    }
+    for view in &report.frames {
+        frames.extend(kept(&view.name, json(view)));
+    }
+    let (cases, frames) = (cases.join(","), frames.join(","));
     let docs = json(&report.docs);
     let playground = report.has_playground;
+    // What the script reads: the viewer shows cases and pictures.
     let data = format!(
         "{{\"docs\":{docs},\"playground\":{playground},\"cases\":[{cases}],\"frames\":[{frames}]}}"
     );
     let run = command(&report.command) + &notes(&report.notes, &left_out);
     let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
+    // Links at the top, to the sections that are not empty.
     let has_cases = !cases.is_empty() || !frames.is_empty();
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
     let mut links = Vec::new();
@@ -373,8 +395,11 @@ fn jump(sections: &[(String, &str)]) -> String {
     if sections.len() < 2 {
         return String::new();
     }
-    let links = sections.iter().map(|(id, title)| format!("<a href=\"#{id}\">{title}</a>"));
-    let links = links.collect::<Vec<_>>().join(" ");
+    let mut links = Vec::new();
+    for (id, title) in sections {
+        links.push(format!("<a href=\"#{id}\">{title}</a>"));
+    }
+    let links = links.join(" ");
     format!("<nav class=\"jump\" aria-label=\"on this page\">{links}</nav>\n")
 }
 
@@ -410,6 +435,7 @@ fn head(report: &Report) -> String {
     for line in report.about.lines() {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
     }
+    // The answers in words, but for what stands there already.
     let said = report.pictured.as_ref().map_or("", |pictured| &pictured.sentence);
     for Statement { about, sentence, command: more } in &report.answers {
         // What stands above the picture is not said again.
@@ -441,18 +467,18 @@ pub fn is_index(page: &str) -> bool {
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of
 /// what is no page of this program.
 pub fn index(pages: &[(String, String)]) -> String {
-    let row = |(name, text): &(String, String)| {
-        let between = |from: &str, to: &str| {
-            let (_, rest) = text.split_once(from)?;
-            rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
+    let mut rows = String::new();
+    for (name, text) in pages {
+        let said = between(text, ABOUT, "\">");
+        let (Some(said), Some(title)) = (said, between(text, "<title>", "</title>")) else {
+            continue;
         };
-        let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
         let name = escape(name);
-        Some(format!(
-            "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
-        ))
-    };
-    let rows: String = pages.iter().filter_map(row).collect();
+        let _ = writeln!(
+            rows,
+            "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>"
+        );
+    }
     let style = &*STYLE;
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -463,6 +489,13 @@ pub fn index(pages: &[(String, String)]) -> String {
          <h1>Pages of rasterproof</h1></header>\n<main>\n<ul class=\"pages\">\n{rows}</ul>\n</main>\n\
          </body>\n</html>\n"
     )
+}
+
+/// What stands between two texts, unless it contains an element.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {
+    let (_, rest) = text.split_once(from)?;
+    let (inside, _) = rest.split_once(to)?;
+    (!inside.contains('<')).then_some(inside)
 }
 
 /// A command that can be copied.
@@ -478,8 +511,12 @@ fn command(text: &str) -> String {
 
 /// What is said below everything else, and what was left out.
 fn notes(notes: &[String], left_out: &[String]) -> String {
-    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", prose(note))).collect();
+    let mut out = String::new();
+    for note in notes {
+        let _ = writeln!(out, "<p>{}</p>", prose(note));
+    }
     if !left_out.is_empty() {
+        // The page says what it lacks, but no list of hundreds.
         let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
         if left_out.len() > names.len() {
             names.push(format!("and {} more", left_out.len() - names.len()));
@@ -524,6 +561,7 @@ fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     for note in &table.notes {
         let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", with_links(&prose(note), docs));
     }
+    // Many notes are folded, since they would be longer than the table.
     let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
     out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
@@ -547,6 +585,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
         escape(name)
     );
     for column in &table.columns {
+        // A head says what it counts, in a few words more when it is pointed at.
         let class = if column.is_number { " class=\"number\"" } else { "" };
         let about = match column.about.as_str() {
             "" => String::new(),
@@ -555,6 +594,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
         let _ = write!(out, "<th scope=\"col\"{class}{about}>{}</th>", escape(&column.label));
     }
     out.push_str("</tr></thead>\n<tbody>\n");
+    // Sums first; where the table becomes too long, the last rows are left out.
     let mut left_out = table.rows.len();
     let most_wrong = table.rows.iter().map(|row| row.wrong).max().unwrap_or(0);
     let others = table.rows.iter().filter(|row| row.mark != Mark::Sum);
@@ -569,6 +609,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
             Mark::Sum => " class=\"sum\"",
         };
         let _ = write!(out, "<tr{class}>");
+        // A last cell without a column of its own takes the rest of the row.
         let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
             let text = if column.is_number { prose(cell) } else { escape(cell) };
@@ -615,6 +656,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
+    // The page chooses by its width.
     let others = figure
         .others
         .iter()
@@ -637,6 +679,7 @@ fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
         escape(&diff.about),
         command(&diff.command)
     );
+    // The search for the fewest changes stops at the deadline.
     let lines = Lines::configure().deadline(deadline).diff_lines(old, &diff.new);
     if Instant::now() > deadline {
         let [before, after] = [old, &diff.new].map(|text| text.lines().count());

@@ -75,6 +75,7 @@ pub fn judgement(
         })
     });
     let incidents = verdict.more.found.incidents.iter().map(|i| {
+        // What happened before the families cannot be repeated by one of them.
         let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
             "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
@@ -82,10 +83,12 @@ pub fn judgement(
         })
     });
     let left_out = verdict.more.left_out;
+    // What else was counted than pixels.
     let counts = verdict.counts().into_iter().map(|count| {
         let Score { wrong, pixels, .. } = count.score;
         json!({ "what": count.what.name(), "wrong": wrong, "of": pixels })
     });
+    // Names of members are part of the format, and stay.
     let mut all = json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,

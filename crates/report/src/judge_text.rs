@@ -1,5 +1,7 @@
 //! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
+use std::fmt::Display;
+
 use super::html::{Chapter, Excerpt, Outcome, Report, Statement};
 use super::json;
 use super::table::{Row, Table};
@@ -38,6 +40,7 @@ pub fn report(
 ) -> Report {
     let (d, agrees) = (&verdict.more.declared, verdict.agrees());
     let names = names(verdict);
+    // Who judged, and what each program says of itself.
     let mut about = vec![by(verdict.options.seed)];
     if let (Some([first, second]), Some(other)) = (&names, &verdict.more.against) {
         about.extend([speaks(first, d), speaks(second, other)]);
@@ -70,6 +73,7 @@ pub fn report(
         }
     }
     first_screen.extend(summary::asked(&verdict.more.asked));
+    // What a baseline knows is counted, and not shown.
     if verdict.more.known > 0 {
         let known = thousands(verdict.more.known);
         let note = format!("not shown: {known} failing cases that the baseline knows");
@@ -212,6 +216,7 @@ pub(super) fn why(verdict: &Verdict, property: &str) -> Option<String> {
     if verdict.failures.iter().any(|f| f.evidence.changes && f.evidence.shows(property)) {
         return Some("its answers change from one time to the next".to_owned());
     }
+    // Else the cause of the check that the property belongs to.
     let row = verdict.families.iter().find(|row| row.name == property)?;
     let check = row.check?.of_its_cause();
     for of in &verdict.cause {
@@ -236,6 +241,7 @@ pub fn of_polygons(
     let agrees = sum.wrong == 0;
     let answer = format!("{name} is {}", if agrees { "right" } else { "not right" });
     let about = [by(report.options.seed), speaks(name, declared)].join("\n");
+    // The smallest polygons that are wrong, in a terminal's words.
     let mut grid = String::new();
     if !agrees {
         // As most languages write lists.
@@ -252,6 +258,7 @@ pub fn of_polygons(
         false => sum.describe(""),
     };
     // What was asked is said where all of it was.
+    // How many polygons there were, and how many of them the tessellator took.
     let is_whole = !polygons::is_out_of_time(report) && report.options.only.is_none();
     let has_design = report.families.iter().any(|of| of.family == partition::Family::Design);
     let asked = if is_whole && has_design { vec![polygons::asked(report)] } else { Vec::new() };
@@ -289,6 +296,7 @@ fn complaints(verdict: &Verdict) -> Option<Excerpt> {
     };
     let mut grid = String::new();
     for line in shown {
+        // A long line is broken, and goes on below itself.
         let parts = match ascii::columns(line) <= SCREEN - 4 {
             true => vec![line.clone()],
             false => ascii::lines(line, SCREEN - 6, ascii::columns),
@@ -313,6 +321,7 @@ fn dangers(verdict: &Verdict) -> Table {
         };
         out.push(summary::row(p.outcome.is_good(), p.name, what));
     }
+    // Families that threaten the same thing are one row.
     let rows = &verdict.families;
     for danger in summary::DANGERS {
         let (mut sum, mut is_right, mut is_judged) = (summary::Sum::default(), true, false);
@@ -347,6 +356,7 @@ fn score(what: Counted, of: Score) -> String {
 
 /// The score by a convention, with the wrong pixels of the shapes that it leaves out.
 fn score_by_convention(of: Score, left_out_wrong: u64) -> String {
+    // What a convention leaves open cannot be wrong by it.
     let unscored = match of.unscored {
         0 => String::new(),
         n => format!(
@@ -381,6 +391,7 @@ fn scores(verdict: &Verdict) -> Table {
         (Some(_), None) => "unexplained, so there is no score".to_owned(),
     };
     let mut notes = Vec::new();
+    // The convention in sentences, and the option by which the program would be judged by it.
     if let Some(recognised) = &verdict.more.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
@@ -414,12 +425,15 @@ fn cause(why: &Why) -> Table {
 fn families(verdict: &Verdict) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
-    let row = |row: &FamilyRow| {
+    let mut rows = Vec::new();
+    for row in by_share(verdict) {
         let FamilyRow { name, cases, shapes, pixels, refused, tally, .. } = row;
         let Tally { missing, extra, twice, order, .. } = tally;
         let share = format!("{:.2}%", 100.0 * row.share());
-        Row::of(&[name, cases, shapes, pixels, missing, extra, twice, order, refused, &share])
-    };
+        let cells: [&dyn Display; 10] =
+            [name, cases, shapes, pixels, missing, extra, twice, order, refused, &share];
+        rows.push(Row::of(&cells));
+    }
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
@@ -438,6 +452,7 @@ fn families(verdict: &Verdict) -> Table {
     if !others.is_empty() {
         notes.push(others.join("; "));
     }
+    // How far values were from the exact ones, and who was given up.
     let tolerance = verdict.more.declared.tolerance;
     for FamilyRow { name, values, worst, .. } in verdict.families.iter().filter(|r| r.values > 0) {
         let worst = of_bound(*worst).replace("bound", "tolerance");
@@ -446,13 +461,14 @@ fn families(verdict: &Verdict) -> Table {
     for FamilyRow { name, .. } in verdict.families.iter().filter(|row| row.stopped) {
         notes.push(format!("{name}: given up after {MOST_DEATHS} times without an answer"));
     }
+    // Why the rest was not asked.
     if verdict.more.found.gave_up {
         notes.push(format!(
             "given up for good: {MOST_DEATHS_IN_ALL} times without an answer, {MOST_HANGS_IN_ALL} answers that were \
              waited for, or no answer at all"
         ));
     }
-    Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
+    Table::new("", columns, rows).noted(notes)
 }
 
 /// What broke the protocol and the cases that fail: of one property, or of all.
@@ -483,6 +499,7 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     for incident in &verdict.more.found.incidents {
+        // The same misbehaviour again and again would hide the others.
         let word = incident.what.breach.name();
         if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
             continue;
@@ -500,6 +517,7 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
             ..Excerpt::default()
         });
     }
+    // Ends of the program that no single request caused.
     for stray in &verdict.more.found.strays {
         let title = match stray.breach {
             Breach::FailsAtEnd => format!("it {stray}"),
@@ -605,11 +623,14 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
 fn sides(verdict: &Verdict) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
-    let row = |row: &FamilyRow| {
+    let mut rows = Vec::new();
+    for row in by_share(verdict) {
         let Sides { first, second, neither, both, .. } = row.sides.unwrap_or_default();
-        Row::of(&[&row.name, &row.cases, &row.wrong_cases, &first, &second, &neither, &both])
-    };
-    Table::new("", columns, by_share(verdict).into_iter().map(row).collect())
+        let cells: [&dyn Display; 7] =
+            [&row.name, &row.cases, &row.wrong_cases, &first, &second, &neither, &both];
+        rows.push(Row::of(&cells));
+    }
+    Table::new("", columns, rows)
 }
 
 /// The families, those with the largest share of wrong cases first.
@@ -622,6 +643,7 @@ fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
 /// What is wrong, in counts, behind a comma; that nothing is, is said where all properties hold.
 fn wrong(verdict: &Verdict) -> String {
     let counts = verdict.counts();
+    // Of a clean picture that is not right, the other counts say why.
     let of_pictures = as_declared(verdict);
     let (is_right, is_clean) =
         (verdict.agrees(), of_pictures.iter().all(|count| count.score.wrong == 0));
@@ -697,6 +719,7 @@ fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::Ca
     let mut view = page_cases::of_program(name, about, &failure.case, programs, picture.as_ref());
     view.found.clone_from(&failure.what);
     view.command = command;
+    // The chapters of edges and of lines are named by what the case draws.
     let chapter = match check {
         Check::Depth => Some(("chapter 6, depth", "ch06.md")),
         Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),

@@ -9,7 +9,9 @@ use rasterproof_judge::verdict::{Score, per_million};
 
 /// What stands around the numbers.
 struct Words {
+    /// The heads of the columns.
     header: &'static str,
+    /// What stands for the score of a convention that is the declared one.
     as_declared: &'static str,
     unexplained: &'static str,
     /// No convention explains it, and a mistake does.
@@ -17,11 +19,13 @@ struct Words {
     mistake: &'static str,
     /// Before the name of an earlier library that does the same.
     as_first: &'static str,
+    /// Triangles, lines.
     kinds: [&'static str; 2],
     /// What stands after what a line is about, and at its end.
     marks: [&'static str; 2],
     /// A sentence, or how a call is made, which are English in the data.
     say: fn(&str) -> String,
+    /// The line above the table: by which version, with how many cases, and when.
     made: fn(&League) -> String,
 }
 
@@ -94,6 +98,7 @@ pub fn tables(league: &League, chinese: bool) -> String {
         );
     }
     out.push('\n');
+    // What each library does, below the table; the same sentence is said once.
     let mut said = BTreeMap::new();
     for row in &league.rows {
         one(&mut out, row, words, &mut said);
@@ -105,10 +110,12 @@ pub fn tables(league: &League, chinese: bool) -> String {
 fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let [colon, stop] = words.marks;
     let call = (words.say)(&row.call);
+    // The name is said before it.
     let version = row.version.strip_prefix(&format!("{}-", row.name)).unwrap_or(&row.version);
     let _ = writeln!(out, "- **{}**, {version}{colon}{call}{stop}", row.name);
     for (about, kind) in words.kinds.iter().zip([&row.triangles, &row.lines]) {
         let Some(kind) = kind else { continue };
+        // What is left of the convention once the table has said its part.
         let does = match &kind.mistake {
             // A mistake that is known explains more than a convention beside it.
             Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
@@ -117,6 +124,7 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
         if does.is_empty() {
             continue;
         }
+        // Libraries often do the same, and then the name of the first one is shorter.
         let line = format!("{about}{colon}{does}");
         let _ = match said.get(&line) {
             Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
@@ -165,6 +173,7 @@ fn without_shares(sentence: &str) -> String {
 fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     let Some(kind) = kind else { return ["-".to_owned(), "-".to_owned()] };
     let share = |s: Score| format!("{:.0}", per_million(s.wrong, s.pixels));
+    // A score needs a convention that explains what was drawn.
     let found = match kind.by_convention {
         Some(score) => share(score),
         None if kind.sentence.is_empty() => words.as_declared.to_owned(),

@@ -10,6 +10,7 @@ use rasterproof_verify::judge::ascii::lines;
 pub enum Size {
     /// Words beside a picture, numbers of rows and columns.
     Small,
+    /// Names of pictures, in bold.
     Heading,
 }
 
@@ -50,12 +51,14 @@ pub fn write(image: &mut RgbImage, left_top: (i64, i64), text: &str, size: Size,
         if left >= i64::from(image.width()) {
             break;
         }
+        // How dark each pixel of the letter is, in few shades.
         let glyph = size.glyph(character);
         let share = |x: u32, y: u32| {
             let ink = glyph.as_ref().and_then(|glyph| glyph.pixel(x as usize, y as usize));
             (u32::from(ink.unwrap_or(0)) * SHADES + 127) / 255
         };
-        for (y, x) in (0..cell_height).flat_map(|y| (0..cell_width).map(move |x| (y, x))) {
+        for place in 0..cell_width * cell_height {
+            let (x, y) = (place % cell_width, place / cell_width);
             let at = [left.saturating_add(x.into()), top.saturating_add(y.into())];
             let [Ok(at_x), Ok(at_y)] = at.map(u32::try_from) else { continue };
             let Some(pixel) = image.get_pixel_mut_checked(at_x, at_y) else { continue };

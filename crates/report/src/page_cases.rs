@@ -28,19 +28,26 @@ use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
     pub name: String,
+    /// Where it is from.
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub about: String,
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub found: String,
+    /// What repeats it, or nothing.
     pub command: String,
+    /// The page of the docs that explains what decides it.
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
     pictured: String,
+    /// The pixels that are drawn.
     window: PixelRect,
+    /// What is drawn in them.
     shape: ShapeView,
+    /// What everybody draws, the engines first.
     layers: Vec<Layer>,
+    /// The two layers that are compared first.
     start: [usize; 2],
 }
 
@@ -48,11 +55,13 @@ pub struct CaseView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
+    /// It was found to be wrong.
     Failing,
     /// Its values came closest to a bound.
     Closest,
     /// The first of a family off the lattice.
     OffGrid,
+    /// It has a name in the catalogue.
     Named,
     /// It exposes a published fault.
     Specimen,
@@ -62,19 +71,25 @@ pub enum Kind {
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "kind", content = "points", rename_all = "lowercase")]
 enum ShapeView {
+    /// In subpixels.
     Triangles(Vec<[[i32; 2]; 3]>),
+    /// From pixel to pixel.
     Lines(Vec<[[i32; 2]; 2]>),
+    /// In pixels, off the lattice; empty where there is no shape to show.
     Free(Vec<[[f64; 2]; 3]>),
 }
 
 /// What one of them draws, or several of them who draw alike.
 #[derive(Clone, Debug, Serialize)]
 struct Layer {
+    /// Several where specimens draw alike.
     names: Vec<String>,
     role: Role,
     /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
     runs: Vec<u32>,
+    /// Pixels that are hit.
     covered: u64,
+    /// What differs from what is right.
     tally: Tally,
     /// Why nothing is drawn, or nothing.
     refused: String,
@@ -85,10 +100,12 @@ struct Layer {
 #[serde(rename_all = "lowercase")]
 enum Role {
     Engine,
+    /// An engine with a fault.
     Planted,
     Oracle,
     /// Of a program that declares another convention than this project's.
     Expected,
+    /// A published algorithm.
     Specimen,
 }
 
@@ -104,6 +121,7 @@ pub fn of_verdict(
 ) -> Vec<CaseView> {
     let mut views = Vec::new();
     for f in &verdict.failures {
+        // A failing case begins with the two that disagree about it.
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
         let found = format!("{} against {}: {}", f.evidence.pair[0], f.evidence.pair[1], f.what);
@@ -111,6 +129,7 @@ pub fn of_verdict(
         view.start = [view.place(&f.evidence.pair[0], 0), view.place(&f.evidence.pair[1], 1)];
         views.push(CaseView { found, command: repeat(f.family, f.index), ..view });
     }
+    // Right cases follow, for readers who want to see what was judged.
     views.extend(closest(verdict, judged));
     views.extend(unsnapped_samples(verdict, judged));
     views.extend(every_named(judged));
@@ -129,6 +148,7 @@ fn closest(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView> {
             worst.push((f, pair));
         }
     }
+    // The closest first, since it is the most interesting.
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
     let mut views = Vec::new();
     for (report, pair) in worst {
@@ -232,6 +252,7 @@ pub fn of_program(
     picture: Option<&Pictured>,
 ) -> CaseView {
     let mut view = of_case(name, about, Kind::Failing, case, &EnginesToJudge::default());
+    // The engines and the specimens draw the case; the program's picture comes from the judge.
     let Some(Pictured { drawn, other, expected, of, moved }) = picture else { return view };
     let pictures = programs.iter().zip([drawn].into_iter().chain(other));
     let drawn = pictures
@@ -250,6 +271,7 @@ pub fn of_program(
         }
         return view;
     }
+    // The program before everybody else, compared with the other program or with the oracle.
     view.layers.splice(0..0, drawn);
     view.start = [0, if other.is_some() { 1 } else { view.place("oracle", 1) }];
     view
@@ -259,6 +281,7 @@ pub fn of_program(
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();
     for view in views {
+        // The second one of a name gets a 2.
         let times: &mut u32 = seen.entry(view.name.clone()).or_insert(0);
         *times += 1;
         if *times > 1 {
@@ -297,6 +320,7 @@ pub fn of_case(
         Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),
         Shape::Numbers { .. } => ShapeView::Free(Vec::new()),
     };
+    // Each of them as a layer, but for specimens that draw what another one draws.
     let mut layers: Vec<Layer> = Vec::new();
     for (name, role, hits) in drawn {
         let layer = layer(name, role, hits, &truth);
@@ -319,6 +343,7 @@ pub fn of_case(
 
 /// What an engine draws, or a planted fault.
 fn with_role((name, hits): (String, Hits)) -> EngineHits {
+    // Planted faults are engines by their interface.
     let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
     (name, role, hits)
 }
@@ -326,6 +351,7 @@ fn with_role((name, hits): (String, Hits)) -> EngineHits {
 /// Where the docs derive what decides such a case.
 fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     const RULE: &str = "ch02-edge-functions.md#the-derivation-the-top-left-rule";
+    // The nearest page to what is shown.
     let (title, path) = match (kind, shape) {
         (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md"),
         (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
@@ -337,6 +363,7 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
 
 /// A layer with its counts.
 fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
+    // Who panics or refuses draws nothing, and the reason is shown.
     let (runs, covered, tally, refused) = match hits {
         Ok(hits) => (runs(&hits), hits.covered(), Tally::between(&hits, truth), String::new()),
         Err(message) => (Vec::new(), 0, Tally::default(), message),

@@ -44,9 +44,11 @@ pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Cove
     let (window, owners, segments) = (case.window, owners(case, target), outline(case));
     let oracle = [("oracle".to_owned(), target.clone())];
     let all: Vec<&EnginePicture> = actual.iter().chain(&oracle).collect();
+    // The panels show the same part of the window, as large as all of them fit.
     let shown = crop(window, &all, target, &scaled(&segments, window, 1));
     let (zoom, columns) = layout(shown, all.len() as u32);
     let outlines = scaled(&segments, shown, zoom);
+    // Each engine with its counts below its name, and the oracle last.
     let is_line = matches!(case.shape, Shape::Lines(_));
     let mut occurring = BTreeSet::new();
     let mut panels = Vec::new();
@@ -109,6 +111,7 @@ pub fn arranged(
     // Every cell has the room of the largest one.
     let rows = (cells.len() as u32).div_ceil(columns);
     let width = (GAP + columns * (wide + GAP)).max(420);
+    // The words are broken into lines first, for their number decides where the cells begin.
     let mut heading = Vec::new();
     let mut top = GAP;
     for (text, size, ink) in words {
@@ -118,6 +121,7 @@ pub fn arranged(
         }
     }
     top += GAP / 2;
+    // The legend is as high as it needs to be at this width.
     let foot = foot(width, entries, note);
     let height = top + rows * (high + GAP) + foot.height();
     let mut image = plain(width, height, WHITE);
@@ -166,6 +170,7 @@ fn crop(
     let hit = around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) > 0), 1);
     let wrong =
         around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) != hits(target, x, y)), 4);
+    // The outline belongs to what is worth seeing, as far as it lies in the window.
     let mut shape = hit.unwrap_or(PixelRect { x1: window.x0, y1: window.y0, ..window });
     let is_hit = hit.is_some();
     for (i, p) in outline.iter().flatten().enumerate() {
@@ -175,6 +180,7 @@ fn crop(
         shape = if i == 0 && !is_hit { spare } else { union(shape, spare) };
     }
     let is_small = |r: &PixelRect| r.width().max(r.height()) <= MOST_CROPPED_PX;
+    // A small case is shown as a whole, of a large one what differs.
     let shape = Some(shape).filter(|r| r.width() > 0 && r.height() > 0);
     shape.filter(is_small).or(wrong).or(hit).or(shape).unwrap_or(window)
 }
@@ -210,14 +216,15 @@ fn wider(PixelRect { x0, y0, x1, y1 }: PixelRect, spare: i32, window: PixelRect)
 fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     // A case of a few pixels is shown larger.
     let largest = if shown.width().max(shown.height()) <= 8 { 40 } else { 16 };
-    let zoom = |columns: u32| {
-        let fits = |room: u32, panels: u32, side: u32| room / panels.saturating_mul(side).max(1);
-        let across = fits(MOST_PX[0], columns, shown.width());
-        across.min(fits(MOST_PX[1], count.div_ceil(columns), shown.height())).clamp(1, largest)
-    };
-    // The most panels in a row of those that are equally large.
-    let best = (1..=count).max_by_key(|&columns| (zoom(columns), columns)).unwrap_or(1);
-    (zoom(best), best)
+    let mut best = (0, 1);
+    for columns in 1..=count.max(1) {
+        let rows = count.div_ceil(columns);
+        let across = MOST_PX[0] / columns.saturating_mul(shown.width()).max(1);
+        let down = MOST_PX[1] / rows.saturating_mul(shown.height()).max(1);
+        // The most panels in a row of those that are equally large.
+        best = best.max((across.min(down).clamp(1, largest), columns));
+    }
+    best
 }
 
 /// Room for the numbers of the rows.
@@ -238,6 +245,7 @@ pub fn beside(title: &str, pictures: &[(&str, RgbImage)]) -> RgbImage {
 
 /// A picture below some words, with room left of it and above.
 pub(super) fn titled(words: &[Words], picture: &RgbImage, [left, above]: [u32; 2]) -> RgbImage {
+    // As wide as the picture or the longest line, whichever is wider.
     let text = words.iter().map(|(text, size, _)| lettering::width(text, *size)).max();
     let wide = left + picture.width().max(text.unwrap_or(0));
     let top = head(words) + above;
@@ -265,10 +273,12 @@ pub fn panel(
     colour: &dyn Fn(i32, i32) -> Rgb<u8>,
 ) -> RgbImage {
     let mut picture = squares(shown, zoom, has_samples, colour);
+    // The outline lies over the squares, cut off at their border.
     let bounds = PixelRect::window(picture.width(), picture.height());
     for segment in outline {
         line(*segment, bounds, |x, y| picture.put_pixel(x, y, EDGE));
     }
+    // Numbers stand outside of the squares.
     let left = left_of(shown);
     let mut image = titled(words, &picture, [left, ABOVE]);
     numbers(&mut image, [left, head(words) + ABOVE], shown, zoom);
@@ -296,6 +306,7 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
     let steps = rooms.map_array(|room| step_of_numbers(room, zoom));
     for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(steps[0]) == 0) {
         let text = x.to_string();
+        // A number stands over the middle of its column, unless it would be cut off.
         let middle = left + (x - shown.x0) as u32 * zoom + zoom / 2;
         let half = lettering::width(&text, Size::Small) / 2;
         if middle + half > image.width() {
@@ -306,6 +317,7 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
     }
     for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(steps[1]) == 0) {
         let text = y.to_string();
+        // And beside the middle of its row.
         let middle = top + (y - shown.y0) as u32 * zoom + zoom / 2;
         let from = i64::from(left) - 4 - i64::from(lettering::width(&text, Size::Small));
         let place = (from, i64::from(middle) - i64::from(cell_height / 2));
@@ -333,6 +345,7 @@ fn squares(
     colour: &dyn Fn(i32, i32) -> Rgb<u8>,
 ) -> RgbImage {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
+    // Lines between pixels, and dots for samples, only where there is room for them.
     let has_grid = zoom >= if has_samples { 4 } else { 6 };
     let has_samples = has_samples && zoom >= SAMPLED;
     let is_dot = |offset: u32| has_samples && offset.abs_diff(zoom / 2) <= zoom / 32;
@@ -369,6 +382,7 @@ pub type Entry = (Vec<Rgb<u8>>, String);
 fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
     const ROW: u32 = 18;
     let (mut left, mut top) = (GAP, 0);
+    // Where each entry begins: in this row if it fits, else in the next one.
     let mut places = Vec::new();
     for (colours, text) in entries {
         let wide = 6 + 12 * colours.len() as u32 + lettering::width(text, Size::Small);
@@ -385,6 +399,7 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
     let mut image = plain(width, rows + note_rows + end, WHITE);
     for ([mut left, top], (colours, text)) in places.into_iter().zip(entries) {
         for &colour in colours {
+            // A sign of the shape that it has in the picture: a line, a dot, or a square.
             let (wide, high) = match colour {
                 EDGE => (0..12, 6..8),
                 SAMPLE => (4..7, 5..8),

@@ -64,6 +64,7 @@ fn from_bytes(width: u32, height: u32, bytes: Vec<u8>) -> RgbImage {
 
 /// Draws a picture that lies within another one over it.
 pub(super) fn place(onto: &mut RgbImage, picture: &RgbImage, left: u32, top: u32) {
+    // Rows are copied as a whole.
     let (stride, row) = (3 * onto.width() as usize, 3 * picture.width() as usize);
     let first = stride * top as usize + 3 * left as usize;
     if row > 0 {
@@ -136,6 +137,7 @@ const STACK_GAP: u32 = 12;
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
     let height: u32 = pictures.iter().map(|picture| picture.height() + STACK_GAP).sum();
+    // No gap below the last one.
     let height = height.saturating_sub(STACK_GAP).max(1);
     let mut sheet = plain(width, height, Rgb([255, 255, 255]));
     let mut top = 0;
@@ -150,6 +152,7 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 pub fn png(image: &RgbImage) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    // Few colours take one byte a pixel, which also compresses better.
     let data = match indexed(image) {
         Some((palette, indices)) => {
             encoder.set_color(png::ColorType::Indexed);
@@ -178,6 +181,7 @@ fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
     for pixel in image.pixels() {
         // Most pixels have the colour of the one before.
         if last.is_none_or(|(colour, _)| colour != pixel.0) {
+            // A colour gets the next number where it first occurs; a 257th ends the search.
             let next = numbers.len();
             let number = *numbers.entry(pixel.0).or_insert_with(|| {
                 palette.extend(pixel.0);

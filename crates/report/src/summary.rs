@@ -10,7 +10,9 @@ use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
+    /// The page that explains it.
     pub chapter: &'static str,
+    /// The families of cases in which it is met.
     pub(super) families: &'static [&'static str],
 }
 
@@ -53,6 +55,7 @@ pub fn asked(shares: &[DesignShare]) -> Option<Table> {
             true => format!("all {pairs}"),
             false => format!("{pairs} of {of_pairs}"),
         };
+        // Rounded down, so that 100% means all.
         let percent = 100 * share.triples / share.of_triples.max(1);
         let triples = thousands(share.of_triples as u64);
         notes.push(format!(
@@ -93,10 +96,14 @@ pub fn chapter(failure: &Failure) -> &'static str {
 #[derive(Default)]
 pub(super) struct Sum {
     pub cases: u64,
+    /// Of each family, those of the engine that is wrong most often.
     pub wrong_cases: u64,
     pub tally: Tally,
+    /// Fragments against the engine's own coverage.
     fragments: Tally,
+    /// Cases at which an engine panicked.
     panics: u64,
+    /// Pixels at which the oracle contradicts itself.
     oracle: u64,
 }
 
@@ -143,6 +150,7 @@ impl Sum {
 
 /// A row for something that was judged; what there is to say beyond a line stands below it.
 pub(super) fn row(is_right: bool, name: &str, what: &str) -> Row {
+    // The first line stands in the row, the others below it.
     let (first, more) = what.split_once('\n').unwrap_or((what, ""));
     Row::of(&[&name, &first, &more]).marked(is_right)
 }
@@ -162,6 +170,7 @@ pub fn table(verdict: &Verdict) -> Table {
             rows.push(row(is_right, danger.name, &sum.describe()));
         }
     }
+    // Values are not of one danger: how close the worst of all came to its bound.
     let (mut values, mut worst) = (0, 0.0);
     for pair in verdict.families.iter().flat_map(|f| &f.pairs) {
         values += pair.values;

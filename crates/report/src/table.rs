@@ -8,6 +8,7 @@ use super::words::mark;
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Table {
+    /// Nothing for a table that belongs to the one above it.
     pub caption: String,
     pub columns: Vec<Column>,
     pub rows: Vec<Row>,
@@ -28,6 +29,7 @@ pub struct Column {
     short: String,
     /// The head in more words, or nothing.
     pub about: String,
+    /// Numbers stand at the right.
     pub is_number: bool,
     /// Whether the label stands before each cell that stands below its row.
     is_labelled: bool,
@@ -98,6 +100,7 @@ impl Column {
 pub struct Row {
     /// Where there are fewer cells than columns, the last one takes the rest of the row.
     pub cells: Vec<String>,
+    /// Whether something is wrong in it, or it is a sum.
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
@@ -130,6 +133,7 @@ impl From<Vec<String>> for Row {
 pub enum Mark {
     #[default]
     Plain,
+    /// Shown even where a page hides most of many rows.
     Wrong,
     /// As the sum of the others; always shown.
     Sum,
@@ -192,6 +196,7 @@ impl Table {
         }
         let mut out = String::new();
         for (number, cells) in lines.iter().enumerate() {
+            // The first line is that of the heads.
             let row = number.checked_sub(1).map(|row| &self.rows[row]);
             let is_green = |i| colour && row.is_some_and(|row| row.good.contains(&i));
             let mut line = String::new();
@@ -200,6 +205,7 @@ impl Table {
                 cells.iter().zip(&self.columns).zip(&widths).enumerate()
             {
                 let gap = if i > 0 { " " } else { "" };
+                // A last cell that has no column of its own is not padded.
                 let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
                 let label = if column.is_labelled && !takes_rest {
                     &*format!("{}: ", column.label)

@@ -62,6 +62,7 @@ impl Language {
     fn section(self, name: &str) -> &'static str {
         let begins = format!("@ {name}\n");
         let template = self.template();
+        // A section begins with a line of its name, and ends before the next such line.
         let Some(at) = template.find(&begins) else { return "" };
         let section = &template[at + begins.len()..];
         section.find("\n@ ").map_or(section, |end| &section[..=end]).trim_matches('\n')
@@ -76,6 +77,7 @@ impl Language {
 /// What came of the cases: the text of a file, where there is one to write, and what is not in it.
 #[derive(Debug, Default)]
 pub struct WrittenTest {
+    /// Nothing where no case can become a test.
     pub text: Option<String>,
     /// Tests in it.
     pub count: usize,
@@ -97,6 +99,7 @@ pub fn write(
     let mut tests = String::new();
     for failure in &verdict.failures {
         let place = format!("{} #{}", failure.family, failure.index);
+        // The first reason for which no test could be made, in case none of its requests gives one.
         let mut why_not = None;
         let mut number = 0;
         for exchange in &failure.evidence.exchanges {
@@ -183,11 +186,13 @@ fn file_of(
     let mut parts = vec![language.section("head").to_owned()];
     parts.extend(functions.iter().map(|name| language.section(name).to_owned()));
     parts.push(language.section("check").to_owned());
+    // Python has two empty lines between functions.
     let gap = if language == Language::Python { "\n\n\n" } else { "\n\n" };
     let mut text = parts.join(gap).replace("{program}", &program).replace("{file}", file);
     text = text.replace("{function}", &functions.join(", "));
     text = text.replace("{counts_hits}", counts_hits(language, !declared.mask));
     text = text.replace("{levels}", &declared.levels.to_string());
+    // The sentences of the template are about one function.
     if functions.len() > 1 {
         for [one, more] in [
             ["the function below", "the functions below"],
@@ -197,6 +202,7 @@ fn file_of(
             text = text.replace(one, more);
         }
     }
+    // C needs a function for each kind of pixel, and each once.
     let mut setters: Vec<String> = functions.iter().map(|name| setter(name)).collect();
     setters.sort();
     setters.dedup();
@@ -254,6 +260,7 @@ fn main_of_c(tests: &str) -> String {
 
 /// The name of a test: the property where that is not the family, the family, the number of its case, and which of its requests it is.
 fn name(failure: &Failure, number: usize) -> String {
+    // A name that every language takes: letters, digits and underscores.
     let (property, family) = (failure.evidence.property, failure.family);
     let of = if property == family { family.to_owned() } else { format!("{property}_{family}") };
     let more = if number > 1 { format!("_{number}") } else { String::new() };
@@ -275,6 +282,7 @@ fn comment(language: Language, text: &str) -> String {
     let indent = if language == Language::JavaScript { "  " } else { "" };
     let mut out = String::new();
     for line in text.lines() {
+        // A picture or a command that is broken is none.
         let stays = line.starts_with("  ") || line.contains("rasterproof");
         let lines = if stays {
             vec![line.to_owned()]
@@ -311,6 +319,7 @@ fn test(
     let pixels: Vec<String> = plain.expected.iter().map(|p| pixel(language, p)).collect();
     let (count, count_of_either) = (plain.expected.len(), plain.either.len());
     let bounds: Vec<String> = plain.bounds.iter().map(|bound| number(language, *bound)).collect();
+    // The words of the template, and what stands in their place.
     let kind = Kind::of(question);
     let bounds = match (bounds.is_empty(), language) {
         (true, Language::C) => "0".to_owned(),
@@ -348,6 +357,7 @@ fn test(
         "blank" => has_blank,
         _ => !has_blank,
     };
+    // Lines of the template that are not needed are left out.
     let mut code = String::new();
     for line in language.section("test").lines() {
         // What follows a question mark says when the line is needed.
@@ -366,11 +376,13 @@ fn test(
 
 /// What differs between the functions that are tested.
 struct Kind {
+    /// What the reader fills in.
     function: &'static str,
     /// What it is given to draw a pixel with, in C.
     setter: &'static str,
     /// In Rust, what it gives to that, and what becomes of it.
     taken: &'static str,
+    /// The values of a pixel, as the comparison takes them.
     given: &'static str,
     /// How many values a pixel has.
     values: usize,
@@ -379,6 +391,7 @@ struct Kind {
 impl Kind {
     /// The function that answers a request.
     fn of(question: &Question) -> Self {
+        // A pixel of a mask, a depth or an area is a number; the comparison knows values only.
         let function = function(question);
         let (setter, taken, given, values) = match function {
             "values" => ("set_values", "x, y, values", "x, y, values", 3),
@@ -425,12 +438,14 @@ fn list(language: Language, items: &[String]) -> String {
         Language::JavaScript => "      ",
         Language::C => "    ",
     };
+    // A short list stays in one line.
     let one_line = items.join(", ");
     if one_line.len() <= COLUMNS - 30 {
         return format!("{open}{one_line}{close}");
     }
     let mut lines = vec![String::new()];
     for item in items {
+        // As many items in a line as fit.
         let is_full = lines.last().is_some_and(|line| line.len() + item.len() + 2 > COLUMNS - 12);
         if is_full {
             lines.push(String::new());

@@ -59,6 +59,7 @@ impl CaseDrawing {
 
     /// Puts somebody else before the engines, who draws the case so; and how it differs.
     pub fn add_drawn(&mut self, name: &str, hits: Coverage) -> Tally {
+        // What it draws wrong, by the oracle.
         let tally = Tally::between(&hits, &self.target);
         self.engines.insert(0, (name.to_owned(), Ok(hits)));
         tally

@@ -202,6 +202,7 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
     let (du, rise) = (along.abs().max(1), across * done * along.signum());
     let exact = i128::from(a[minor]) * du + rise;
     let (whole, part) = (exact.div_euclid(du), exact.rem_euclid(du));
+    // The height as a mixed number, of which only a half is a tie.
     let fraction = if part == 0 { String::new() } else { format!(" and {part}/{du}") };
     let is_tie = 2 * part == du;
     let tie = if is_tie { ", a tie: halfway between two pixels" } else { "" };

@@ -94,6 +94,7 @@ fn e_f32(a: Point, b: Point, p: Point) -> f64 {
 /// The edge function by floats where they seem to be sure: the bound is a thousandth of the one that holds.
 fn e_filtered(a: Point, b: Point, p: Point) -> f64 {
     let (left, right) = ((b[0] - a[0]) * (p[1] - a[1]), (b[1] - a[1]) * (p[0] - a[0]));
+    // The sum of both products bounds the rounding of their difference.
     let bound = 5e-3 * (f64::EPSILON / 2.0) * (left.abs() + right.abs());
     if (left - right).abs() > bound { left - right } else { e_exact(a, b, p) }
 }

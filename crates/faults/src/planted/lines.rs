@@ -47,6 +47,13 @@ fn bresenham<V: Varying>(
     Bresenham.draw(line, bounds, emit);
 }
 
+/// All fragments of the right line.
+fn fragments_of<V: Varying>(line: &ScreenLine<V>, bounds: PixelRect) -> Vec<Fragment<V>> {
+    let mut fragments = Vec::new();
+    bresenham(line, bounds, &mut |f| fragments.push(f));
+    fragments
+}
+
 impl LineMutant {
     /// What [`DrawLine::draw`] does.
     pub fn stroke<V: Varying>(
@@ -63,15 +70,12 @@ impl LineMutant {
                 }
             }),
             Self::DrawsBackwards => {
-                let mut fragments = Vec::new();
-                bresenham(line, bounds, &mut |f| fragments.push(f));
-                for f in fragments.into_iter().rev() {
+                for f in fragments_of(line, bounds).into_iter().rev() {
                     emit(f);
                 }
             }
             Self::WeightsFromClip => {
-                let mut fragments = Vec::new();
-                bresenham(line, bounds, &mut |f| fragments.push(f));
+                let fragments = fragments_of(line, bounds);
                 let last = fragments.len().saturating_sub(1).max(1) as f64;
                 for (i, f) in fragments.into_iter().enumerate() {
                     let t = i as f64 / last;
@@ -92,8 +96,7 @@ impl LineMutant {
                 });
             }
             Self::RestartsAtBorder => {
-                let mut inside = Vec::new();
-                bresenham(line, bounds, &mut |f| inside.push(f));
+                let inside = fragments_of(line, bounds);
                 let mut visible = *line;
                 if let [first, .., last] = &inside[..] {
                     for (end, f) in visible.ends.iter_mut().zip([first, last]) {

@@ -93,6 +93,7 @@ fn textbook(
 ) -> Vec<ClipVertex<DVec2>> {
     let mut polygon = triangle.to_vec();
     for plane in ClipPlane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
+        // One plane after the other; each may cut what the one before has made.
         let mut kept = Vec::new();
         for (i, start) in polygon.iter().enumerate() {
             let end = &polygon[(i + 1) % polygon.len()];

@@ -69,6 +69,7 @@ impl CoverList for TileMutant {
                 pieces.sort_by_key(Piece::triangle);
             }
             Self::TailOfBatch if triangles.len() > 16 => {
+                // What follows the last full batch is lost.
                 let full = triangles.len() / 16 * 16;
                 pieces.retain(|piece| (piece.triangle() as usize) < full);
             }

@@ -168,6 +168,7 @@ impl TriangleMutant {
         bounds: PixelRect,
         emit: &mut dyn FnMut(Fragment<V>),
     ) {
+        // Some faults are right values of wrong corners.
         let mut spoilt = *triangle;
         match self {
             Self::SwappedWeights => {

@@ -41,6 +41,7 @@ pub(super) const BORDERS: [fn(DVec4) -> f64; 6] =
 pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, NoResult> {
     let mut polygon = triangle.to_vec();
     for (border, place) in BORDERS.iter().enumerate() {
+        // The published array has room for one vertex more after each border.
         let size = border + 4;
         let mut kept = Vec::new();
         for (i, a) in polygon.iter().enumerate() {
@@ -75,6 +76,7 @@ fn device_steps(bounds: PixelRect) -> DVec2 {
 #[derive(Clone, Copy)]
 struct Corner {
     at: DVec2,
+    /// The stored depth, divided by w.
     z: f64,
     w: f64,
     varying: DVec2,
@@ -83,6 +85,7 @@ struct Corner {
 /// A row of the triangle, with the values at its left and its right end.
 struct ValuedRow {
     row: Row,
+    /// At its left and its right end, as w and the attributes are.
     z: [f64; 2],
     w: [f64; 2],
     varying: [DVec2; 2],
@@ -174,10 +177,10 @@ impl Published for BookFinal {
     fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         let screen = BookScreen { bounds };
         self.rows(triangle, bounds, &mut |ValuedRow { row, .. }| {
-            if let Some((first, last)) = int_loop(row.left, row.right)? {
-                if let Some(span) = screen.span(row.y, first, last) {
-                    emit(span);
-                }
+            if let Some((first, last)) = int_loop(row.left, row.right)?
+                && let Some(span) = screen.span(row.y, first, last)
+            {
+                emit(span);
             }
             Ok(())
         })

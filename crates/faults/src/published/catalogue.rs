@@ -17,8 +17,11 @@ use rasterproof_core::arrays::MapArray as _;
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
     pub name: &'static str,
+    /// Where in the book, or in which course.
     pub source: &'static str,
+    /// What is wrong, in a sentence.
     pub fault: &'static str,
+    /// What to write instead.
     pub cure: &'static str,
     pub exhibit: Exhibit,
 }
@@ -38,8 +41,10 @@ pub enum Exhibit {
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
     pub name: &'static str,
+    /// The side of its window.
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
+    /// Of the three corners of every triangle, as the values are.
     pub w: [f64; 3],
     pub values: [f64; 3],
 }
@@ -55,6 +60,7 @@ pub struct LineCase {
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
+    /// Whose input it is.
     pub specimen: &'static str,
     /// Corners in the book's coordinates: y up, samples at whole numbers.
     pub corners: &'static [[(f64, f64); 3]],

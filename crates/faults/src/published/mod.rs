@@ -46,6 +46,7 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
 /// A corner as a specimen receives it: real numbers in window pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RealVertex {
+    /// Off the lattice, as published code takes it.
     pub position_px: DVec2,
     /// Depth, linear in the window (z/w).
     pub depth: f64,
@@ -217,6 +218,7 @@ pub trait PublishedLine: fmt::Debug + Sync {
 /// the whole numbers are the sample points.
 #[derive(Clone, Copy, Debug)]
 struct BookScreen {
+    /// The window, whose rows the book counts from below.
     bounds: PixelRect,
 }
 

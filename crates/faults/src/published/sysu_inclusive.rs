@@ -24,6 +24,7 @@ pub struct SysuInclusive;
 pub(super) struct Sample {
     pub x_px: i32,
     pub y_px: i32,
+    /// At most 0 inside, and wrapped around where they overflow.
     pub edges: [i32; 3],
     pub inverse: f32,
 }

@@ -17,6 +17,7 @@ struct Animation {
 /// What is moved, and by which sampler.
 #[derive(Deserialize)]
 struct Channel {
+    /// The number of what gives the values.
     sampler: usize,
     target: Target,
 }
@@ -25,14 +26,18 @@ struct Channel {
 #[derive(Deserialize)]
 struct Target {
     node: Option<usize>,
+    /// `translation`, `rotation`, `scale` or `weights`.
     path: String,
 }
 
 /// The accessors of moments and of values.
 #[derive(Deserialize)]
 struct Sampler {
+    /// The accessor of the moments, in seconds.
     input: usize,
+    /// The accessor of the values at them.
     output: usize,
+    /// `LINEAR` where there is none.
     interpolation: Option<String>,
 }
 

@@ -55,10 +55,14 @@ pub(super) struct Data<'a> {
 struct Column<'a> {
     /// From the first element on; nothing where all are zeros.
     bytes: Option<&'a [u8]>,
+    /// How many elements there are.
     count: usize,
+    /// From one element to the next, in bytes.
     stride: usize,
+    /// How many numbers an element has.
     width: usize,
     kind: Kind,
+    /// Whether whole numbers stand for numbers from 0 or -1 to 1.
     normalized: bool,
 }
 
@@ -71,6 +75,7 @@ impl<'a> Data<'a> {
         let mut numbers = Vec::new();
         let mut left_bytes = limits::MODEL_BYTES;
         for (number, buffer) in root.buffers.iter().enumerate() {
+            // A file that several buffers name is read once.
             let known = buffer.uri.as_deref().and_then(|uri| read.get(uri)).copied();
             numbers.push(known.unwrap_or(buffers.len()));
             let bytes = match (&buffer.uri, bin) {
@@ -186,6 +191,7 @@ impl<'a> Data<'a> {
         let (all, stride) = self.view(view)?;
         let stride = stride.filter(|&stride| stride > 0).unwrap_or(size);
         // Nothing has to follow the last element.
+        // The last element begins a stride before the end, or less.
         let needed = match count.checked_sub(1) {
             None => Some(0),
             Some(last) => last.checked_mul(stride).and_then(|start| start.checked_add(size)),

@@ -66,6 +66,7 @@ pub(super) struct Root {
     _asset: Asset<IgnoredAny>,
     /// The scene that is shown first.
     pub scene: Option<usize>,
+    /// Each shows some of the nodes.
     #[serde(default)]
     pub scenes: Vec<Scene>,
     #[serde(default)]
@@ -78,10 +79,12 @@ pub(super) struct Root {
     pub materials: Vec<Material>,
     #[serde(default)]
     pub textures: Vec<Texture>,
+    /// Pictures; a texture says how one is read.
     #[serde(default)]
     pub images: Vec<Image>,
     #[serde(default)]
     pub samplers: Vec<Sampler>,
+    /// Numbers in the buffer views.
     #[serde(default)]
     pub accessors: Vec<Accessor>,
     #[serde(default)]
@@ -90,13 +93,16 @@ pub(super) struct Root {
     pub buffers: Vec<Buffer>,
     #[serde(default)]
     pub cameras: Vec<Camera>,
+    /// Read when one of them is asked for.
     #[serde(default)]
     pub animations: Vec<Value>,
     /// What extensions add to the document as a whole, as the lights do.
     #[serde(default)]
     pub extensions: Value,
+    /// All that occur, whether they are needed or not.
     #[serde(default)]
     pub extensions_used: Vec<String>,
+    /// Those without which the document looks different.
     #[serde(default)]
     pub extensions_required: Vec<String>,
 }
@@ -113,13 +119,17 @@ pub(super) struct Scene {
 #[serde(default)]
 pub(super) struct Node {
     pub name: Option<String>,
+    /// They move with the node.
     pub children: Vec<usize>,
     pub mesh: Option<usize>,
+    /// What bends its mesh.
     pub skin: Option<usize>,
     pub camera: Option<usize>,
     /// Where it is in its parent, as a matrix or as three parts of one.
     pub matrix: Option<[f32; 16]>,
+    /// Applied last, after the scale and the rotation.
     pub translation: Option<[f32; 3]>,
+    /// A quaternion: x, y, z, w.
     pub rotation: Option<[f32; 4]>,
     pub scale: Option<[f32; 3]>,
     pub weights: Option<Vec<f32>>,
@@ -130,20 +140,25 @@ pub(super) struct Node {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Extensions {
+    /// The number of a light in the extension of the document.
     #[serde(rename = "KHR_lights_punctual")]
     pub light: Option<Value>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     pub instances: Option<Instances>,
+    /// Where the compressed bytes of a primitive are.
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Value>,
+    /// The surface shows its colour, whatever the light is.
     #[serde(rename = "KHR_materials_unlit")]
     pub unlit: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
     pub glossiness: Option<Glossiness>,
+    /// An older extension with a light of its own.
     #[serde(rename = "KHR_materials_common")]
     pub common: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_emissive_strength")]
     pub emissive: Option<OneNumber>,
+    /// The index of refraction.
     #[serde(rename = "KHR_materials_ior")]
     pub refraction: Option<OneNumber>,
     #[serde(rename = "KHR_materials_specular")]
@@ -154,10 +169,14 @@ pub(super) struct Extensions {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Light {
+    /// `directional`, `point` or `spot`.
     #[serde(rename = "type")]
     pub kind: String,
+    /// Linear; white where there is none.
     pub color: Option<[f32; 3]>,
+    /// In candela, or in lux of a directional one.
     pub intensity: Option<f32>,
+    /// How far it reaches; infinitely far where there is none.
     pub range: Option<f32>,
     pub spot: Option<Spot>,
 }
@@ -166,13 +185,16 @@ pub(super) struct Light {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Spot {
+    /// Within it the light is full.
     pub inner_cone_angle: Option<f64>,
+    /// Beyond it there is none.
     pub outer_cone_angle: Option<f64>,
 }
 
 /// The accessors of where the copies of a mesh are.
 #[derive(Deserialize)]
 pub(super) struct Instances {
+    /// By `TRANSLATION`, `ROTATION` and `SCALE`.
     pub attributes: HashMap<String, usize>,
 }
 
@@ -180,6 +202,7 @@ pub(super) struct Instances {
 #[derive(Deserialize)]
 pub(super) struct Camera {
     pub name: Option<String>,
+    /// One of the two is there.
     pub perspective: Option<Lens>,
     pub orthographic: Option<Lens>,
 }
@@ -192,6 +215,7 @@ pub(super) struct Lens {
     pub yfov: f64,
     /// Without: half of the height.
     pub ymag: f64,
+    /// The nearest distance that is seen.
     pub znear: f64,
     /// Without it a camera with perspective sees infinitely far.
     pub zfar: Option<f64>,
@@ -201,18 +225,22 @@ pub(super) struct Lens {
 #[derive(Deserialize)]
 pub(super) struct Mesh {
     pub primitives: Vec<Primitive>,
+    /// How much of each shape is mixed in.
     pub weights: Option<Vec<f32>>,
 }
 
 /// Triangles, lines or points of one material.
 #[derive(Deserialize)]
 pub(super) struct Primitive {
+    /// By `POSITION`, `NORMAL`, `TEXCOORD_0` and so on.
     pub attributes: HashMap<String, usize>,
     /// The accessor of the vertices of each corner; without it the vertices are the corners, one after the other.
     pub indices: Option<usize>,
+    /// Nothing for the grey one of the format.
     pub material: Option<usize>,
     /// [`TRIANGLES`] where there is none.
     pub mode: Option<u64>,
+    /// Shapes that can be mixed in.
     #[serde(default)]
     pub targets: Vec<Target>,
     #[serde(default)]
@@ -240,7 +268,9 @@ pub(super) struct Target {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Skin {
+    /// The nodes, in the order by which vertices number them.
     pub joints: Vec<usize>,
+    /// An accessor of a matrix for each joint; without it they are the identity.
     pub inverse_bind_matrices: Option<usize>,
 }
 
@@ -251,12 +281,17 @@ pub(super) struct Material {
     pub name: Option<String>,
     /// What becomes of opacities: `OPAQUE`, `MASK` or `BLEND`.
     pub alpha_mode: String,
+    /// With `MASK`, what is less opaque is a hole.
     pub alpha_cutoff: Option<f32>,
+    /// Whether its back is drawn.
     pub double_sided: bool,
     pub pbr_metallic_roughness: Metallic,
+    /// Normals in the coordinates of tangents.
     pub normal_texture: Option<Info>,
+    /// How much of the ambient light reaches a place, in red.
     pub occlusion_texture: Option<Info>,
     pub emissive_texture: Option<Info>,
+    /// Light of its own, linear.
     pub emissive_factor: [f32; 3],
     pub extensions: Extensions,
 }
@@ -265,10 +300,13 @@ pub(super) struct Material {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Metallic {
+    /// Linear, with the opacity as fourth number; multiplied with the texture.
     pub base_color_factor: Option<[f32; 4]>,
     pub base_color_texture: Option<Info>,
+    /// From 0 to 1, as the roughness is.
     pub metallic_factor: Option<f32>,
     pub roughness_factor: Option<f32>,
+    /// Roughness in green, metal in blue.
     pub metallic_roughness_texture: Option<Info>,
 }
 
@@ -276,9 +314,12 @@ pub(super) struct Metallic {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Glossiness {
+    /// Linear, with the opacity as fourth number.
     pub diffuse_factor: Option<[f32; 4]>,
     pub diffuse_texture: Option<Info>,
+    /// The colour of highlights, linear.
     pub specular_factor: Option<[f32; 3]>,
+    /// 1 for a mirror, 0 for a matt surface.
     pub glossiness_factor: Option<f32>,
     pub specular_glossiness_texture: Option<IgnoredAny>,
 }
@@ -287,7 +328,9 @@ pub(super) struct Glossiness {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Info {
+    /// The number of the texture.
     pub index: usize,
+    /// Which set of texture coordinates is used.
     #[serde(default)]
     pub tex_coord: u32,
     /// Of a normal map: what x and y are multiplied by.
@@ -302,7 +345,9 @@ pub(super) struct Info {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct OneNumber {
+    /// What the light of its own is multiplied by.
     pub emissive_strength: Option<f32>,
+    /// 1.5 where there is none; 0 stands for infinity.
     pub ior: Option<f32>,
 }
 
@@ -310,7 +355,9 @@ pub(super) struct OneNumber {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Specular {
+    /// A part of what is reflected, from 0 to 1.
     pub specular_factor: Option<f32>,
+    /// The colour of what is reflected from straight ahead.
     pub specular_color_factor: Option<[f32; 3]>,
     pub specular_texture: Option<IgnoredAny>,
     pub specular_color_texture: Option<IgnoredAny>,
@@ -328,7 +375,9 @@ pub(super) struct InfoExtensions {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Transform {
+    /// Added last.
     pub offset: [f32; 2],
+    /// In radians, about the upper left corner.
     pub rotation: f32,
     pub scale: Option<[f32; 2]>,
     /// Other coordinates than those that the material names.
@@ -339,6 +388,7 @@ pub(super) struct Transform {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Texture {
+    /// Nothing for the usual way of reading.
     pub sampler: Option<usize>,
     /// None where an extension names a picture of another kind.
     pub source: Option<usize>,
@@ -363,6 +413,7 @@ pub(super) struct Source {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Image {
+    /// A file, or the bytes themselves in an address.
     pub uri: Option<String>,
     pub buffer_view: Option<usize>,
 }
@@ -371,8 +422,11 @@ pub(super) struct Image {
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Sampler {
+    /// Where a texel is larger than a pixel.
     pub mag_filter: Option<u64>,
+    /// Where it is smaller.
     pub min_filter: Option<u64>,
+    /// What lies beyond the left and the right border; `wrap_t` says it of the others.
     pub wrap_s: Option<u64>,
     pub wrap_t: Option<u64>,
 }
@@ -391,12 +445,15 @@ pub(super) const MIRRORED_REPEAT: u64 = 33_648;
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
+    /// Nothing where all numbers are 0.
     pub buffer_view: Option<usize>,
     #[serde(default)]
     pub byte_offset: u64,
     pub component_type: u64,
+    /// Whether whole numbers stand for numbers from 0 or -1 to 1.
     #[serde(default)]
     pub normalized: bool,
+    /// How many elements it has.
     pub count: u64,
     /// How many numbers an element has, as `VEC3`.
     #[serde(rename = "type")]
@@ -408,7 +465,9 @@ pub(super) struct Accessor {
 #[derive(Deserialize)]
 pub(super) struct Sparse {
     pub count: u64,
+    /// Which elements differ.
     pub indices: SparsePart,
+    /// What they are.
     pub values: SparsePart,
 }
 
@@ -429,7 +488,9 @@ pub(super) struct SparsePart {
 #[serde(rename_all = "camelCase")]
 pub(super) struct View {
     pub buffer: usize,
+    /// From its beginning, in bytes.
     pub byte_length: u64,
+    /// From the beginning of the buffer.
     #[serde(default)]
     pub byte_offset: u64,
     /// From one element to the next; without it they follow each other.
@@ -455,13 +516,17 @@ pub(super) struct Compressed {
     pub byte_offset: u64,
     pub byte_length: u64,
     pub byte_stride: usize,
+    /// The elements that are compressed, each as long as the stride.
     pub count: usize,
+    /// `ATTRIBUTES`, `TRIANGLES` or `INDICES`.
     pub mode: String,
+    /// What was done to numbers before they were compressed.
     pub filter: Option<String>,
 }
 
 /// Bytes of a file, or without a name those of the GLB.
 #[derive(Deserialize)]
 pub(super) struct Buffer {
+    /// A file, or the bytes themselves in an address.
     pub uri: Option<String>,
 }

@@ -41,6 +41,7 @@ const NAMES: [(&str, &str); 10] = [
 /// A document of version 1.0, with the number of each name in its list.
 struct First<'a> {
     document: &'a Value,
+    /// By the list and the name.
     numbers: HashMap<(&'static str, &'a str), usize>,
 }
 

@@ -29,6 +29,7 @@ pub(super) type Coordinates = (u32, DAffine2);
 /// A surface, and the coordinates of its texture and of maps that are read elsewhere.
 pub(super) struct Described {
     pub surface: Surface,
+    /// Of the texture, and of the first map that has others.
     pub uvs: [Option<Coordinates>; 2],
 }
 
@@ -44,7 +45,9 @@ pub(crate) fn encoded(linear: f64) -> f64 {
 /// The pictures of a document, by their numbers.
 #[derive(Default)]
 pub(super) struct Images {
+    /// Decoded by their bytes, so that a picture of several names is decoded once.
     pictures: Pictures,
+    /// By their numbers, also those that cannot be read, so that they are not read again.
     read: HashMap<usize, Result<Decoded, String>>,
 }
 
@@ -100,6 +103,7 @@ pub(super) fn describe(
     let info = colour_texture(material);
     let factor = other.map_or(pbr.base_color_factor, |other| other.diffuse_factor);
     let [r, g, b, alpha] = factor.unwrap_or([1.0; 4]);
+    // A highlight is drawn of a surface with gloss, but not if a map changes it from texel to texel.
     let mut specular = Specular::default();
     if let Some(other) = other {
         let colour = other.specular_factor.unwrap_or([1.0; 3]);
@@ -129,6 +133,7 @@ pub(super) fn describe(
             count(key);
         }
     }
+    // The base colour is a factor and a texture.
     let mode = alpha_mode(material);
     // One without a name is called by its number.
     let name = match (&material.name, number) {
@@ -316,6 +321,7 @@ fn physical(
     };
     // A map that cannot be read is done without; light that a map should have limited is then not emitted.
     for (map, info) in maps(material) {
+        // A map is read at one of two sets of coordinates.
         let Some(info) = info else { continue };
         match coordinates(material).iter().position(|of| *of == Some(of_info(info))) {
             None => count("map with a third kind of texture coordinates of material"),

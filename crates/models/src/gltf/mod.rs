@@ -152,6 +152,7 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
 
 /// What a GLB consists of.
 struct Chunks<'a> {
+    /// The document itself.
     json: &'a [u8],
     /// The bytes of the buffer without a name.
     bin: Option<&'a [u8]>,
@@ -171,6 +172,7 @@ fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
         return Ok(Chunks { json, bin: Some(bin), odd: None });
     }
     // Some programs do not know the length when they write the head.
+    // Up to here there are chunks, as far as the head says it.
     let end = if said < LEAST_GLB_BYTES { all } else { said.min(all) };
     let (mut json, mut bin, mut at) = (None, None, 12);
     while at + CHUNK_HEAD_BYTES <= end {
@@ -188,6 +190,7 @@ fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
         }
         at += CHUNK_HEAD_BYTES + length;
     }
+    // A length that does not fit is said, and does no harm.
     let odd = if said > all {
         Some(format!("its head says that it has {said} bytes, and it has {all}: it may be cut off"))
     } else if at > said {
@@ -228,6 +231,7 @@ struct Reader<'a> {
     see_through: HashMap<(usize, u64), usize>,
     /// The map of all opacities, where one is needed.
     opacities: Option<Arc<OpacityMap>>,
+    /// For the limit of what a file of this length may contain.
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
@@ -249,6 +253,7 @@ impl Reader<'_> {
     /// Reads the meshes of all nodes of the scene.
     fn scene(&mut self) -> Result<(), String> {
         let root = &self.data.root;
+        // The scene to show, or without one everything that nothing else contains.
         let number = root.scene.unwrap_or(0);
         let roots: Vec<usize> = match root.scenes.get(number) {
             Some(scene) => scene.nodes.clone(),
@@ -256,6 +261,7 @@ impl Reader<'_> {
             None => self.parentless(),
         };
         self.count("other scene", root.scenes.len().saturating_sub(1) as u64);
+        // From the coordinates of each node to those of the file.
         let mut worlds = vec![DMat4::IDENTITY; root.nodes.len()];
         let mut visits: Vec<(usize, DMat4)> = Vec::new();
         // Nodes to visit, the next one last: their number, the matrix of their parent, and how deep they are.
@@ -265,6 +271,7 @@ impl Reader<'_> {
         }
         while let Some((number, parent, depth)) = open.pop() {
             let node = entry(&root.nodes, "nodes", number)?;
+            // A path of more nodes than there are passes one of them twice.
             if depth > root.nodes.len() {
                 return Err(format!("nodes[{number}] contains itself: nodes have to form a tree"));
             }
@@ -302,6 +309,7 @@ impl Reader<'_> {
     fn camera(&mut self, number: usize, node: &Node, world: DMat4) {
         let Some(at) = node.camera else { return };
         let camera = self.data.root.cameras.get(at);
+        // Of the two kinds of cameras one has to be there.
         let (lens, of) = match camera {
             Some(document::Camera { perspective: Some(of), .. }) => {
                 (Lens::Perspective { angle_rad: of.yfov }, of)
@@ -431,6 +439,7 @@ impl Reader<'_> {
         if bytes <= most {
             return Ok(most - bytes);
         }
+        // In MiB, as the limits are stated.
         let [bytes, most] = [bytes, most].map_array(|bytes| bytes >> 20);
         Err(format!(
             "shows {copies} copies of its meshes, which take {bytes} MiB, and a file of {length} bytes may have {most} MiB: \
@@ -445,6 +454,7 @@ impl Reader<'_> {
             return PART_BYTES;
         }
         let count = |accessor: Option<usize>| accessor.map_or(0, |number| self.data.count(number));
+        // What its vertices, its corners and its shapes take, each as large as it gets.
         let vertices = count(primitive.attributes.get("POSITION").copied());
         // Positions in the file and as they are drawn; an attribute is at most three doubles.
         let vector = size_of::<DVec3>() as u64;
@@ -481,6 +491,7 @@ impl Reader<'_> {
     fn count_the_rest(&mut self) {
         let root = &self.data.root;
         // Some files name what they require here alone.
+        // In alphabetical order, so that the warnings are the same each time.
         let required: BTreeSet<&String> = root.extensions_required.iter().collect();
         let all: BTreeSet<&String> = root.extensions_used.iter().chain(required.clone()).collect();
         for name in all.into_iter().filter(|name| !READ.contains(&name.as_str())) {
@@ -584,12 +595,14 @@ impl Reader<'_> {
         };
         let is_bumpy = physical.is_some_and(|(_, of)| of.map(Map::Normal).is_some());
         // Those of a file without normals are not to be used, and those that a skin moves are computed.
+        // Tangents are used where there is a normal map, with the normals that belong to them.
         let is_read = is_bumpy && !normals.is_empty() && node.skin.is_none();
         let tangents = match vertices.read::<4>("TANGENT").filter(|_| is_read) {
             Some(read) => self.optional(read, count, "tangents", place),
             None => Vec::new(),
         };
         let tangents = tangents.into_iter().map(DVec4::from_array).collect();
+        // Texture coordinates with v up, moved as the material says.
         let mut read_uvs = |set| {
             let Some((set, transform)) = set else { return Vec::new() };
             let Some(read) = vertices.read(&format!("TEXCOORD_{set}")) else {
@@ -611,6 +624,7 @@ impl Reader<'_> {
             *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
         let name = records::name(node.name.as_deref().unwrap_or(""));
+        // All that a part has; what is missing is computed later, or left out.
         let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),
@@ -643,6 +657,7 @@ impl Reader<'_> {
         let opacities: Vec<f64> = colours.iter().map(|[.., alpha]| alpha.clamp(0.0, 1.0)).collect();
         let transparent = opacities.iter().filter(|alpha| **alpha < 1.0).count();
         let Some(&first) = opacities.first().filter(|_| transparent > 0) else { return number };
+        // One opacity for all is multiplied into the surface; different ones need a map.
         let surface = &self.contents.materials[number];
         let opacity = surface.opacity.clone();
         let mut opacity = opacity.unwrap_or(Opacity { factor: 1.0, map: None, mode });
@@ -656,6 +671,7 @@ impl Reader<'_> {
             *uvs = opacities.into_iter().map(materials::uv_of_opacity).collect();
             opacity.map = Some(self.opacities.get_or_insert_with(materials::opacities).clone());
         }
+        // Primitives with the same surface and opacity share a surface.
         let key = (number, if is_one { first.to_bits() } else { u64::MAX });
         let Contents { materials, .. } = &mut *self.contents;
         *self.see_through.entry(key).or_insert_with(|| {
@@ -709,6 +725,7 @@ impl Reader<'_> {
             }
             _ => indices,
         };
+        // Corners that make no triangle, and triangles that name nothing, are left out with a warning.
         let left = list.len() % 3;
         if left > 0 {
             list.truncate(list.len() - left);
@@ -763,6 +780,7 @@ impl Reader<'_> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
+        // Each material is described once, also where it is missing.
         let (images, contents) = (&mut self.images, &mut *self.contents);
         let described = materials::describe(self.data, number, images, contents);
         let known = described.map(|Described { surface, uvs }| {
@@ -827,6 +845,7 @@ impl Reader<'_> {
 struct Vertices<'a> {
     data: &'a Data<'a>,
     primitive: &'a Primitive,
+    /// What Draco decoded, in the place of buffer views.
     compressed: Option<draco::DecodedPrimitive>,
 }
 

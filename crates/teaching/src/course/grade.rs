@@ -205,6 +205,7 @@ pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Di
     let of_steps: String = STEPS.iter().map(|step| format!(" | >~step {}", width(step))).collect();
     let columns = format!("~name 26{of_steps} | >~points 6");
     let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
+    // A name, a mark for each step, and what they come to.
     let mut cells: Vec<&dyn Display> = vec![&name];
     cells.extend(steps.iter().map(|step| step as &dyn Display));
     cells.push(points);

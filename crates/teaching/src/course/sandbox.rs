@@ -127,6 +127,7 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
     let line = command(folder, build, &Bounds { memory_mib: None, ..*bounds });
     let mut command = Command::new(&line[0]);
     command.args(&line[1..]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    // A group of its own, so that all of its processes can be ended.
     let mut group = Group::start(&mut command).map_err(|e| format!("cannot build: {e}"))?;
     let said = BuildMessages::default();
     if let Some(stderr) = group.child().stderr.take() {

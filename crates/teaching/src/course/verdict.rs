@@ -30,6 +30,7 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         [Exchange { request, .. }] => format!("echo '{request}' | {command}"),
         _ => String::new(),
     };
+    // The case with its pixels, as the judge of programs shows it.
     let excerpt = judge_text::excerpt(failure, &["yours"], again);
     let title = format!("smallest found: {what} (from {family} #{index}, {})", shrunk.name());
     let mut notes = Vec::new();

@@ -92,6 +92,7 @@ pub fn draw(
         places.borrow_mut().push(*place);
         to_colour(DVec3::ONE)
     };
+    // The whole pipeline, as a scene goes through it.
     let drawn = renderer.draw(positions, triangles, vertex, fragment);
     assert_eq!(drawn, Ok(()), "exercises name vertices that are there");
     (renderer.counters, places.into_inner())
