@@ -26,7 +26,7 @@ const MOST_SINGLE_PARTS: usize = 1 << 12;
 /// Parts, merged ones too: there is at least one for each material that is used.
 const MOST_PARTS: usize = 1 << 16;
 
-/// What a reader makes of a file.
+/// What a reader makes of a file, the same for all formats.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     /// The file that it is read from, which all warnings name.
@@ -388,7 +388,7 @@ impl Numbers {
 /// Vectors of one kind, and which of them each corner of a part has.
 #[derive(Debug, Default)]
 pub(crate) struct Vectors<V> {
-    /// Several corners may share one.
+    /// Several corners may share a value.
     pub values: Vec<V>,
     /// Which value belongs to which corner.
     pub numbers: Numbers,
@@ -445,12 +445,11 @@ impl Polygons {
         self.count += 1;
     }
 
-    /// How many polygons there are.
     pub(crate) fn len(&self) -> usize {
         self.count as usize
     }
 
-    /// Whether nothing has to be cut.
+    /// Whether all polygons are triangles, so that nothing has to be cut.
     pub(crate) fn are_triangles(&self) -> bool {
         self.ends.is_empty()
     }
@@ -465,7 +464,7 @@ impl Polygons {
         start as usize..self.ends[number] as usize
     }
 
-    /// The polygon that has a corner.
+    /// The number of the polygon that has this corner, found by bisection or by a division.
     pub(crate) fn of_corner(&self, corner: usize) -> usize {
         if self.ends.is_empty() {
             return corner / 3;
@@ -500,7 +499,7 @@ pub(crate) struct Surface {
     pub name: String,
     /// Diffuse colour, each channel in [0, 1].
     pub colour: DVec3,
-    /// Multiplied with the colour.
+    /// Its texels are multiplied with the colour, as glTF and MTL say it.
     pub texture: Option<Arc<Texture>>,
     pub specular: Specular,
     /// Nothing where it is opaque everywhere.
@@ -509,7 +508,7 @@ pub(crate) struct Surface {
     pub physical: Option<(DVec3, Arc<Physical>)>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
-    /// Which of its sides are drawn.
+    /// Whether its back is drawn, and turned towards the light.
     pub sides: Sides,
 }
 

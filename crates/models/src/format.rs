@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{gltf, ply, stl};
 
-/// The formats that are read.
+/// The formats that are read. A file has one by its content, whatever its name ends in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ, with materials in MTL.
@@ -150,7 +150,6 @@ impl Format {
         }
     }
 
-    /// Its name for people.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

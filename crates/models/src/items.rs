@@ -34,6 +34,7 @@ pub(crate) fn model(
     format: Format,
     options: LoadOptions,
 ) -> Result<Model, Wrong> {
+    // What the user says about the axis comes before what the format usually has.
     let up = options.up.unwrap_or(format.usual_up());
     let turn = match up {
         Up::Y => DMat4::IDENTITY,
@@ -518,6 +519,7 @@ fn part_normals(
                 indices.push(given);
                 continue;
             }
+            // In a group all polygons at a position share a normal, unless theirs cancel.
             let smooth = if group == 0 { None } else { smooth.at(point(corner), group) };
             let next = values.len() as u32;
             indices.push(match smooth {

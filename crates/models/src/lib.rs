@@ -97,13 +97,13 @@ impl From<FileError> for Wrong {
 /// The axis that points up in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
-    /// As in this project's scenes.
+    /// y points up, as in this project's scenes, so that nothing is turned.
     Y,
     /// As in programs for buildings and for machines.
     Z,
 }
 
-/// Which normals are drawn.
+/// Which normals light is computed with: those of the file, or others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; those that are missing from the faces, smooth where the file has a smoothing group and
@@ -128,7 +128,7 @@ pub struct LoadOptions {
     pub pose: Option<Pose>,
 }
 
-/// A moment of an animation.
+/// A moment of an animation, at which the model is drawn instead of at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// The number of the animation, from 0.
@@ -267,7 +267,7 @@ pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
 pub(crate) struct Warnings {
     /// The file that is read, which each line names.
     path: PathBuf,
-    /// Lines, as they are shown.
+    /// The first lines of each kind.
     shown: Vec<String>,
     /// By kind, how many there were, shown or not.
     counts: BTreeMap<String, u64>,
@@ -277,7 +277,6 @@ impl Warnings {
     /// Warnings of one kind that are shown; of the rest the number is.
     const MOST: u64 = 8;
 
-    /// None yet, of this file.
     pub(crate) fn of(path: &Path) -> Self {
         Self { path: path.to_owned(), ..Self::default() }
     }

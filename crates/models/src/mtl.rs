@@ -134,6 +134,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result
         "illum" if number == Some(0.0) || number == Some(1.0) => material.is_matt = true,
         _ => {}
     }
+    // A black colour changes nothing, so it is not counted.
     let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
     // What the line says and is not drawn, if it says something that could be seen.
     let key = match lower.as_str() {

@@ -32,7 +32,7 @@ type FaceCorner = [u32; 3];
 /// A kind of vector: the number of its index in a [`FaceCorner`], and what is said of it.
 struct VectorKind {
     number: usize,
-    /// In the singular, for messages.
+    /// What messages call one of them.
     name: &'static str,
     /// How many numbers a line has at least.
     least: usize,
@@ -94,7 +94,7 @@ impl Vectors {
 #[derive(Default)]
 struct Lines {
     vectors: Vectors,
-    /// In the order of the file.
+    /// In the order of the file, one after the other.
     runs: Vec<Run>,
     /// What lines of material files name, each once.
     libraries: Vec<String>,
@@ -126,12 +126,12 @@ impl Lines {
 /// Where the next face belongs.
 #[derive(Default)]
 struct State {
-    /// The name of the last `o`.
+    /// The name of the last `o`; the group begins anew with it.
     object: Arc<str>,
     group: Arc<str>,
-    /// The last `usemtl` and its line.
+    /// The name of the last `usemtl`, and the line in which it stands.
     material: Option<(Arc<str>, usize)>,
-    /// The last `s`; 0 where it is off.
+    /// The number of the last `s`; 0 where it was `off`.
     smoothing: u32,
     /// Whether a face begins a new run.
     is_new: bool,
@@ -200,7 +200,6 @@ struct Cutter {
 }
 
 impl Cutter {
-    /// No number is given yet.
     fn of(vectors: &Vectors) -> Self {
         Self { numbers: vectors.counts().map(|count| vec![NONE; count]) }
     }
@@ -396,7 +395,7 @@ fn refused(line: usize, cause: &str) -> Wrong {
     Wrong { line, cause: format!("{cause}: repair the line, or export the model again") }
 }
 
-/// Reads all lines.
+/// Reads all lines, those that go on after a backslash as one.
 fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
     let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
@@ -526,6 +525,7 @@ fn vector<'a>(
     line: usize,
     read: &mut Lines,
 ) -> Result<Option<String>, String> {
+    // A comma is read as a decimal point, which is said once for the line.
     let with_comma = words.clone().find(|word| memchr::memchr(b',', word).is_some());
     let values =
         numbers(words, kind).or_else(|cause| read.keep_broken(kind.number, line, cause))?;
@@ -723,6 +723,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
                     _ => &mut part.normals.numbers,
                 };
                 let named = corners.clone().filter_map(|at| numbers.get(at, part.corners[at]));
+                // All vectors of this kind that the face names; one that is wrong is enough.
                 let named: Vec<u32> = named.collect();
                 let is_wrong =
                     |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));

@@ -73,7 +73,7 @@ struct Element {
     properties: Vec<Property>,
 }
 
-/// How numbers are written.
+/// How numbers are written: as words, or as bytes of either order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Text,
@@ -84,7 +84,7 @@ enum Form {
 /// The lines before the data: the form of the file, and which elements follow in which order.
 struct Header {
     form: Form,
-    /// In the order of the data.
+    /// In the order in which their data follow.
     elements: Vec<Element>,
     /// Pictures that comments name, as some programs write them.
     textures: Vec<String>,
@@ -95,7 +95,6 @@ struct Header {
 /// The elements of a file, number after number.
 struct Body {
     file: Records,
-    /// How its numbers are written.
     form: Form,
     /// Where what is left of the line of text is.
     words: Range<usize>,
@@ -108,7 +107,6 @@ struct Body {
 }
 
 impl Body {
-    /// What is wrong here.
     fn wrong(&self, cause: &str) -> Wrong {
         self.file.wrong(format!("{cause}: export the model again"))
     }
@@ -282,6 +280,7 @@ pub(crate) fn read(mut file: Records, contents: &mut Contents) -> Result<(), Wro
     file.is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
     let (form, words) = (Form::Text, 0..0);
     let mut body = Body { file, form, words, element: 0, long: 0, comma: None };
+    // The header says in which form the rest is.
     let header = header(&mut body)?;
     body.form = header.form;
     if body.form != Form::Text {
@@ -505,7 +504,7 @@ enum Role {
     Uvs(Kind),
     /// A channel of its colour, by its number.
     Channel(usize),
-    /// It is counted, and read past.
+    /// What has no part in the picture is counted, and read past.
     NotDrawn,
 }
 
@@ -648,6 +647,7 @@ fn triangles(
         let records = bytes.as_chunks::<RECORD>().0;
         // A few first, since every other face may have four corners.
         let few = records[..records.len().min(SHARE)].iter().position(is_other);
+        // Up to the first face of another form.
         let found = few.or_else(|| parallel::first(records, is_other));
         let records = &records[..found.unwrap_or(records.len())];
         if records.len() <= SHARE {

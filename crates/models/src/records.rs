@@ -91,7 +91,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// The bytes of a number.
+    /// How many bytes a number of this type has.
     pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,

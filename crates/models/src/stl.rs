@@ -22,7 +22,7 @@ use crate::records::{self, Records, is_wide, without_mark};
 
 /// The bytes before the triangles, the last four of which count them.
 const HEADER: usize = 84;
-/// The bytes of a triangle.
+/// A triangle has a normal, three corners and an attribute: 12 numbers of 4 bytes, and 2 bytes.
 const RECORD: usize = 50;
 /// The triangles that the header of a binary file counts.
 fn counted(bytes: &[u8]) -> Option<u64> {
@@ -79,7 +79,7 @@ struct Corners<C> {
 const RECENT: usize = 1 << 14;
 
 impl<C: Coordinate> Corners<C> {
-    /// Room for the corners of so many triangles.
+    /// No corners yet, with the capacity for so many triangles.
     fn with_capacity(triangles: usize) -> Self {
         // A closed surface has half as many positions as triangles.
         let positions = Vec::with_capacity(triangles / 2);

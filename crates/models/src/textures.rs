@@ -26,7 +26,7 @@ pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF
 /// A picture as a texture and, where it has some, with opacities.
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
-    /// Its colours.
+    /// Its colours, read by the filter that the file asks for.
     pub texture: Texture,
     /// The opacities of its texels, where some are not opaque.
     alpha: Option<OpacityMap>,
@@ -93,6 +93,7 @@ impl Pictures {
         }
         let bytes = read(left_bytes.min(limits::TEXTURE_BYTES))?;
         self.read_bytes += bytes.len() as u64;
+        // Two files with the same bytes are one picture.
         let key = (Sha256::digest(&bytes).into(), is_tga(path));
         let Self { decoded, taken_bytes, .. } = self;
         let decoded = decoded.entry(key).or_insert_with(|| decode(path, &bytes, taken_bytes));
@@ -264,6 +265,7 @@ impl TextureStatement {
         let mut rest = text.trim();
         while let Some((option, after)) = next_word(rest).filter(|(word, _)| word.starts_with('-'))
         {
+            // Options may stand in any order before the name.
             let fixed = NOT_APPLIED.iter().find(|(name, _)| *name == option);
             // How many words may follow the option.
             let most = match (option, fixed) {
@@ -313,7 +315,7 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 pub(crate) struct Textures {
     folder: PathBuf,
     pictures: Pictures,
-    /// By the path, each once.
+    /// What came of each path, so that no file is read twice.
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
     /// How many names were looked for and not found.
     missing: u32,

@@ -80,7 +80,7 @@ impl Double {
         Self { hi, lo: ((a1 * b1 - hi) + a1 * b0 + a0 * b1) + a0 * b0 }
     }
 
-    /// The sum, nearly exact.
+    /// The sum: the high and the low parts are added apart, each with its rounding error, and joined again.
     fn plus(self, other: Self) -> Self {
         let (high, low) = (Self::sum(self.hi, other.hi), Self::sum(self.lo, other.lo));
         let once = Self::ordered(high.hi, high.lo + low.hi);

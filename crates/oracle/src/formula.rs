@@ -65,7 +65,6 @@ impl Formula {
     }
 }
 
-/// The largest of the magnitudes.
 fn largest(numbers: &[f64]) -> f64 {
     let mut most = 0.0_f64;
     for number in numbers {

@@ -40,7 +40,6 @@ pub fn covers(
         && (at < end || owns(along))
 }
 
-/// The dot product.
 fn product(p: [i64; 2], q: [i64; 2]) -> i128 {
     i128::from(p[0]) * i128::from(q[0]) + i128::from(p[1]) * i128::from(q[1])
 }

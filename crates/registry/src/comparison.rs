@@ -28,7 +28,7 @@ impl Engine {
 pub struct EnginesToJudge {
     pub triangles: Vec<Engine>,
     pub lines: Vec<LineEngine>,
-    /// Of corners that are not snapped.
+    /// Engines for corners that are not snapped, which have families of their own.
     pub unsnapped: Vec<ExactEngine>,
 }
 
@@ -58,7 +58,7 @@ impl EnginesToJudge {
         }
     }
 
-    /// Whether nobody is judged.
+    /// Whether there is no engine, as for a name that no fault has.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.lines.is_empty() && self.unsnapped.is_empty()
     }
@@ -73,7 +73,7 @@ impl EnginesToJudge {
     /// These engines, then those of [`Self::all`] that are not among them.
     #[must_use]
     pub fn with_others(&self) -> Self {
-        // By their names, so that nobody is judged twice.
+        // By their names, so that no engine is judged twice.
         let (all, mut these) = (Self::all(), self.clone());
         these.triangles.extend(all.triangles.into_iter().filter(|e| !self.has(e.name())));
         these.lines.extend(all.lines.into_iter().filter(|e| !self.has(e.name())));
@@ -91,7 +91,7 @@ impl EnginesToJudge {
         }
     }
 
-    /// The verdict about these engines.
+    /// Judges them by the oracle and by each other; `progress` gets the number of cases that are done.
     pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
         self.engines().judge(options, progress)
     }
@@ -99,6 +99,7 @@ impl EnginesToJudge {
     /// Why an engine is wrong, found by asking it more.
     #[must_use]
     pub fn cause(&self, engine: &str) -> Option<Cause> {
+        // The engine is asked more until a convention or a mistake explains its answers.
         self.engines().cause(engine)
     }
 
@@ -110,6 +111,7 @@ impl EnginesToJudge {
 
     /// The hits of each engine that draws such shapes, after its name.
     pub fn hits(&self, case: &Case) -> Vec<(String, Hits)> {
+        // Each kind of shape has engines of its own.
         let window = case.window;
         let mut all = Vec::new();
         let mut add = |name: &str, hits: Result<Coverage, EnginePanic>| {
@@ -131,7 +133,7 @@ impl EnginesToJudge {
                     add(engine.name(), exact_coverage(engine, list, window).map(|(hits, _)| hits));
                 }
             }
-            // Tessellators are asked about polygons, and nobody draws these.
+            // These are polygons for tessellators, which no engine draws.
             Shape::Numbers { .. } => {}
         }
         all

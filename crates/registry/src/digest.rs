@@ -23,10 +23,8 @@ use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::{Scene, chapters, random};
 use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 
-/// Of how much a digest is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestOptions {
-    /// Of all cases and scenes.
     pub seed: u64,
     /// Cases of each family, and random scenes.
     pub cases: u64,
@@ -35,7 +33,6 @@ pub struct DigestOptions {
 /// The digest of one kind of result of one engine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestRow {
-    /// Its name.
     pub engine: &'static str,
     /// What: coverage, values, lines, frames.
     pub what: &'static str,
@@ -91,7 +88,7 @@ impl Job {
         }
     }
 
-    /// How many cases are digested.
+    /// How many hashes there are: one for each case of each family, or for each scene.
     fn count(self, cases: u64) -> u64 {
         let families = match self {
             Self::Coverage(_) | Self::Values(_) => drawn(cases::triangles::FAMILIES).count(),
@@ -102,8 +99,9 @@ impl Job {
         families as u64 * cases
     }
 
-    /// The hash of one case.
+    /// The hash of one case; the index counts through the families, then through the cases of each.
     fn hash(self, DigestOptions { seed, cases }: DigestOptions, index: u64) -> [u8; 32] {
+        // A hash of its own for each case, so that cases can be computed in any order.
         let mut hash = Hash(Sha256::new());
         let of = |families: &'static [Family]| {
             let family = drawn(families).nth((index / cases) as usize);
@@ -171,7 +169,7 @@ pub fn case_count(options: DigestOptions, engine: Option<&str>) -> u64 {
     jobs_of(engine).into_iter().map(|job| job.count(options.cases)).sum()
 }
 
-/// One digest of all.
+/// The digest of all rows with their names, in their order.
 pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();
     for DigestRow { engine, what, sha256 } in parts {
@@ -180,7 +178,6 @@ pub fn total(parts: &[DigestRow]) -> String {
     hex(&all.finalize())
 }
 
-/// Bytes in hexadecimal.
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -189,23 +186,20 @@ fn hex(bytes: &[u8]) -> String {
 struct Hash(Sha256);
 
 impl Hash {
-    /// A whole number.
     fn whole(&mut self, number: u64) {
         self.0.update(number.to_le_bytes());
     }
 
-    /// The place of a pixel.
     fn pixel(&mut self, x_px: i32, y_px: i32) {
         self.0.update(x_px.to_le_bytes());
         self.0.update(y_px.to_le_bytes());
     }
 
-    /// A float by its bits.
+    /// A float by its bits, all NaNs alike.
     fn number(&mut self, value: f64) {
         self.whole(canonical(value));
     }
 
-    /// A fragment with its values.
     fn fragment<const N: usize>(&mut self, fragment: &Fragment<impl Varying>, values: [f64; N]) {
         self.pixel(fragment.x_px, fragment.y_px);
         self.number(fragment.depth);
@@ -230,7 +224,7 @@ fn canonical(value: f64) -> u64 {
     if value.is_nan() { 0x7ff8 << 48 } else { value.to_bits() }
 }
 
-/// Hashes the hits of a case.
+/// Hashes how often each pixel is hit by all triangles of a case together.
 fn coverage(engine: Engine, case: &Case, hash: &mut Hash) {
     let Shape::Triangles { list, .. } = &case.shape else { return };
     let mut hits = Coverage::new(case.window, 0);
@@ -286,17 +280,20 @@ fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
     let depth = DepthFormat::ALL[index as usize % DepthFormat::ALL.len()];
     for antialias in antialias {
         let Ok(mut target) = Target::new(64, 48, antialias, depth) else { continue };
+        // The plan is part of the digest, so that another plan shows even where it leads to the same picture.
         let Ok(plan) = drawer.plan(scene, &Effects::PLANNED, &Canvas::of(&target)) else {
             hash.whole(u64::MAX);
             continue;
         };
         hash.0.update(serde_json::to_string(&plan).unwrap_or_default());
         for effects in [Effects::PLANNED, complete] {
+            // The picture as planned, and as it is with all samples and depths.
             let Ok(rendered) = drawer.render(scene, &effects, &mut target) else { continue };
             for (_, row) in rendered.picture.rows() {
                 hash.0.update(row.as_flattened());
             }
         }
+        // Colours and depths of every sample, as the last frame has left them.
         for plane in &target.planes {
             for ((_, colours), (_, keys)) in plane.colour.rows().zip(plane.depth.rows()) {
                 hash.0.update(colours.as_flattened());

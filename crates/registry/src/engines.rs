@@ -42,7 +42,6 @@ use rasterproof_render::scene::Scene;
 use rasterproof_tiles::coverage::{CoverList as _, Tiles};
 use rasterproof_verify::oracle::Oracle;
 
-/// A rasterizer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
@@ -52,21 +51,18 @@ pub enum Engine {
     /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
     /// edge function.
     Tile,
-    /// What the others are judged by.
+    /// Slow, and right: what the others are judged by.
     Oracle,
-    /// A planted fault.
     Mutant(TriangleMutant),
     /// The tiles with a planted fault, of lists of one triangle.
     TileMutant(TileMutant),
 }
 
 impl Engine {
-    /// The rasterizers of a verdict.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
     /// The rasterizers that are judged when they are asked for.
     pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
 
-    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline",
@@ -101,7 +97,6 @@ impl Interpolate for Engine {
 // A word of the command line is no hot loop: engines are called through `dyn` here, so that they are
 // compiled once and not for every caller.
 impl Engine {
-    /// What [`Rasterize::cover`] does.
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::Scanline => Scanline.cover(corners, bounds, emit),
@@ -138,7 +133,6 @@ impl Engine {
     }
 }
 
-/// A line drawer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum LineEngine {
     /// The book's DDA, repaired.
@@ -146,15 +140,12 @@ pub enum LineEngine {
     /// Bresenham's algorithm.
     Bresenham,
     Oracle,
-    /// A planted fault.
     Mutant(LineMutant),
 }
 
 impl LineEngine {
-    /// The line drawers of a verdict.
     pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
 
-    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Dda => "dda",
@@ -178,7 +169,6 @@ impl DrawLine for LineEngine {
 }
 
 impl LineEngine {
-    /// What [`DrawLine::draw`] does.
     fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
@@ -197,9 +187,9 @@ impl LineEngine {
 /// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
-    /// With the DDA for edges.
+    /// The scanline engine, with the DDA for the edges of wireframes.
     Scanline,
-    /// With Bresenham's lines for edges.
+    /// The edge-function engine, with Bresenham's lines for the edges of wireframes.
     EdgeFunction,
 }
 
@@ -253,10 +243,8 @@ impl Interpolate for FrameEngine {
 }
 
 impl Drawer {
-    /// Both of them.
     pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
-    /// The name of its rasterizer.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scanline => Engine::Scanline.name(),
@@ -379,7 +367,6 @@ pub enum ExactEngine {
     /// The bounding-box fill with filtered edge functions.
     EdgeFunction,
     Oracle,
-    /// A planted fault.
     Mutant(ExactMutant),
 }
 
@@ -387,7 +374,6 @@ impl ExactEngine {
     /// The rasterizers of a verdict about corners that are not snapped.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
-    /// The name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline-exact",
@@ -435,13 +421,11 @@ pub enum Specimen {
 /// What a name stands for: some engines rasterize, some draw lines, the oracle does both.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// The name on the command line.
     pub name: &'static str,
-    /// What it is, in a sentence.
     pub about: &'static str,
-    /// The rasterizer of this name.
+    /// What it rasterizes triangles with, if it does.
     pub engine: Option<Engine>,
-    /// The line drawer of this name.
+    /// What it draws lines with, if it does.
     pub line_engine: Option<LineEngine>,
     /// The rasterizer of this name for corners that are not snapped.
     pub exact_engine: Option<ExactEngine>,
@@ -476,7 +460,7 @@ const NOBODY: Entry = Entry {
 };
 
 /// Entries from a table: name, what it is, and what it can do.
-// What an engine cannot do stays as it is in `NOBODY`.
+// A member that a line of the table does not name is `None`.
 macro_rules! entries {
     ($($name:literal, $about:literal, $($can:ident: $by:expr),+;)*) => {
         [$(Entry { name: $name, about: $about, $($can: Some($by),)+ ..NOBODY }),*]

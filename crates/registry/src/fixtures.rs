@@ -44,7 +44,7 @@ const BITS: std::ops::RangeInclusive<u32> = 4..=SUBPIXEL_BITS;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// Three corners.
+    /// Three corners, at the centre of each pixel.
     Triangle,
     /// The first point with each pair of the following ones.
     Fan,
@@ -59,13 +59,12 @@ pub enum Kind {
 /// Row, first column, one past the last.
 pub type Run = [i32; 3];
 
-/// The file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fixtures {
     /// [`FORMAT`].
     pub format: String,
-    /// The version that made it.
+    /// The version of this project that made the file.
     pub rasterproof: String,
     pub seed: u64,
     /// Where the samples of a kind lie in a pixel, in px from its upper left corner.
@@ -85,7 +84,6 @@ pub struct PolygonFixture {
     pub twice_area: i64,
 }
 
-/// How many polygons there are.
 pub const POLYGONS: usize = 200;
 /// Of each family, the smallest of so many are taken.
 const POLYGONS_LOOKED_AT: u64 = 200;
@@ -167,7 +165,7 @@ pub struct ExpectedPictures {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pixels {
-    /// Hit exactly once.
+    /// Hit exactly once, however corners are moved to the grid.
     pub hit: Vec<Run>,
     /// Hit once or not, since a corner off the grid may be moved to it up or down.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -196,7 +194,6 @@ impl Fault {
         all
     }
 
-    /// The name for `--plant`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Triangle(mutant) => mutant.name(),
@@ -250,7 +247,6 @@ impl Drawing {
         }
     }
 
-    /// The pixels of the picture.
     fn rect(&self) -> PixelRect {
         PixelRect::window(self.window[0], self.window[1])
     }
@@ -295,6 +291,7 @@ impl Drawing {
                 samples: vec![pixels],
             }];
         }
+        // Neighbouring numbers of bits often have the same pictures, and are one entry then.
         let mut found: Vec<ExpectedPictures> = Vec::new();
         for bits in BITS {
             let samples: Vec<_> =
@@ -405,6 +402,7 @@ impl Drawing {
             }
             _ if self.kind == Kind::Line => None,
             _ => {
+                // With several samples the case is drawn once for each of them.
                 let offsets = self.offsets().into_iter();
                 offsets.map(|offset| self.drawn_moved(drawer, offset)).collect()
             }
@@ -415,6 +413,7 @@ impl Drawing {
     fn drawn_moved(&self, drawer: Drawer, offset: [i32; 2]) -> Option<Coverage> {
         let window = self.rect();
         let triangles = self.triangles(&moved(&self.points, offset));
+        // A fault may panic, as real code does; then it has drawn nothing.
         let drawn = caught(|| {
             let mut hits = Coverage::new(window, 0);
             match drawer {
@@ -554,6 +553,7 @@ impl Fixture {
     #[must_use]
     pub fn accepts(&self, drawer: Drawer) -> bool {
         let Some(drawn) = Drawing::of(self).drawn(drawer) else { return false };
+        // The pictures for 8 bits below the pixel, which all engines here have.
         let Some(expected) = self.expected.iter().find(|e| e.bits[1] == SUBPIXEL_BITS) else {
             return false;
         };
@@ -605,6 +605,7 @@ fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
             ends.iter().map(|end| SubpixelPoint::new(end.pixel.x, end.pixel.y)).collect()
         }
         Shape::Triangles { list, .. } => {
+            // A mesh becomes the list of points that makes it up.
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             let first = corners.first()?;
             match kind {
@@ -637,6 +638,7 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
             Shape::Triangles { list: vec![plain_triangle(corners)], disjoint: false }
         }
     };
+    // Shrinking may leave the kind, as where two ends fall on one pixel.
     let case =
         shrink(Case { window, shape }, |case| drawing(kind, case).is_some_and(|d| fails(&d)));
     drawing(kind, &case).unwrap_or(start)
@@ -677,6 +679,7 @@ fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
         for axis in 0..2 {
             let SubpixelPoint { x, y } = drawing.points[i];
             let v = if axis == 0 { x } else { y };
+            // The left or upper border of the pixel in which it lies.
             let border = v.div_euclid(SUBPIXELS) * SUBPIXELS;
             // Half of it on a grid of sixteenths, and a pixel or half of one nearer to 0.
             let nearer = [
@@ -695,6 +698,7 @@ fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
             }
         }
     }
+    // A smaller window, as long as it has a pixel.
     let [width, height] = drawing.window;
     for window in
         [[width / 2, height], [width, height / 2], [width - 1, height], [width, height - 1]]
@@ -711,6 +715,7 @@ const TRIES: u64 = 60;
 
 /// A small drawing that this fault, and every fault that its origin kills, draws wrong.
 fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> Option<Drawing> {
+    // Families in turn, and in each one cases that no other fault has looked at.
     let families = families(kind);
     // Every other round keeps corners that lie on no coarse grid; meshes lie on one, since each of their coordinates
     // doubles the ways to move it.
@@ -754,9 +759,11 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
     let mut cases = Vec::new();
     for (kind, quota) in QUOTAS {
         let is_line = kind == Kind::Line;
+        // Faults of lines are not seen in triangles, and the other way round.
         let faults: Vec<_> =
             Fault::all().into_iter().filter(|f| matches!(f, Fault::Line(_)) == is_line).collect();
         let mut alive: Vec<usize> = (0..faults.len()).collect();
+        // Sorted and without repetitions, since several faults may lead to one drawing.
         let mut found: BTreeMap<Drawing, &str> = BTreeMap::new();
         if kind == Kind::Triangle {
             found.insert(wider_than_i32(), TileMutant::WrappedWidth.name());
@@ -802,6 +809,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
 impl Fixtures {
     /// As text, a case or a polygon a line.
     pub fn to_json(&self) -> String {
+        // The head is one line, then a line for each case, which version control compares well.
         let head = serde_json::json!({
             "format": self.format, "rasterproof": self.rasterproof, "seed": self.seed, "samples": self.samples,
         });
@@ -813,7 +821,6 @@ impl Fixtures {
     }
 }
 
-/// A line of JSON for each.
 fn lines<T: Serialize>(all: &[T]) -> String {
     let json = |one: &T| serde_json::to_string(one).unwrap_or_default();
     all.iter().map(json).collect::<Vec<_>>().join(",\n")

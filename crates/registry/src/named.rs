@@ -13,7 +13,6 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, onto_centre};
 use rasterproof_verify::cases::named::{Input, NamedCase, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Shape, Triangle};
 
-/// All named cases.
 #[must_use]
 pub fn named() -> Vec<NamedCase> {
     [cases::named::named(), perspective(), samples()].concat()
@@ -27,7 +26,6 @@ pub fn find(name: &str) -> Option<NamedCase> {
 
 /// x, y, z and w of a corner in clip space.
 type Clip = (f64, f64, f64, f64);
-/// A position in pixels.
 type Px = (f64, f64);
 
 /// A square of 16 x 16 px: clip coordinates of 1/8 w are pixels.
@@ -62,7 +60,6 @@ fn drawn(window: PixelRect, list: Vec<Triangle>) -> Case {
     Case { window, shape: Shape::Triangles { list, disjoint: true } }
 }
 
-/// A position on the lattice.
 fn at((x, y): Px) -> SubpixelPoint {
     // The catalogue holds positions inside the domain only.
     SubpixelPoint::from_px(x, y).expect("a catalogued position lies in the domain")
@@ -73,8 +70,9 @@ fn scaled(corners: [Clip; 3], scale: f64) -> [Clip; 3] {
     corners.map_array(|(x, y, z, w)| (x * scale, y * scale, z * scale, w * scale))
 }
 
-/// The cases of clip space.
+/// The cases that begin in clip space: w of other signs and sizes, and planes that cut.
 fn perspective() -> Vec<NamedCase> {
+    // Small enough that 1/w would overflow a 32-bit grid.
     let eps = 0.5f64.powi(30);
     let hex = f64::from_bits;
     // Corners of the square from (4, 4) to (12, 12) px, from the upper left clockwise.
@@ -146,7 +144,7 @@ fn perspective() -> Vec<NamedCase> {
     ]
 }
 
-/// The cases of samples.
+/// The cases in which a pixel has several samples, each moved onto the centre in turn.
 fn samples() -> Vec<NamedCase> {
     // Around pixel (1 + 3 s, 1) a square whose diagonal passes through sample s; moved so that the
     // centres are the samples.
@@ -161,6 +159,7 @@ fn samples() -> Vec<NamedCase> {
         });
         through.extend([plain_triangle([a, b, c]), plain_triangle([a, c, d])]);
     }
+    // Edges that rise by two pixels in 64: many centres lie close to them.
     let strip = [
         [(0.0, 0.3), (64.0, 0.3), (64.0, 2.35)],
         [(0.0, 0.3), (64.0, 2.35), (0.0, 2.1)],
@@ -174,6 +173,7 @@ fn samples() -> Vec<NamedCase> {
         [(2.0, 2.0), (0.0, 1.2), (1.2, 0.0)],
         [(2.0, 2.0), (1.2, 0.0), (2.0, 0.0)],
     ];
+    // A list without samples or planes of its own.
     let plain = |list: [[Px; 3]; 4]| {
         list.map_array(|corners| plain_triangle(corners.map_array(at))).to_vec()
     };

@@ -38,13 +38,12 @@ pub struct Counts {
     pub shapes: u64,
     /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
-    /// Those with a wrong pixel.
     pub wrong_pixels: u64,
     /// Those with a wrong value at a pixel that they cover.
     pub wrong_values: u64,
     /// Those that the specimen refuses, since the published code is undefined there.
     pub refused: u64,
-    /// Pixels that the oracle covers.
+    /// Pixels that the oracle covers, by which rates are divided.
     pub pixels: u64,
     /// Wrong pixels, each triangle for itself.
     pub tally: Tally,
@@ -59,7 +58,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Both together.
+    /// Adds what was counted elsewhere; of errors the larger one stays.
     fn merge(mut self, other: Self) -> Self {
         self.shapes += other.shapes;
         self.wrong += other.wrong;
@@ -90,7 +89,6 @@ impl Counts {
     }
 }
 
-/// What was found of a specimen.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpecimenReport {
     pub name: &'static str,
@@ -101,7 +99,7 @@ pub struct SpecimenReport {
     pub cure: &'static str,
     /// The name of the case that shows the fault.
     pub case: &'static str,
-    /// Pixels that are wrong in it.
+    /// Pixels, values and refusals that are wrong in it.
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
     pub harmless_wrong: u64,
@@ -109,7 +107,7 @@ pub struct SpecimenReport {
     pub recorded: Vec<(&'static str, Counts)>,
     /// Family and counts; empty for scenes.
     pub families: Vec<(&'static str, Counts)>,
-    /// All families together.
+    /// All families together, as they are ranked by.
     pub all: Counts,
 }
 
@@ -132,6 +130,7 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
         }
         None => Vec::new(),
     };
+    // The sum decides the order of the survey.
     let all = families.iter().fold(Counts::default(), |sum, (_, counts)| sum.merge(*counts));
     // Its own two cases, the inputs that the book shows, and cases of every family.
     let [case_wrong, harmless_wrong] =
@@ -256,6 +255,7 @@ pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
 
 /// A vertex, where its position lies on the lattice.
 fn vertex_on_lattice(v: &RealVertex) -> Option<ScreenVertex<DVec2>> {
+    // Snapped, it must be the same position again.
     let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
     let is_exact = DVec2::from(position.to_px()) == v.position_px;
     let vertex = ScreenVertex { position, depth: v.depth, inv_w: 1.0 / v.w, varying: v.varying };
@@ -273,7 +273,6 @@ pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
     hits
 }
 
-/// Judges a catalogued case.
 fn judge_case(specimen: &dyn Published, case: &TriangleCase) -> Counts {
     let window = PixelRect::window(case.side_px, case.side_px);
     judge_free(specimen, &real_triangles(case), window)
@@ -303,7 +302,7 @@ fn judge_free(specimen: &dyn Published, triangles: &[RealTriangle], window: Pixe
     counts
 }
 
-/// A card's line in a window with some room beside it.
+/// A card's line in a window that ends some pixels beyond it, so that a pixel beside it shows.
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map_array(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
@@ -342,6 +341,7 @@ pub fn specimen_line_coverage(
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         for line in lines {
+            // Published drawers take positions in pixels.
             let ends = line.ends.map_array(|end| centre(end.pixel));
             specimen
                 .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
@@ -362,6 +362,7 @@ fn triangles(specimen: &dyn Published, case: &Case) -> Counts {
         counts = counts.merge(judge(specimen, &real, Some(triangle), window, &truth));
     }
     if *disjoint && list.len() > 1 {
+        // Disjoint triangles have no pixel together, so whatever they share is drawn twice.
         counts.shared = shared(specimen, list, case.window);
     }
     counts
@@ -389,6 +390,7 @@ fn judge(
     truth: &Coverage,
 ) -> Counts {
     let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
+    // A refusal is counted, and is neither right nor wrong.
     let Ok(hits) = specimen_coverage(specimen, &[*triangle], window) else {
         counts.refused = 1;
         return counts;
@@ -414,6 +416,7 @@ fn values(
     truth: &Coverage,
 ) -> (f64, f64) {
     let v = &triangle.vertices;
+    // The exact values of what the specimen interpolates: its own kind of depth, and the attributes.
     let depths = v.map_array(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
     let attributes = v.map_array(|v| v.varying.to_array());
     let inv_w = v.map_array(|v| v.inv_w);
@@ -457,7 +460,7 @@ fn spread(values: [f64; 3]) -> f64 {
     if high > low { high - low } else { high.abs().max(f64::MIN_POSITIVE) }
 }
 
-/// Judges a case of lines.
+/// Compares each line of a case with the oracle's pixels.
 fn lines(specimen: &dyn PublishedLine, case: &Case) -> Counts {
     let Shape::Lines(list) = &case.shape else { return Counts::default() };
     let mut sum = Counts::default();

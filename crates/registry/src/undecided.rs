@@ -84,6 +84,7 @@ const MOST_RIVALS: usize = 1 << 19;
 pub fn find(scene: &Scene, frames: [EngineFrame<'_>; 2]) -> Result<Ties, BadScene> {
     let target = frames[0].target;
     let tied = TiedPieces::new(scene, target)?;
+    // The size counts pixels, the bounds samples where the target is larger.
     let (size, bounds) = (tied.size(), target.bounds());
     // As many rows as have about so many samples.
     let per_row = u64::from(size.width()) * target.antialias().samples();
@@ -163,10 +164,12 @@ fn far_textures(
     let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
         return Vec::new();
     };
+    // The piece without its values: where it is, and how deep.
     let is_multisampled = frames[0].target.antialias() == Antialias::Multisample4;
     // For each frame the samples at which it shows the piece as it may, in order, to be compared.
     let mut shown = [0, 1].map_array(|who| {
         let EngineFrame { engine, target } = frames[who];
+        // Each frame by the bounds of the engine that drew it.
         let (tolerance, here) = (engine.tolerance(), &target.planes[plane]);
         let at_depth = |x: i32, y: i32| {
             let depth = exact.at(x, y).0.to_f64();
@@ -194,6 +197,7 @@ fn far_textures(
         good.dedup();
         good
     });
+    // What both frames show as they may is excused.
     let [first, second] = &mut shown;
     first.retain(|sample| second.binary_search(sample).is_ok());
     first.iter().map(|&(y, x)| (x, y)).collect()
@@ -207,7 +211,6 @@ struct Band {
 }
 
 impl Band {
-    /// Both together.
     fn join(mut self, other: Self) -> Self {
         self.undecided.extend(other.undecided);
         self.excused.extend(other.excused);
@@ -250,6 +253,7 @@ impl Judge<'_> {
     fn judge(&self, rect: PixelRect) -> Band {
         // A single pixel is judged, however many pieces tie there.
         let halves = halves(rect);
+        // A list that is too long is not made, and the halves are judged one after the other.
         let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
         match (self.tied.within(rect, most), halves) {
             (Some(tied), _) => self.judge_tied(tied),
@@ -316,6 +320,7 @@ impl Judge<'_> {
 
     /// Finds what one of the two rasterizers shows of a piece at its candidates.
     fn shade(&self, who: usize, group: &mut [Candidate]) {
+        // The piece is drawn once more by this engine, and its colours are noted at the candidates.
         let EngineFrame { engine, target } = self.frames[who];
         let piece = group[0].tied_piece.piece;
         // The piece is shaded in the rectangle around its candidates.

@@ -174,6 +174,7 @@ impl SampleValues {
         for (y_px, row) in masks.rows() {
             for (x_px, &mask) in (bounds.x0..).zip(row).filter(|(_, mask)| **mask != 0) {
                 let at = |place| values_at(triangle, [x_px, y_px], place);
+                // A pixel that is covered as a whole has one value, at its centre, unless each sample has its own.
                 let first = SAMPLES[mask.trailing_zeros() as usize];
                 match self.at {
                     ValuePlace::Centre => emit(mask, at((8, 8))),
@@ -247,6 +248,7 @@ impl AreaLevels {
 
 /// The area of a triangle within the pixel with this upper left corner.
 fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
+    // In pixels from its upper left corner, so that the borders are 0 and 1.
     let mut polygon = corners.map(|p| [p[0] - pixel[0], p[1] - pixel[1]]).to_vec();
     for (axis, limit, sign) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
         let inside = |p: &[f64; 2]| sign * (p[axis] - limit);

@@ -9,7 +9,6 @@ use std::fmt::Write as _;
 
 use super::html::{Figure, escape};
 
-/// A colour by red, green and blue.
 pub type Ink = [u8; 3];
 
 /// The black of titles and labels.
@@ -40,7 +39,6 @@ pub struct Drawing {
 
 // Writing to a string does not fail.
 impl Drawing {
-    /// An empty drawing.
     pub fn new(title: &str, size: [f64; 2]) -> Self {
         Self { title: escape(title), size, inks: [PAPER].into(), body: String::new() }
     }
@@ -51,7 +49,6 @@ impl Drawing {
         format!("{what}=\"#{0}\" class=\"{1}{0}\"", hex(ink), &what[..1])
     }
 
-    /// A straight line.
     fn path(&mut self, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2], width: u32, ink: Ink) {
         let stroke = self.paint("stroke", ink);
         let _ = writeln!(
@@ -60,12 +57,10 @@ impl Drawing {
         );
     }
 
-    /// A line 1 unit wide.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.path(from, to, 1, ink);
     }
 
-    /// A line 2 units wide.
     pub fn wide_line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.path(from, to, 2, ink);
     }
@@ -84,7 +79,6 @@ impl Drawing {
         let _ = writeln!(self.body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {paint}/>");
     }
 
-    /// A filled circle.
     pub fn disc(&mut self, at: [f64; 2], radius: f64, ink: Ink) {
         let fill = self.paint("fill", ink);
         self.circle(at, radius, &fill);
@@ -107,12 +101,12 @@ impl Drawing {
         );
     }
 
-    /// The same by its right end.
+    /// A line of text by its right end, as beside an axis.
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
     }
 
-    /// The same by its middle.
+    /// A line of text by its middle, as below a mark.
     pub fn text_about(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text) / 2.0, at[1]], text, ink);
     }
@@ -120,6 +114,7 @@ impl Drawing {
 
 /// The width of a text, in units of the drawing: between that in Helvetica and that in DejaVu Sans, which is wide.
 pub fn width(text: &str) -> f64 {
+    // By the kind of letter, since no font can be measured here.
     let letter = |c: char| match c {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 3.5,
         ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | '"' => 4.6,
@@ -149,11 +144,11 @@ pub fn svg(drawing: &Drawing) -> String {
 
 /// The same drawing for wide pages, for files and for narrow pages, as a figure.
 pub fn figure(caption: &str, [wide, usual, narrow]: [Drawing; 3]) -> Figure {
+    // The browser takes the first version whose condition holds.
     let others = [("(min-width: 78rem)", svg(&wide)), ("(max-width: 40rem)", svg(&narrow))];
     Figure { caption: caption.to_owned(), svg: svg(&usual), others: others.into() }
 }
 
-/// A colour as six digits.
 fn hex([r, g, b]: Ink) -> String {
     format!("{r:02x}{g:02x}{b:02x}")
 }

@@ -59,7 +59,7 @@ impl Badness {
         bad
     }
 
-    /// Greater is worse.
+    /// The order of the rows: what is greater is worse, and stands above.
     fn compare(&self, other: &Self) -> Ordering {
         let wrong = (self.pixels, self.cases).cmp(&(other.pixels, other.cases));
         wrong.then(self.closest.total_cmp(&other.closest)).then(self.doubts.cmp(&other.doubts))
@@ -126,6 +126,7 @@ fn table(families: &[&FamilyReport]) -> Table {
     }
     // The heads are short, so a legend says what they mean.
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
+    // The last two columns are of values, or of decisions where corners are not snapped.
     let what = match first.kind {
         Kind::Unsnapped => "decided: sides of edges; exact: those in exact arithmetic",
         _ => "val, dep: worst value and depth as a fraction of its bound",
@@ -136,7 +137,7 @@ fn table(families: &[&FamilyReport]) -> Table {
     Table { caption, columns, rows: rows(families), legend, ..Table::default() }
 }
 
-/// The row of a family.
+/// A row with the counts of a family, a cell for each pair, and two more for each engine.
 fn row(f: &FamilyReport) -> Row {
     let mut cells = vec![f.family.clone()];
     for count in [f.cases, f.shapes, f.pixels] {
@@ -176,7 +177,7 @@ fn two_more(kind: Kind, pair: &PairReport) -> [String; 2] {
     }
 }
 
-/// A cell of wrong pixels.
+/// Wrong pixels, and where an engine panicked how often it did.
 fn wrong(tally: Tally, panics: u64) -> String {
     match panics {
         0 => tally.total().to_string(),
@@ -267,6 +268,7 @@ pub fn disagreements(verdict: &Verdict) -> Vec<String> {
         let (family, cases) = (&f.family, f.cases);
         for pair in f.pairs.iter().filter(|pair| !pair.agrees()) {
             let PairReport { actual, target, wrong_cases, .. } = pair;
+            // Each pair of engines is wrong by itself, and says in how many cases.
             let kinds = kinds(pair);
             out.push(format!(
                 "{family}: {actual} against {target}: wrong in {wrong_cases} of {cases} cases{kinds}"

@@ -13,18 +13,17 @@ use super::{html, json as json_text, text};
 use json_text::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
 
-/// A format that machines read.
+/// The formats in which a verdict can be printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// As a terminal shows it.
     Text,
-    /// Everything that was found.
+    /// Everything that was found, by names that are documented in `docs/`.
     Json,
     /// JUnit XML, for build servers.
     Junit,
     /// Test Anything Protocol, version 14.
     Tap,
-    /// A score for each property.
+    /// The results.json of Gradescope, with a score for each property.
     Gradescope,
     /// The result of an autograding step of GitHub Classroom.
     GithubClassroom,
@@ -110,6 +109,7 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
     for p in &verdict.more.properties {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
+        // The text has everything, the attribute the reason in short.
         let text = xml(&message(verdict, p, repeat));
         let about = xml(&(cause(verdict, p, "; ") + &p.detail));
         // What holds needs no words.
@@ -142,6 +142,7 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
 fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let mut out = format!("TAP version 14\n1..{}\n", verdict.more.properties.len());
     for (p, number) in verdict.more.properties.iter().zip(1..) {
+        // An expected failure is one that is to be mended, by the protocol's own word.
         let (word, mark) = match p.outcome {
             Outcome::Pass => ("ok", ""),
             Outcome::ExpectedFailure => ("not ok", " # TODO known failure"),

@@ -14,10 +14,8 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
 
-/// What was found of two frames.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
-    /// All pixels of the picture.
     pub pixels: u64,
     /// Pixels whose colours differ by a bit.
     pub wrong_pixels: u64,
@@ -45,9 +43,7 @@ impl Comparison {
     }
 }
 
-/// Marks what differs and may not.
 const RED: Colour = [255, 40, 40, 255];
-/// Marks what is undecided.
 const BROWN: Colour = [120, 84, 0, 255];
 /// Marks what is undecided and differs.
 const YELLOW: Colour = [255, 200, 0, 255];
@@ -86,12 +82,14 @@ pub fn compare(
         picture: Frame::new(bounds, [0; 4]),
     };
     for y_px in bounds.y0..bounds.y1 {
+        // Both pictures row by row, with what is known of ties at each pixel.
         let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
         for (x_px, (pixel, (first, second))) in
             (bounds.x0..).zip(found.picture.row_mut(y_px).iter_mut().zip(rows))
         {
             let ties = ties.filter(|ties| ties.is_undecided(x_px, y_px));
             let differs = first != second;
+            // A difference is excused by ties alone, sample by sample.
             let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
             found.wrong_pixels += u64::from(differs && !is_excused);
             // Of what is excused, ties of depth and far textures are counted apart.
@@ -150,6 +148,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     // Each engine may be off by its own bound.
     let error =
         tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
+    // In steps of the format in which depths are stored.
     let tolerance = a.format.tolerance(error);
     let mut wrong = Vec::new();
     let mut count = 0;
@@ -199,17 +198,15 @@ const MAP_WIDTH_PX: u32 = 1440;
 /// How often something occurs in the pixels of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
-    /// Over all pixels.
     pub mean: f64,
     pub most: u32,
     /// The first pixel that has the most, and how many have it.
     pub at: [i32; 2],
-    /// How many have the most.
     pub pixels: u64,
 }
 
 impl Amount {
-    /// What a frame of counts holds.
+    /// Goes through a frame of counts once; of equal pixels the first one is named.
     pub fn of(counts: &Frame<u32>) -> Self {
         let x0 = counts.bounds().x0;
         let mut amount = Self { mean: 0.0, most: 0, at: [0; 2], pixels: 0 };
@@ -258,6 +255,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
     let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
         let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
+        // Painted in full size, then made smaller as a whole.
         let whole = picture::painted(width, height, colour);
         let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
         let name = (name.to_owned(), Size::Heading, Rgb(ink));

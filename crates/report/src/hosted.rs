@@ -79,6 +79,7 @@ struct Job {
 impl Job {
     /// Reads options up to the line HELLO.
     fn read() -> Result<(Self, Declared), String> {
+        // Options come in any order, and the line HELLO ends them.
         let mut job = Self::default();
         for line in io::stdin().lines().map_while(Result::ok) {
             // The line HELLO ends the options.
@@ -94,7 +95,7 @@ impl Job {
         Err("no line with HELLO was read".to_owned())
     }
 
-    /// Takes an option.
+    /// Takes an option of the host; an error says what would have been one.
     fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
         let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
         // Whole numbers, from the least that makes sense.
@@ -154,6 +155,7 @@ impl Job {
         for (name, value) in all {
             arguments.push(format!("{name}{}{value}", self.is()));
         }
+        // JavaScript has the options in an object, and Python has them by name.
         let [open, close] = if self.is_python { ["", ""] } else { ["{ ", " }"] };
         format!("{}, {open}{}{close})", self.call, arguments.join(", "))
     }
@@ -225,7 +227,7 @@ fn cause_first(report: &Report) -> String {
     }
 }
 
-/// What the started program does.
+/// Judges once, and ends with the status of `judge`.
 pub fn main() -> ExitCode {
     let judged = Job::read().and_then(|(job, declared)| job.judge(declared));
     let (status, said) = match judged {

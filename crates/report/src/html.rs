@@ -31,7 +31,7 @@ const MOST_LEFT_OUT_NAMES: usize = 20;
 const MOST_ROWS: usize = 8;
 /// Below a table with more notes than these, they are folded: a list of them is longer than the table.
 const MOST_NOTES: usize = 4;
-/// What a table takes at most.
+/// A table beyond this size ends with the number of rows that are left out.
 const MOST_TABLE_BYTES: usize = 500_000;
 
 /// The frame of all pages around that of reports.
@@ -75,7 +75,7 @@ pub struct Report {
     pub command: String,
     /// The command that repeats it without pages, where that is another one.
     pub repeat: String,
-    /// Sentences below everything else.
+    /// Sentences in the last section of the page.
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
@@ -83,13 +83,11 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     /// The cases that a terminal shows, above the tables.
     pub excerpts: Vec<Excerpt>,
-    /// Pictures to look into.
+    /// Rendered pictures, shown in the same viewer as cases.
     pub frames: Vec<PictureView>,
-    /// Plots.
     pub figures: Vec<Figure>,
     /// The same for machines, where it is made of this value.
     pub data: serde_json::Value,
-    /// Texts that have changed.
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
@@ -109,7 +107,6 @@ pub struct PicturedAnswer {
 pub struct Statement {
     /// The question in a word or two.
     pub about: &'static str,
-    /// The answer.
     pub sentence: String,
     /// The command that says more, or nothing.
     pub command: String,
@@ -129,12 +126,11 @@ pub struct Excerpt {
     pub places: Vec<(&'static str, String)>,
 }
 
-/// The verdict of a report.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
-    /// The verdict in capitals.
+    /// The verdict in capitals, as `AGREES`.
     pub word: String,
     /// The verdict in a sentence, with the cause where one is known; nothing where `sentence` says it.
     pub answer: String,
@@ -143,7 +139,6 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// An outcome in these words.
     pub fn new(good: bool, word: &str, sentence: impl Into<String>) -> Self {
         let (word, answer) = (word.to_owned(), String::new());
         Self { good, word, answer, sentence: sentence.into() }
@@ -175,7 +170,7 @@ impl Outcome {
     }
 }
 
-/// A plot.
+/// A plot with its caption, in one version or in several.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -187,7 +182,7 @@ pub struct Figure {
     pub others: Vec<(&'static str, String)>,
 }
 
-/// Two versions of a text.
+/// Two versions of a text, of which the page shows the lines that differ.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
@@ -197,7 +192,6 @@ pub struct TextDiff {
     pub command: String,
     /// Before; nothing where there was none.
     pub old: Option<String>,
-    /// Now.
     pub new: String,
 }
 
@@ -206,7 +200,6 @@ pub struct TextDiff {
 pub struct PictureView {
     /// Its name; unique within the page.
     pub name: String,
-    /// What it shows, in words.
     #[serde(serialize_with = "serialize_grouped")]
     pub about: String,
     /// The command that makes it, or nothing.
@@ -220,7 +213,6 @@ pub struct PictureView {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
     pub name: String,
-    /// As a `data:` address.
     png: String,
     /// Whether it marks pixels of another layer, so that its colours are not compared with those of others.
     is_map: bool,
@@ -291,7 +283,7 @@ pub fn page(report: &Report) -> String {
     let mut room =
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
-    // The head and the tables are always there; what comes after them has the room that they leave.
+    // The head and the tables are always there; what comes after them may take the bytes that are left.
     let head = head(report);
     // A page begins with one picture or one table; all other rows are folded.
     let is_folded = report.pictured.is_some();
@@ -301,7 +293,7 @@ pub fn page(report: &Report) -> String {
         has_rows |= !one.rows.is_empty();
     }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
-    // Takes a part of the page if there is room for it, else its name.
+    // Takes a part of the page if it fits, and otherwise keeps its name for a note.
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
             room -= text.len() + 1;
@@ -337,6 +329,7 @@ pub fn page(report: &Report) -> String {
     let data = format!(
         "{{\"docs\":{docs},\"playground\":{playground},\"cases\":[{cases}],\"frames\":[{frames}]}}"
     );
+    // How to repeat it stands last, with everything that did not fit.
     let run = command(&report.command) + &notes(&report.notes, &left_out);
     let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
     // Links at the top, to the sections that are not empty.
@@ -416,6 +409,7 @@ fn section(title: &str, inside: &str) -> String {
 
 /// What stands above the cases: the verdict, the answers, and what it is about.
 fn head(report: &Report) -> String {
+    // The verdict comes first, then its picture, then what was judged, then the answers.
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
     if let Some(outcome) = &report.outcome {
         let class = if outcome.good { "good" } else { "bad" };
@@ -479,6 +473,7 @@ pub fn index(pages: &[(String, String)]) -> String {
             "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>"
         );
     }
+    // The index needs no script and loads nothing.
     let style = &*STYLE;
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -498,7 +493,7 @@ fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {
     (!inside.contains('<')).then_some(inside)
 }
 
-/// A command that can be copied.
+/// A command with a button that copies it; nothing where there is no command.
 fn command(text: &str) -> String {
     if text.is_empty() {
         return String::new();
@@ -572,7 +567,7 @@ fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     }
 }
 
-/// The rows of a table, of which some may be hidden until they are asked for.
+/// The rows of a table; where there are many, some are hidden until the reader opens them.
 fn rows(table: &Table, is_folded: bool) -> String {
     // A table without a caption belongs to the one above it, and has the name of its rows.
     let name = match (&*table.caption, table.columns.first()) {
@@ -597,6 +592,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
     // Sums first; where the table becomes too long, the last rows are left out.
     let mut left_out = table.rows.len();
     let most_wrong = table.rows.iter().map(|row| row.wrong).max().unwrap_or(0);
+    // The sum of all rows stands above them, where it is seen first.
     let others = table.rows.iter().filter(|row| row.mark != Mark::Sum);
     for row in table.rows.iter().filter(|row| row.mark == Mark::Sum).chain(others) {
         if out.len() > MOST_TABLE_BYTES {
@@ -613,6 +609,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
         let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
             let text = if column.is_number { prose(cell) } else { escape(cell) };
+            // A cell that takes the rest of the row is text, whatever its column is.
             let number = match column.is_number {
                 _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
                 true => " class=\"number\"".to_owned(),
@@ -682,6 +679,7 @@ fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
     // The search for the fewest changes stops at the deadline.
     let lines = Lines::configure().deadline(deadline).diff_lines(old, &diff.new);
     if Instant::now() > deadline {
+        // Without the changes, at least how long the texts are.
         let [before, after] = [old, &diff.new].map(|text| text.lines().count());
         let _ = writeln!(
             out,

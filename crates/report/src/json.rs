@@ -23,7 +23,6 @@ pub fn line(of: &impl Serialize) -> String {
     serde_json::to_string(of).unwrap_or_default()
 }
 
-/// JSON with a member a line.
 pub fn pretty(value: &impl Serialize) -> String {
     // Numbers and strings only: this cannot fail.
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
@@ -66,6 +65,7 @@ pub fn judgement(
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Value {
+    // Lists are made first, since the macro takes values.
     let d = &verdict.more.declared;
     let failures = verdict.failures.iter().map(|f| {
         json!({

@@ -204,6 +204,7 @@ fn why_in_short(verdict: &Verdict) -> String {
         (Some(found), _) => format!(". {}", found.sentences.join(" ")),
         (None, Some(does)) => format!(": mostly, it {does}"),
         (None, None) => {
+            // Not wrong pixels but broken rules of the protocol are what is left.
             let incidents = verdict.more.found.incidents.iter().map(|incident| &incident.what);
             let first = incidents.chain(&verdict.more.found.strays).next();
             first.map(|what| format!(": it {}", what.breach.name())).unwrap_or_default()
@@ -339,6 +340,7 @@ fn dangers(verdict: &Verdict) -> Table {
         if summary::DANGERS.iter().any(|danger| danger.families.contains(&row.name)) {
             continue;
         }
+        // What is right needs no details.
         let what = match row.wrong_cases {
             0 => format!("{} cases, all right", thousands(row.cases)),
             _ => verdict::sentence(row),
@@ -395,6 +397,7 @@ fn scores(verdict: &Verdict) -> Table {
     if let Some(recognised) = &verdict.more.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
+            // A convention is named in the directions of the program, which may have y up.
             let turned =
                 if verdict.more.declared.convention.y_up { " (in its words, y up)" } else { "" };
             let declare = &recognised.declare;
@@ -434,6 +437,7 @@ fn families(verdict: &Verdict) -> Table {
             [name, cases, shapes, pixels, missing, extra, twice, order, refused, &share];
         rows.push(Row::of(&cells));
     }
+    // Below the table, what its columns count where that is not obvious.
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
@@ -478,6 +482,7 @@ pub(super) fn excerpts(
     property: Option<&str>,
 ) -> Vec<Excerpt> {
     let names = names(verdict);
+    // The grids of a case are named after whoever drew them.
     let drawn_by = match &names {
         Some([first, second]) => vec![first.as_str(), second],
         None => vec!["judged"],
@@ -535,6 +540,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let (property, what) = (failure.evidence.property, &failure.what);
     let changes = failure.evidence.changes;
     let drawn_by = if changes { &["first", "again"] } else { drawn_by };
+    // Answers that change are shown twice, in the place of a second program's.
     let second = if changes { "again" } else { "other" };
     let mut exchanges = Vec::new();
     for exchange in failure.evidence.exchanges.iter().take(MOST_EXCHANGES) {
@@ -678,6 +684,7 @@ fn closing(verdict: &Verdict) -> String {
         expected += u64::from(p.outcome == verdict::Outcome::ExpectedFailure);
     }
     let RunFindings { cases, of_cases, out_of_time, .. } = verdict.more.found;
+    // A run that ended early says how far it came.
     let until = match out_of_time {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),
@@ -688,6 +695,7 @@ fn closing(verdict: &Verdict) -> String {
         0 => String::new(),
         n => format!(", {n} properties fail as the baseline says"),
     };
+    // The properties that fail, by name.
     let (count, all) = (failing.len(), verdict.more.properties.len());
     match count {
         0 => format!("{what}{known}"),
@@ -732,7 +740,7 @@ fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::Ca
     view
 }
 
-/// A row for each property.
+/// Every property with what was found, those that fail first and with a link to their cases.
 fn properties(verdict: &Verdict) -> Table {
     let (mut rows, mut good) = (Vec::new(), Vec::new());
     for p in &verdict.more.properties {

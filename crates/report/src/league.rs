@@ -9,7 +9,6 @@ use rasterproof_judge::verdict::{Score, per_million};
 
 /// What stands around the numbers.
 struct Words {
-    /// The heads of the columns.
     header: &'static str,
     /// What stands for the score of a convention that is the declared one.
     as_declared: &'static str,
@@ -19,7 +18,6 @@ struct Words {
     mistake: &'static str,
     /// Before the name of an earlier library that does the same.
     as_first: &'static str,
-    /// Triangles, lines.
     kinds: [&'static str; 2],
     /// What stands after what a line is about, and at its end.
     marks: [&'static str; 2],
@@ -82,9 +80,11 @@ pub fn tables(league: &League, chinese: bool) -> String {
     out += &"---:|".repeat(8);
     out.push('\n');
     for row in &league.rows {
+        // Triangles, then lines: as declared, and by the convention that explains them.
         let [as_is, found] = scores(row.triangles.as_ref(), words);
         let [lines, lines_found] = scores(row.lines.as_ref(), words);
         let [meshes, holes, doubles] = row.meshes;
+        // Without meshes there is nothing that could have a hole.
         let [holes, doubles] = [holes, doubles].map(|pixels| match meshes {
             0 => "-".to_owned(),
             _ => pixels.to_string(),
@@ -183,7 +183,6 @@ fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     [share(kind.as_declared), found]
 }
 
-/// The part that changed, of all.
 fn percent([all, changed]: [u64; 2]) -> String {
     if all == 0 { "-".to_owned() } else { format!("{:.0}%", 100.0 * changed as f64 / all as f64) }
 }

@@ -5,12 +5,10 @@ use image::{Rgb, RgbImage};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, RasterizedChar, get_raster};
 use rasterproof_verify::judge::ascii::lines;
 
-/// The two sizes of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
     /// Words beside a picture, numbers of rows and columns.
     Small,
-    /// Names of pictures, in bold.
     Heading,
 }
 
@@ -26,7 +24,7 @@ impl Size {
         }
     }
 
-    /// The bitmap of a character.
+    /// The bitmap of a character, or that of a question mark.
     fn glyph(self, character: char) -> Option<RasterizedChar> {
         let raster = |drawn| match self {
             Self::Small => get_raster(drawn, FontWeight::Regular, RasterHeight::Size16),
@@ -61,6 +59,7 @@ pub fn write(image: &mut RgbImage, left_top: (i64, i64), text: &str, size: Size,
             let (x, y) = (place % cell_width, place / cell_width);
             let at = [left.saturating_add(x.into()), top.saturating_add(y.into())];
             let [Ok(at_x), Ok(at_y)] = at.map(u32::try_from) else { continue };
+            // Letters may begin or end outside of the picture.
             let Some(pixel) = image.get_pixel_mut_checked(at_x, at_y) else { continue };
             let share = share(x, y);
             for (held, ink) in pixel.0.iter_mut().zip(ink.0) {

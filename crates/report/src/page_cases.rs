@@ -23,29 +23,26 @@ use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::cases::{self, Case, Family, Shape};
 use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 
-/// A case of the page.
+/// A case of the page: positions, and what is drawn there, as the script reads it.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
     pub name: String,
-    /// Where it is from.
+    /// Where the case is from, in a sentence.
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub about: String,
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub found: String,
-    /// What repeats it, or nothing.
     pub command: String,
     /// The page of the docs that explains what decides it.
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
     pictured: String,
-    /// The pixels that are drawn.
     window: PixelRect,
-    /// What is drawn in them.
     shape: ShapeView,
-    /// What everybody draws, the engines first.
+    /// What each of them draws, the engines first.
     layers: Vec<Layer>,
     /// The two layers that are compared first.
     start: [usize; 2],
@@ -55,13 +52,13 @@ pub struct CaseView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// It was found to be wrong.
+    /// It was found to be wrong, and made small.
     Failing,
     /// Its values came closest to a bound.
     Closest,
     /// The first of a family off the lattice.
     OffGrid,
-    /// It has a name in the catalogue.
+    /// It has a name in the catalogue of hard cases.
     Named,
     /// It exposes a published fault.
     Specimen,
@@ -71,9 +68,7 @@ pub enum Kind {
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "kind", content = "points", rename_all = "lowercase")]
 enum ShapeView {
-    /// In subpixels.
     Triangles(Vec<[[i32; 2]; 3]>),
-    /// From pixel to pixel.
     Lines(Vec<[[i32; 2]; 2]>),
     /// In pixels, off the lattice; empty where there is no shape to show.
     Free(Vec<[[f64; 2]; 3]>),
@@ -87,25 +82,24 @@ struct Layer {
     role: Role,
     /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
     runs: Vec<u32>,
-    /// Pixels that are hit.
     covered: u64,
-    /// What differs from what is right.
+    /// Pixels that differ from the oracle's, or from what is expected.
     tally: Tally,
     /// Why nothing is drawn, or nothing.
     refused: String,
 }
 
-/// Who draws a layer.
+/// Who draws a layer, by which the page colours its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Role {
     Engine,
-    /// An engine with a fault.
+    /// An engine with a planted fault.
     Planted,
     Oracle,
     /// Of a program that declares another convention than this project's.
     Expected,
-    /// A published algorithm.
+    /// A published algorithm with its faults.
     Specimen,
 }
 
@@ -172,7 +166,7 @@ fn unsnapped_samples(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView
     families.map(|family| of_family(family, seed, 0, Kind::OffGrid, judged)).collect()
 }
 
-/// A case of a family.
+/// A case of a family as it is generated, with the command that shows it.
 fn of_family(
     family: &Family,
     seed: u64,
@@ -180,13 +174,14 @@ fn of_family(
     kind: Kind,
     judged: &EnginesToJudge,
 ) -> CaseView {
+    // The same name that the command takes.
     let name = format!("{}#{index}", family.name);
     let command = format!("rasterproof inspect {name} --seed {seed}");
     let view = of_case(name, family.about.to_owned(), kind, &family.case(seed, index), judged);
     CaseView { command, ..view }
 }
 
-/// The named cases that are drawn.
+/// Every case of the catalogue but those that are refused.
 fn every_named(judged: &EnginesToJudge) -> Vec<CaseView> {
     let mut views = Vec::new();
     for named in named::named() {
@@ -213,6 +208,7 @@ pub fn of_specimens() -> Vec<CaseView> {
         };
         let about = format!("{}: {shown}", card.source);
         let mut view = of_case(card.name.to_owned(), about, Kind::Specimen, &case, &judged);
+        // The published code is compared with the oracle.
         let place = view.place(card.name, 0);
         // A fault of the values alone is for the pictures to show.
         if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
@@ -254,6 +250,7 @@ pub fn of_program(
     let mut view = of_case(name, about, Kind::Failing, case, &EnginesToJudge::default());
     // The engines and the specimens draw the case; the program's picture comes from the judge.
     let Some(Pictured { drawn, other, expected, of, moved }) = picture else { return view };
+    // Each program with its own picture, compared with what is expected.
     let pictures = programs.iter().zip([drawn].into_iter().chain(other));
     let drawn = pictures
         .map(|(by, drawn)| layer((*by).to_owned(), Role::Engine, Ok(drawn.clone()), expected));
@@ -271,7 +268,7 @@ pub fn of_program(
         }
         return view;
     }
-    // The program before everybody else, compared with the other program or with the oracle.
+    // The program comes first, and is compared with the other program or with the oracle.
     view.layers.splice(0..0, drawn);
     view.start = [0, if other.is_some() { 1 } else { view.place("oracle", 1) }];
     view
@@ -299,7 +296,7 @@ pub fn of_case(
     judged: &EnginesToJudge,
 ) -> CaseView {
     let truth = oracle_hits(case);
-    // Everybody who draws the case: the engines, then the oracle, then the specimens.
+    // Whoever draws the case: the engines, then the oracle, then the specimens.
     let mut drawn: Vec<EngineHits> =
         judged.with_others().hits(case).into_iter().map(with_role).collect();
     drawn.push(("oracle".to_owned(), Role::Oracle, Ok(truth.clone())));
@@ -335,6 +332,7 @@ pub fn of_case(
             None => layers.push(layer),
         }
     }
+    // The page begins with two layers that differ, if there are any.
     let (start, window) = (start(&layers), case.window);
     let [found, command, pictured] = [const { String::new() }; 3];
     let chapter = chapter(kind, &shape);
@@ -361,7 +359,6 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     Chapter { title, path }
 }
 
-/// A layer with its counts.
 fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
     // Who panics or refuses draws nothing, and the reason is shown.
     let (runs, covered, tally, refused) = match hits {
@@ -371,7 +368,6 @@ fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
     Layer { names: vec![name], role, runs, covered, tally, refused }
 }
 
-/// The hits as lengths of runs.
 fn runs(hits: &Coverage) -> Vec<u32> {
     let mut runs: Vec<u32> = Vec::new();
     // A run may go on in the next row.

@@ -31,7 +31,6 @@ const BESIDE: u32 = 34;
 /// The colours of words: headings, and what stands below them.
 pub const INK: Rgb<u8> = Rgb([30, 30, 30]);
 pub const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
-/// The paper.
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 
 /// The name of an engine, and what it draws.
@@ -41,6 +40,7 @@ pub type EnginePicture = (String, Coverage);
 ///
 /// All coverages show the case's window.
 pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Coverage) -> RgbImage {
+    // Of a few triangles side by side, the right pixels have the colour of their triangle.
     let (window, owners, segments) = (case.window, owners(case, target), outline(case));
     let oracle = [("oracle".to_owned(), target.clone())];
     let all: Vec<&EnginePicture> = actual.iter().chain(&oracle).collect();
@@ -108,7 +108,7 @@ pub fn arranged(
 ) -> RgbImage {
     let wide = cells.iter().map(|cell| cell.width()).max().unwrap_or(1);
     let high = cells.iter().map(|cell| cell.height()).max().unwrap_or(1);
-    // Every cell has the room of the largest one.
+    // All cells are as large as the largest one, so that columns line up.
     let rows = (cells.len() as u32).div_ceil(columns);
     let width = (GAP + columns * (wide + GAP)).max(420);
     // The words are broken into lines first, for their number decides where the cells begin.
@@ -140,6 +140,7 @@ pub fn arranged(
 /// pixel is hit twice: then the picture shows who gets the pixels of an edge.
 fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
     let Shape::Triangles { list, .. } = &case.shape else { return None };
+    // Where a pixel belongs to two triangles, no colour can say which.
     let once = target.rows().all(|(_, row)| row.iter().all(|&hits| hits <= 1));
     if !once || !(2..=OWNERS.len()).contains(&list.len()) {
         return None;
@@ -166,7 +167,7 @@ fn crop(
     outline: &[[PixelPoint; 2]],
 ) -> PixelRect {
     let hits = |c: &Coverage, x: i32, y: i32| c.get(x, y).unwrap_or(0);
-    // What is hit, what differs, and where the shape is, each with some room.
+    // What is hit, what differs, and where the shape is, each with some pixels around it.
     let hit = around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) > 0), 1);
     let wrong =
         around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) != hits(target, x, y)), 4);
@@ -185,7 +186,6 @@ fn crop(
     shape.filter(is_small).or(wrong).or(hit).or(shape).unwrap_or(window)
 }
 
-/// The box around two boxes.
 fn union(a: PixelRect, b: PixelRect) -> PixelRect {
     PixelRect { x0: a.x0.min(b.x0), y0: a.y0.min(b.y0), x1: a.x1.max(b.x1), y1: a.y1.max(b.y1) }
 }
@@ -196,7 +196,6 @@ fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Op
     Some(wider(boxes.reduce(union)?, spare, window))
 }
 
-/// The box of one pixel.
 fn pixel((x0, y0): (i32, i32)) -> PixelRect {
     PixelRect { x0, y0, x1: x0 + 1, y1: y0 + 1 }
 }
@@ -227,7 +226,7 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     best
 }
 
-/// Room for the numbers of the rows.
+/// The width of the longest number of a row, at least so much that panels line up.
 fn left_of(shown: PixelRect) -> u32 {
     let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
@@ -294,6 +293,7 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
             wrong.push(format!("{pixels} {word}"));
         }
     }
+    // Without a difference the count of pixels is all there is to say.
     let covered = format!("{} px", hits.covered());
     if wrong.is_empty() { covered } else { format!("{covered}: {}", wrong.join(", ")) }
 }
@@ -301,7 +301,9 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
 /// Numbers of columns over the squares, of rows left of them, as many as fit. The squares begin at `left` and `top`.
 fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
     let widest = [shown.x0, shown.x1 - 1].map_array(|n| n.to_string().len() as u32);
+    // A number takes as many letters as the longest one in its direction.
     let [cell_width, cell_height] = Size::Small.cell();
+    // In picture pixels: a number and a gap beside it, or the height of a line.
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
     let steps = rooms.map_array(|room| step_of_numbers(room, zoom));
     for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(steps[0]) == 0) {
@@ -325,7 +327,7 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
     }
 }
 
-/// The least of 1, 2, 5, 10, 20 ... of which the pixels have room for a number.
+/// The least step of 1, 2, 5, 10, 20 and so on at which a number is not wider than the pixels up to the next one.
 fn step_of_numbers(room: u32, zoom: u32) -> i32 {
     for power in [1, 10, 100, 1000, 10_000, 100_000] {
         for step in [power, 2 * power, 5 * power] {
@@ -345,7 +347,7 @@ fn squares(
     colour: &dyn Fn(i32, i32) -> Rgb<u8>,
 ) -> RgbImage {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    // Lines between pixels, and dots for samples, only where there is room for them.
+    // Lines between pixels and dots for samples are drawn where squares are large enough.
     let has_grid = zoom >= if has_samples { 4 } else { 6 };
     let has_samples = has_samples && zoom >= SAMPLED;
     let is_dot = |offset: u32| has_samples && offset.abs_diff(zoom / 2) <= zoom / 32;

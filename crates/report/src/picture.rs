@@ -37,6 +37,7 @@ pub const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// The picture pixels of a segment that lie in a panel.
 pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
+    // Drawn by this project's own line drawer, cut off at the panel.
     let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
@@ -95,7 +96,6 @@ pub fn is_plain<P: PartialEq>(mut pixels: impl Iterator<Item = P>) -> bool {
 /// A line from one position to another, in pixels.
 pub type Segment = [[f64; 2]; 2];
 
-/// The three edges of a triangle.
 pub fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
     [[a, b], [b, c], [c, a]]
 }
@@ -151,6 +151,7 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 /// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
 pub fn png(image: &RgbImage) -> Vec<u8> {
     let mut bytes = Vec::new();
+    // Written here and not by `image`, whose encoder has no palettes.
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
     // Few colours take one byte a pixel, which also compresses better.
     let data = match indexed(image) {

@@ -6,11 +6,11 @@ use super::words::{of_bound, thousands};
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
-/// A kind of hard cases.
+/// What may go wrong in a rasterizer, with the families of cases that show it.
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
-    /// The page that explains it.
+    /// The page of the docs that explains it.
     pub chapter: &'static str,
     /// The families of cases in which it is met.
     pub(super) families: &'static [&'static str],
@@ -50,7 +50,9 @@ pub const DANGERS: &[Danger] = dangers![
 pub fn asked(shares: &[DesignShare]) -> Option<Table> {
     let mut notes = Vec::new();
     for share in shares {
+        // How many pairs of facts occurred together in some case, of all that can.
         let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
+        // Some pairs cannot occur, by what a family declares.
         let pairs = match share.pairs == share.of_pairs {
             true => format!("all {pairs}"),
             false => format!("{pairs} of {of_pairs}"),

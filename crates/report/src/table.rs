@@ -29,7 +29,7 @@ pub struct Column {
     short: String,
     /// The head in more words, or nothing.
     pub about: String,
-    /// Numbers stand at the right.
+    /// Numbers stand at the right of their column, so that digits line up.
     pub is_number: bool,
     /// Whether the label stands before each cell that stands below its row.
     is_labelled: bool,
@@ -44,7 +44,6 @@ pub fn columns(all: &str) -> Vec<Column> {
     all.split(" | ").map(column).collect()
 }
 
-/// One of them.
 fn column(text: &str) -> Column {
     let (is_number, text) = without_sign(text, '>');
     let (is_labelled, text) = without_sign(text, ':');
@@ -73,7 +72,6 @@ fn without_sign(text: &str, sign: char) -> (bool, &str) {
 }
 
 impl Column {
-    /// A column of words.
     pub fn words(label: &str) -> Self {
         Self { label: label.to_owned(), short: label.to_owned(), ..Self::default() }
     }
@@ -111,7 +109,6 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row of these cells.
     pub fn of(cells: &[&dyn Display]) -> Self {
         Self::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>())
     }
@@ -128,7 +125,6 @@ impl From<Vec<String>> for Row {
     }
 }
 
-/// How a row is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
     #[default]
@@ -145,12 +141,10 @@ impl Table {
         Self::of(caption, self::columns(columns), rows)
     }
 
-    /// A table with these columns.
     pub fn of(caption: &str, columns: Vec<Column>, rows: Vec<Row>) -> Self {
         Self { caption: caption.to_owned(), columns, rows, ..Self::default() }
     }
 
-    /// The same with notes below it.
     pub fn noted(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
@@ -207,6 +201,7 @@ impl Table {
                 let gap = if i > 0 { " " } else { "" };
                 // A last cell that has no column of its own is not padded.
                 let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
+                // A cell below its row says what it is about.
                 let label = if column.is_labelled && !takes_rest {
                     &*format!("{}: ", column.label)
                 } else {

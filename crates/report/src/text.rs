@@ -19,6 +19,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     // No wider than what can be read without moving the head.
     let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
+    // A verdict begins with its mark, so that it is seen before anything is read.
     let mut out = match verdict {
         Some(outcome) if !report.about.is_empty() => format!("{} ", mark(outcome.good, colour)),
         _ => String::new(),

@@ -121,6 +121,7 @@ pub fn write(
                 Err(why) => drop(why_not.get_or_insert(why)),
                 Ok(plain) => {
                     number += 1;
+                    // The first request of a case has the picture and the command in its comment.
                     let name = name(failure, number);
                     let about = if number == 1 { about(failure, repeat) } else { String::new() };
                     tests += &test(language, &name, &about, question, &plain);
@@ -217,7 +218,7 @@ fn file_of(
     text + "\n"
 }
 
-/// The constant of the language.
+/// Whether a mask or a count is expected, as a constant of the language.
 fn counts_hits(language: Language, counts: bool) -> &'static str {
     match (language, counts) {
         (Language::Python, true) => "True",
@@ -321,6 +322,7 @@ fn test(
     let bounds: Vec<String> = plain.bounds.iter().map(|bound| number(language, *bound)).collect();
     // The words of the template, and what stands in their place.
     let kind = Kind::of(question);
+    // How far values may be off, or zeros where there are none.
     let bounds = match (bounds.is_empty(), language) {
         (true, Language::C) => "0".to_owned(),
         (true, _) => vec!["0.0"; kind.values].join(", "),
@@ -376,7 +378,7 @@ fn test(
 
 /// What differs between the functions that are tested.
 struct Kind {
-    /// What the reader fills in.
+    /// The name of the function that the reader fills in.
     function: &'static str,
     /// What it is given to draw a pixel with, in C.
     setter: &'static str,
@@ -419,7 +421,6 @@ fn pixel(language: Language, pixel: &PlainPixel) -> String {
     }
 }
 
-/// The brackets of lists.
 fn brackets(language: Language) -> [&'static str; 2] {
     if language == Language::C { ["{", "}"] } else { ["[", "]"] }
 }

@@ -149,7 +149,6 @@ fn step() -> Vec<f64> {
     vec![found[1]]
 }
 
-/// The two halves of a square.
 const UPPER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]];
 const LOWER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
 

@@ -40,7 +40,7 @@ pub struct CaseDrawing {
     target: Coverage,
 }
 
-/// Draws a case by everybody who is judged.
+/// Draws a case by all engines that are judged, and by the oracle.
 pub fn draw(case: &Case, judged: &EnginesToJudge) -> CaseDrawing {
     CaseDrawing { engines: judged.hits(case), target: oracle_hits(case) }
 }
@@ -65,7 +65,6 @@ impl CaseDrawing {
         tally
     }
 
-    /// Whether no engine is drawn.
     pub fn is_empty(&self) -> bool {
         self.engines.is_empty()
     }

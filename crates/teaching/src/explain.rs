@@ -51,12 +51,11 @@ fn centre(at: PixelPoint) -> [f64; 2] {
     [at.x, at.y].map(|v| f64::from(v) + 0.5)
 }
 
-/// A point with all of its digits.
+/// A point with all of its digits, since a last bit may decide.
 fn free_point([x, y]: [f64; 2]) -> String {
     format!("({x:?}, {y:?})")
 }
 
-/// A point of the grid, in pixels.
 pub fn point(p: SubpixelPoint) -> String {
     let (x, y) = p.to_px();
     format!("({x}, {y})")
@@ -135,6 +134,7 @@ fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelP
     let area: i128 = edge_values(&corners, at.x, at.y).iter().sum();
     // Value i belongs to the edge opposite corner i; in units of 1/65536 square pixel.
     let edge = |corners: Corners, opposite: usize| {
+        // Inside is where all three values are above 0, or 0 on an edge that the rule counts in.
         let value = edge_values(&corners, at.x, at.y)[opposite];
         let (from, to) = (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]);
         let side = side(value.cmp(&0), kind([from.x, from.y], [to.x, to.y]));
@@ -156,6 +156,7 @@ fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at
     let area = edge_value(corners[0], corners[1], corners[2]).0;
     let edge = |corners: [[f64; 2]; 3], i: usize| {
         let (from, to) = (corners[i], corners[(i + 1) % 3]);
+        // The sign is exact, and the value is cut to what a float holds.
         let (sign, value) = edge_value(from, to, centre(at));
         let value = match (sign, value == 0.0) {
             (Ordering::Greater, true) => "above 0 by less than any f64".to_owned(),

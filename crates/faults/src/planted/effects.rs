@@ -35,16 +35,16 @@ pub type LitStage = fn(&LightView, &ShadowMap, [DVec3; 3], DVec3) -> u32;
 pub struct Formulas {
     /// Blends a colour over what was there before, by its opacity.
     pub over: fn(Colour, Colour, u8) -> Colour,
-    /// Mixes layers.
+    /// Mixes what lies before the opaque surface of a sample, from the farthest layer on.
     pub mix: MixStage,
-    /// Decides how a texture is read.
+    /// How often a texture is read for a fragment, and at which level.
     pub taps: TapsStage,
     /// Decides how much light a place gets.
     pub lit: LitStage,
 }
 
 impl Formulas {
-    /// The right ones.
+    /// The formulas of the pipeline, of which a mutant replaces one.
     pub const REAL: Self = Self {
         over,
         mix: |layers, most, stored, colour| {
@@ -103,6 +103,7 @@ impl EffectMutant {
             Self::TapsRoundedUp => {
                 formulas.taps = |footprint, uv, w, most| {
                     let [x, y] = footprint.lengths(uv, w);
+                    // The length of the footprint in its widths.
                     let ratio = x.max(y) / x.min(y).max(1.0);
                     let real = footprint.taps(uv, w, most);
                     let count = (ratio.ceil() as u8).clamp(1, most);
@@ -125,6 +126,7 @@ impl EffectMutant {
             }
             Self::ShadowWithoutSlope => {
                 formulas.lit = |view, map, places, place| {
+                    // As if the plane faced the light, so that the bias is too small for planes that do not.
                     let flat = places.map_array(|corner| DVec3 { z: places[0].z, ..corner });
                     view.receiver(map, flat).lit(place)
                 };

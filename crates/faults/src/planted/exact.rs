@@ -58,6 +58,7 @@ impl ExactMutant {
             }
             Self::PlainCrossing => by_crossing(px, bounds, emit),
             Self::SnapsInside => {
+                // Corners that cannot be snapped draw nothing.
                 let snapped = px.map_array(|[x, y]| SubpixelPoint::from_px(x, y));
                 if let [Ok(a), Ok(b), Ok(c)] = snapped {
                     Scanline.cover([a, b, c], bounds, emit);
@@ -77,7 +78,6 @@ impl ExactMutant {
     }
 }
 
-/// x and y in pixels.
 type Point = [f64; 2];
 
 /// The edge function as f64 computes it, with an error that may have the wrong sign.
@@ -85,7 +85,7 @@ fn e_f64(a: Point, b: Point, p: Point) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// The same in f32.
+/// The same in f32, in which already the coordinates are rounded.
 fn e_f32(a: Point, b: Point, p: Point) -> f64 {
     let [a, b, p] = [a, b, p].map_array(|point| point.map_array(|v| v as f32));
     f64::from((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
@@ -99,7 +99,7 @@ fn e_filtered(a: Point, b: Point, p: Point) -> f64 {
     if (left - right).abs() > bound { left - right } else { e_exact(a, b, p) }
 }
 
-/// A number with the right sign.
+/// A number whose sign is that of the exact edge function; its size is not exact.
 fn e_exact(a: Point, b: Point, p: Point) -> f64 {
     let coord = |[x, y]: Point| robust::Coord { x, y };
     robust::orient2d(coord(a), coord(b), coord(p))

@@ -106,6 +106,7 @@ impl SourceMutant {
             },
             Self::Counts => |family, seed, index| {
                 static MADE: AtomicU64 = AtomicU64::new(0);
+                // A generator with a state that is shared by all families.
                 let made = MADE.fetch_add(1, Ordering::Relaxed);
                 // The first cases are right, as with a generator that runs dry.
                 family.case(seed, if made > 100 { index ^ 1 << (made % 8) } else { index })

@@ -38,7 +38,7 @@ fn moved(all: i64, step: i64, steps: i64, half: i64) -> i32 {
     (all.signum() * ((2 * all.abs() * step + half) / (2 * steps))) as i32
 }
 
-/// The right line.
+/// What is spoilt by most of the faults below.
 fn bresenham<V: Varying>(
     line: &ScreenLine<V>,
     bounds: PixelRect,
@@ -47,7 +47,7 @@ fn bresenham<V: Varying>(
     Bresenham.draw(line, bounds, emit);
 }
 
-/// All fragments of the right line.
+/// The fragments of the right line, for faults that change their order, their values or their number.
 fn fragments_of<V: Varying>(line: &ScreenLine<V>, bounds: PixelRect) -> Vec<Fragment<V>> {
     let mut fragments = Vec::new();
     bresenham(line, bounds, &mut |f| fragments.push(f));
@@ -55,7 +55,7 @@ fn fragments_of<V: Varying>(line: &ScreenLine<V>, bounds: PixelRect) -> Vec<Frag
 }
 
 impl LineMutant {
-    /// What [`DrawLine::draw`] does.
+    /// The line with its fault, through `dyn`, so that Bresenham's loop is not compiled for each of the faults.
     pub fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
@@ -78,6 +78,7 @@ impl LineMutant {
                 let fragments = fragments_of(line, bounds);
                 let last = fragments.len().saturating_sub(1).max(1) as f64;
                 for (i, f) in fragments.into_iter().enumerate() {
+                    // Counted from the first visible pixel, not from the end of the line.
                     let t = i as f64 / last;
                     let varying = a.varying + (b.varying - a.varying) * t;
                     emit(Fragment { depth: a.depth + (b.depth - a.depth) * t, varying, ..f });
@@ -124,6 +125,7 @@ impl LineMutant {
             i64::from(b.pixel.x) - i64::from(a.pixel.x),
             i64::from(b.pixel.y) - i64::from(a.pixel.y),
         );
+        // One step for each pixel along the longer axis.
         let steps = dx.abs().max(dy.abs());
         if steps == 0 || steps > 1 << 16 {
             return bresenham(line, bounds, emit);

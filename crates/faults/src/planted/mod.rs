@@ -15,7 +15,6 @@ macro_rules! planted {
         }
 
         impl $kind {
-            /// What is wrong, in a sentence.
             pub fn about(self) -> &'static str {
                 match self {
                     $(Self::$fault => $sentence,)+
@@ -49,7 +48,7 @@ use rasterproof_core::triangle::Span;
 /// Declares [`Mutant`] from the kinds of faults.
 macro_rules! kinds {
     ($($kind:ident($mutant:ty),)+) => {
-        /// A planted fault of any kind.
+        /// A planted fault that the invariants are asked about, whatever it is a fault of.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Mutant {
             $($kind($mutant),)+
@@ -70,7 +69,6 @@ macro_rules! kinds {
                 }
             }
 
-            /// What is wrong, in a sentence.
             fn about(&self) -> &'static str {
                 match self {
                     $(Self::$kind(mutant) => mutant.about(),)+
@@ -112,7 +110,7 @@ pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
-/// The names of [`all`].
+/// The names that `--plant` takes.
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

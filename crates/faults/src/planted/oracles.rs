@@ -18,6 +18,7 @@ planted! {
 impl OracleMutant {
     /// Whether the edge from `upper` to `lower` crosses the row left of a sample, by this mutant.
     fn is_left(self, upper: SubpixelPoint, lower: SubpixelPoint, sample: SubpixelPoint) -> bool {
+        // As the oracle has it, but for the comparison at the end.
         let [ux, uy, lx, ly, sx, sy] =
             [upper.x, upper.y, lower.x, lower.y, sample.x, sample.y].map(i128::from);
         if self == Self::PlanesInF32 {

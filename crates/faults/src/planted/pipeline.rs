@@ -25,11 +25,11 @@ planted! {
     }
 }
 
-/// Clips a triangle by some planes.
+/// Clips a triangle by the planes whose bits are set, and gives the polygon that is left.
 type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
 /// Decides whether a triangle is removed.
 type CullStage = fn(Cull, Corners) -> bool;
-/// Which effects are paid for, of those that are asked for.
+/// Chooses the effects of a frame from those that the user has set.
 type ChooseStage = fn(Effects) -> Effects;
 
 impl StageMutant {
@@ -67,7 +67,6 @@ impl StageMutant {
     }
 }
 
-/// The right clipping.
 fn real(triangle: &[ClipVertex<DVec2>; 3], planes: Outcode) -> Vec<ClipVertex<DVec2>> {
     clip::clip(triangle, planes).0.vertices().copied().collect()
 }

@@ -24,6 +24,7 @@ planted! {
 impl TileMutant {
     /// A piece with the fault of this mutant; nothing where no pixel is left of it.
     fn spoilt(self, piece: Piece) -> Option<Piece> {
+        // Every kind of piece as a tile, the kind whose mask can hold any pixels.
         let mut tile = match piece {
             Piece::Cell(cell) => cell.tile(),
             Piece::Quarter(quarter) => quarter.tile(),

@@ -74,7 +74,7 @@ impl Interpolate for TriangleMutant {
 
 // No mutant is called from a hot loop: through `dyn`, its engines are compiled once.
 impl TriangleMutant {
-    /// What [`Rasterize::cover`] does.
+    /// The spans with their fault: of an engine, spoilt, or of a rule that is tested sample by sample.
     pub fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
@@ -275,7 +275,6 @@ fn on_outline<V: Varying>(
     }
 }
 
-/// The right fragments.
 fn edge_values<V: Varying>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
@@ -284,7 +283,6 @@ fn edge_values<V: Varying>(
     EdgeFunction.fragments(triangle, bounds, emit);
 }
 
-/// The right spans.
 fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     Scanline.cover(corners, bounds, emit);
 }

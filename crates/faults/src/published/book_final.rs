@@ -41,7 +41,7 @@ pub(super) const BORDERS: [fn(DVec4) -> f64; 6] =
 pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, NoResult> {
     let mut polygon = triangle.to_vec();
     for (border, place) in BORDERS.iter().enumerate() {
-        // The published array has room for one vertex more after each border.
+        // The published arrays have one element more for each border.
         let size = border + 4;
         let mut kept = Vec::new();
         for (i, a) in polygon.iter().enumerate() {
@@ -76,7 +76,7 @@ fn device_steps(bounds: PixelRect) -> DVec2 {
 #[derive(Clone, Copy)]
 struct Corner {
     at: DVec2,
-    /// The stored depth, divided by w.
+    /// z over w, as the depth buffer of the book holds it.
     z: f64,
     w: f64,
     varying: DVec2,
@@ -200,6 +200,7 @@ impl Published for BookFinal {
             let Some(span) = screen.span(row.y, first, last) else { return Ok(()) };
             columns.add(first)?;
             let length = row.right - row.left;
+            // t' is 0 at the first pixel, whose column was truncated, and not at the side of the triangle.
             let (dt, dz) = (1.0 / length, (z[1] - z[0]) / length);
             let (mut t, mut depth) = (0.0, z[0]);
             for x in first..=last.min(screen.size().0 - 1) {

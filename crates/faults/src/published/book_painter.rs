@@ -15,6 +15,7 @@ use rasterproof_core::geometry::sorted;
 /// Three blades, each turned by a third of a circle; each starts near, broad, and ends far under
 /// the next one, or lies flat at a depth of its own.
 fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
+    // The cosine and the sine of 120 degrees.
     let third = DVec2::new(-0.5, 0.866_025_403_784_438_6);
     let blade = [DVec2::new(-15.0, 2.0), DVec2::new(-7.0, 14.0), DVec2::new(14.0, -1.0)];
     let turned = blade.map_array(|p| third.rotate(p));

@@ -71,7 +71,6 @@ impl Side {
 /// A row of a half: `half` is 0 below the middle corner and 1 above.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
-    /// 0 for the half that is walked first, 1 for the other one.
     pub half: usize,
     pub y: i64,
     /// Where the sides cross the row, in pixels.

@@ -19,9 +19,8 @@ pub struct Card {
     pub name: &'static str,
     /// Where in the book, or in which course.
     pub source: &'static str,
-    /// What is wrong, in a sentence.
     pub fault: &'static str,
-    /// What to write instead.
+    /// What the repaired version does instead.
     pub cure: &'static str,
     pub exhibit: Exhibit,
 }
@@ -41,7 +40,7 @@ pub enum Exhibit {
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
     pub name: &'static str,
-    /// The side of its window.
+    /// Its window is a square that begins at the origin.
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
     /// Of the three corners of every triangle, as the values are.
@@ -49,7 +48,6 @@ pub struct TriangleCase {
     pub values: [f64; 3],
 }
 
-/// A line between two pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCase {
     pub name: &'static str,
@@ -60,13 +58,13 @@ pub struct LineCase {
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
-    /// Whose input it is.
+    /// The card of the code that drew it.
     pub specimen: &'static str,
     /// Corners in the book's coordinates: y up, samples at whole numbers.
     pub corners: &'static [[(f64, f64); 3]],
 }
 
-/// The side of the book's window.
+/// The side of the square window for which the book shows its pictures.
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {
@@ -88,7 +86,6 @@ const RAMP: [f64; 3] = [0.0, 0.5, 1.0];
 const FLAT: [f64; 3] = [0.5; 3];
 const ONES: [f64; 3] = [1.0; 3];
 
-/// A case with a name.
 const fn case(
     name: &'static str,
     corners_px: &'static [[(f64, f64); 3]],
@@ -98,7 +95,6 @@ const fn case(
     TriangleCase { name, side_px: 14, corners_px, w, values }
 }
 
-/// A line with a name.
 const fn line(name: &'static str, pixels: [(i32, i32); 2]) -> LineCase {
     LineCase { name, pixels }
 }
@@ -244,7 +240,6 @@ pub const RECORDED: &[RecordedCase] = recorded![
     "t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]];
 ];
 
-/// The card of this name.
 pub fn find(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)
 }

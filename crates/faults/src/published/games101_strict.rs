@@ -56,6 +56,7 @@ impl Games101Strict {
         let rows = whole_range(low.y, high.y, bounds.height())?;
         for x in whole_range(low.x, high.x, bounds.width())? {
             for y in rows.clone() {
+                // The lower left corner of the pixel, with y up.
                 let corner = Vec2::new(x as f32, y as f32);
                 let sample = if self.whole_samples { corner } else { corner + 0.5 };
                 if inside(corners, sample) {

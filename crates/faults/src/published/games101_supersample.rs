@@ -51,7 +51,7 @@ fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
     fill(samples, &triangle.map_array(|p| p * f64::from(SAMPLES)), colour);
 }
 
-/// Both halves by either version.
+/// Draws the triangles of the setting by samples, and averages them early as published, or once at the end.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let (mut all, mut image) = (empty(SIDE * SAMPLES), empty(SIDE));
     for triangle in triangles(setting) {

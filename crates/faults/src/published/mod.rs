@@ -203,7 +203,7 @@ pub trait Published: fmt::Debug + Sync {
     }
 }
 
-/// A published line drawer.
+/// A published line drawer, whose ends are positions and not pixels.
 pub trait PublishedLine: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` in the published order, as often as they are set.
     fn draw(

@@ -13,7 +13,6 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::triangle::{Fragment, ScreenTriangle, ScreenVertex};
 
-/// Red, green and blue.
 pub type Colour = [u8; 3];
 pub type Image = Frame<Colour>;
 
@@ -21,26 +20,24 @@ pub type Image = Frame<Colour>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     Published,
-    /// By the cure of its card.
+    /// With the cure of its card, and otherwise the published code.
     Repaired,
 }
 
 /// Whether the picture is to show the fault, or is one in which it does not show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
-    /// The fault shows.
+    /// What the fault needs occurs, so the versions differ.
     Exposing,
-    /// Both versions draw the same.
+    /// What the fault needs does not occur, so both versions draw the same.
     Harmless,
 }
 
-/// The side of a scene, in pixels.
 pub const SIDE: u32 = 32;
 pub const BLACK: Colour = [0, 0, 0];
 pub const WHITE: Colour = [240, 240, 240];
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
 
-/// A black square.
 pub fn empty(side: u32) -> Image {
     Frame::new(PixelRect::window(side, side), BLACK)
 }
@@ -49,7 +46,7 @@ fn at(position_px: DVec2) -> SubpixelPoint {
     SubpixelPoint::from_px(position_px.x, position_px.y).expect("scenes stay in the domain")
 }
 
-/// Fills a convex polygon as a fan.
+/// Fills a convex polygon as a fan around its first corner, by this project's engine.
 pub fn fill(image: &mut Image, corners_px: &[DVec2], colour: Colour) {
     for pair in corners_px.get(1..).unwrap_or_default().windows(2) {
         EdgeFunction.cover([at(corners_px[0]), at(pair[0]), at(pair[1])], image.bounds(), |span| {

@@ -115,6 +115,7 @@ impl Published for SysuInclusive {
     ) -> DrawResult {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
+            // Each weight is an edge function over the sum, and belongs to the corner opposite.
             let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);
             let (depth, varying) = lerp(&triangle, [bc, ca, ab]);
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });

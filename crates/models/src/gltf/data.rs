@@ -55,11 +55,10 @@ pub(super) struct Data<'a> {
 struct Column<'a> {
     /// From the first element on; nothing where all are zeros.
     bytes: Option<&'a [u8]>,
-    /// How many elements there are.
     count: usize,
     /// From one element to the next, in bytes.
     stride: usize,
-    /// How many numbers an element has.
+    /// How many numbers an element has; a reader may take the first of them alone.
     width: usize,
     kind: Kind,
     /// Whether whole numbers stand for numbers from 0 or -1 to 1.
@@ -73,6 +72,7 @@ impl<'a> Data<'a> {
         // By its name the number of a buffer among those that were read.
         let mut read: HashMap<&str, usize> = HashMap::new();
         let mut numbers = Vec::new();
+        // All buffers together have a limit, not each of them.
         let mut left_bytes = limits::MODEL_BYTES;
         for (number, buffer) in root.buffers.iter().enumerate() {
             // A file that several buffers name is read once.
@@ -169,7 +169,6 @@ impl<'a> Data<'a> {
         })
     }
 
-    /// The accessor of this number.
     fn accessor(&self, number: usize) -> Result<&Accessor, String> {
         entry(&self.root.accessors, "accessors", number)
     }
@@ -222,6 +221,7 @@ impl<'a> Data<'a> {
         let Some(kind) = kind.filter(|kind| of_indices.contains(kind)) else {
             return Err(failed("the component type of the indices is not one of glTF"));
         };
+        // As many numbers of elements as values for them.
         let count = usize::try_from(sparse.count).unwrap_or(usize::MAX);
         let size = column.width * column.kind.size();
         let part = |view: usize, offset: u64, size: usize| {

@@ -22,7 +22,6 @@ pub(super) fn version(json: &[u8]) -> Option<String> {
     Some(asset.version.as_str().map_or_else(|| asset.version.to_string(), str::to_owned))
 }
 
-/// What a document says of itself.
 #[derive(Deserialize)]
 struct Asset<V> {
     version: V,
@@ -64,9 +63,9 @@ pub(super) struct Root {
     /// Every document has it, and no other JSON.
     #[serde(rename = "asset")]
     _asset: Asset<IgnoredAny>,
-    /// The scene that is shown first.
+    /// The scene to show; without one, the first.
     pub scene: Option<usize>,
-    /// Each shows some of the nodes.
+    /// Each shows some of the nodes; usually there is one.
     #[serde(default)]
     pub scenes: Vec<Scene>,
     #[serde(default)]
@@ -84,7 +83,7 @@ pub(super) struct Root {
     pub images: Vec<Image>,
     #[serde(default)]
     pub samplers: Vec<Sampler>,
-    /// Numbers in the buffer views.
+    /// Lists of numbers, which lie in the buffer views.
     #[serde(default)]
     pub accessors: Vec<Accessor>,
     #[serde(default)]
@@ -93,7 +92,7 @@ pub(super) struct Root {
     pub buffers: Vec<Buffer>,
     #[serde(default)]
     pub cameras: Vec<Camera>,
-    /// Read when one of them is asked for.
+    /// Kept as they are, for the pose of one of them may be wanted.
     #[serde(default)]
     pub animations: Vec<Value>,
     /// What extensions add to the document as a whole, as the lights do.
@@ -119,17 +118,17 @@ pub(super) struct Scene {
 #[serde(default)]
 pub(super) struct Node {
     pub name: Option<String>,
-    /// They move with the node.
+    /// Nodes whose places count from this one.
     pub children: Vec<usize>,
     pub mesh: Option<usize>,
-    /// What bends its mesh.
+    /// The number of the skin whose joints bend its mesh.
     pub skin: Option<usize>,
     pub camera: Option<usize>,
     /// Where it is in its parent, as a matrix or as three parts of one.
     pub matrix: Option<[f32; 16]>,
     /// Applied last, after the scale and the rotation.
     pub translation: Option<[f32; 3]>,
-    /// A quaternion: x, y, z, w.
+    /// A quaternion as x, y, z, w; not always of length 1.
     pub rotation: Option<[f32; 4]>,
     pub scale: Option<[f32; 3]>,
     pub weights: Option<Vec<f32>>,
@@ -158,7 +157,7 @@ pub(super) struct Extensions {
     pub common: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_emissive_strength")]
     pub emissive: Option<OneNumber>,
-    /// The index of refraction.
+    /// The index of refraction, from which follows how much is reflected.
     #[serde(rename = "KHR_materials_ior")]
     pub refraction: Option<OneNumber>,
     #[serde(rename = "KHR_materials_specular")]
@@ -181,13 +180,13 @@ pub(super) struct Light {
     pub spot: Option<Spot>,
 }
 
-/// The angles of a cone of light.
+/// The cone of a spot, from the angle at which the light decreases to the one at which it ends.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Spot {
-    /// Within it the light is full.
+    /// From the axis of the cone, in radians; within it the light is full.
     pub inner_cone_angle: Option<f64>,
-    /// Beyond it there is none.
+    /// From the axis of the cone, in radians; beyond it there is no light.
     pub outer_cone_angle: Option<f64>,
 }
 
@@ -198,11 +197,10 @@ pub(super) struct Instances {
     pub attributes: HashMap<String, usize>,
 }
 
-/// A camera of one of two kinds.
+/// A camera of one of two kinds, which the member that is there tells.
 #[derive(Deserialize)]
 pub(super) struct Camera {
     pub name: Option<String>,
-    /// One of the two is there.
     pub perspective: Option<Lens>,
     pub orthographic: Option<Lens>,
 }
@@ -213,7 +211,7 @@ pub(super) struct Camera {
 pub(super) struct Lens {
     /// With perspective: the angle from below to above.
     pub yfov: f64,
-    /// Without: half of the height.
+    /// Without perspective: half of the height that is seen.
     pub ymag: f64,
     /// The nearest distance that is seen.
     pub znear: f64,
@@ -240,7 +238,7 @@ pub(super) struct Primitive {
     pub material: Option<usize>,
     /// [`TRIANGLES`] where there is none.
     pub mode: Option<u64>,
-    /// Shapes that can be mixed in.
+    /// Shapes that are mixed into its positions and normals.
     #[serde(default)]
     pub targets: Vec<Target>,
     #[serde(default)]
@@ -274,7 +272,7 @@ pub(super) struct Skin {
     pub inverse_bind_matrices: Option<usize>,
 }
 
-/// How a surface looks.
+/// How a surface looks, by metal and roughness unless an extension says otherwise.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Material {
@@ -283,7 +281,7 @@ pub(super) struct Material {
     pub alpha_mode: String,
     /// With `MASK`, what is less opaque is a hole.
     pub alpha_cutoff: Option<f32>,
-    /// Whether its back is drawn.
+    /// Whether its back is drawn, with the normal turned round.
     pub double_sided: bool,
     pub pbr_metallic_roughness: Metallic,
     /// Normals in the coordinates of tangents.
@@ -291,7 +289,7 @@ pub(super) struct Material {
     /// How much of the ambient light reaches a place, in red.
     pub occlusion_texture: Option<Info>,
     pub emissive_texture: Option<Info>,
-    /// Light of its own, linear.
+    /// The colour of the light that it emits, linear.
     pub emissive_factor: [f32; 3],
     pub extensions: Extensions,
 }
@@ -328,7 +326,6 @@ pub(super) struct Glossiness {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Info {
-    /// The number of the texture.
     pub index: usize,
     /// Which set of texture coordinates is used.
     #[serde(default)]
@@ -375,7 +372,7 @@ pub(super) struct InfoExtensions {
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Transform {
-    /// Added last.
+    /// Added after scale and rotation.
     pub offset: [f32; 2],
     /// In radians, about the upper left corner.
     pub rotation: f32,
@@ -384,7 +381,7 @@ pub(super) struct Transform {
     pub tex_coord: Option<u32>,
 }
 
-/// A picture, and how it is read.
+/// A picture together with a sampler, so that one picture can be read in several ways.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Texture {
@@ -403,7 +400,7 @@ pub(super) struct TextureExtensions {
     pub webp: Option<Source>,
 }
 
-/// The number of a picture.
+/// A WebP, by its number among the pictures.
 #[derive(Deserialize)]
 pub(super) struct Source {
     pub source: Option<usize>,
@@ -424,7 +421,7 @@ pub(super) struct Image {
 pub(super) struct Sampler {
     /// Where a texel is larger than a pixel.
     pub mag_filter: Option<u64>,
-    /// Where it is smaller.
+    /// Where it is smaller than a pixel, with or without a mip map.
     pub min_filter: Option<u64>,
     /// What lies beyond the left and the right border; `wrap_t` says it of the others.
     pub wrap_s: Option<u64>,
@@ -445,7 +442,7 @@ pub(super) const MIRRORED_REPEAT: u64 = 33_648;
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
-    /// Nothing where all numbers are 0.
+    /// Without one all numbers are 0.
     pub buffer_view: Option<usize>,
     #[serde(default)]
     pub byte_offset: u64,
@@ -453,7 +450,7 @@ pub(super) struct Accessor {
     /// Whether whole numbers stand for numbers from 0 or -1 to 1.
     #[serde(default)]
     pub normalized: bool,
-    /// How many elements it has.
+    /// How many elements it has, whatever the length of its buffer view is.
     pub count: u64,
     /// How many numbers an element has, as `VEC3`.
     #[serde(rename = "type")]
@@ -465,9 +462,9 @@ pub(super) struct Accessor {
 #[derive(Deserialize)]
 pub(super) struct Sparse {
     pub count: u64,
-    /// Which elements differ.
+    /// The numbers of the elements that differ.
     pub indices: SparsePart,
-    /// What they are.
+    /// Their values, in the same order.
     pub values: SparsePart,
 }
 
@@ -483,12 +480,12 @@ pub(super) struct SparsePart {
     pub component_type: u64,
 }
 
-/// A part of a buffer.
+/// A part of a buffer, in which the elements of an accessor lie.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct View {
     pub buffer: usize,
-    /// From its beginning, in bytes.
+    /// In bytes from the offset on.
     pub byte_length: u64,
     /// From the beginning of the buffer.
     #[serde(default)]

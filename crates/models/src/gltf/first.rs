@@ -41,7 +41,7 @@ const NAMES: [(&str, &str); 10] = [
 /// A document of version 1.0, with the number of each name in its list.
 struct First<'a> {
     document: &'a Value,
-    /// By the list and the name.
+    /// The place of a name in its list.
     numbers: HashMap<(&'static str, &'a str), usize>,
 }
 

@@ -243,7 +243,6 @@ fn maps(material: &Material) -> [(Map, Option<&Info>); Map::ALL.len()] {
     })
 }
 
-/// What a message calls a map.
 fn named(map: Map) -> &'static str {
     match map {
         Map::Emission => "emission",

@@ -152,7 +152,7 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
 
 /// What a GLB consists of.
 struct Chunks<'a> {
-    /// The document itself.
+    /// The document itself, as text.
     json: &'a [u8],
     /// The bytes of the buffer without a name.
     bin: Option<&'a [u8]>,
@@ -245,7 +245,6 @@ impl Reader<'_> {
         self.contents.count(key, count);
     }
 
-    /// Says what was done without.
     fn warn(&mut self, kind: &str, text: &str) {
         self.contents.warnings.add(kind, text);
     }
@@ -270,6 +269,7 @@ impl Reader<'_> {
             open.push((node, DMat4::IDENTITY, 1));
         }
         while let Some((number, parent, depth)) = open.pop() {
+            // A node gives its place to its children, which are visited after it.
             let node = entry(&root.nodes, "nodes", number)?;
             // A path of more nodes than there are passes one of them twice.
             if depth > root.nodes.len() {
@@ -286,7 +286,7 @@ impl Reader<'_> {
             }
         }
         self.left_bytes = self.refuse_too_many_copies(&visits)?;
-        // All matrices are known now, which skins need, and that there is room for what is shown.
+        // All matrices are known now, which skins need, and what is shown is not too much.
         for (number, world) in visits {
             let node = &root.nodes[number];
             self.camera(number, node, world);
@@ -581,6 +581,7 @@ impl Reader<'_> {
         }
         // What else a vertex has, in the form in which the surface needs it.
         self.count_attributes(primitive);
+        // Colours are multiplied with the surface, so without any they are white.
         let colours = match vertices.read("COLOR_0") {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
@@ -861,7 +862,6 @@ impl Vertices<'_> {
     }
 }
 
-/// Numbers as vectors of three.
 fn vectors3(read: Vec<[f64; 3]>) -> Vec<DVec3> {
     read.into_iter().map(DVec3::from_array).collect()
 }

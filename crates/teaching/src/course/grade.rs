@@ -62,6 +62,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
         return Err(format!("{shown} holds no folder\n  expected one for each submission"));
     }
     let one = |path: PathBuf| {
+        // The name of the folder is shown, as far as it can be.
         let id = path.file_name().unwrap_or_default().to_owned();
         let name = printable(id.as_encoded_bytes(), 40);
         if !path.is_dir() {
@@ -75,6 +76,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
             let run = template.split_whitespace().map(word).collect();
             return Ok(Submission::of_program(id, name, run));
         }
+        // Without a template each folder says in its progress file how it is built and run.
         match Progress::read(&path) {
             Ok(Some(Progress { build, run, .. })) => {
                 let run = run.into_iter().map(OsString::from).collect();
@@ -99,7 +101,6 @@ pub struct Grade {
     pub steps: Vec<StepResult>,
 }
 
-/// What became of one step.
 #[derive(Serialize, Deserialize)]
 pub struct StepResult {
     pub step: String,
@@ -148,6 +149,7 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
             let patience = Duration::from_secs(1).min(seconds / 24);
             let amount = Amount { cases, seed, end: start + seconds, patience };
             for step in STEPS.iter() {
+                // Every step is judged, also after one that fails, since points are given for each.
                 let outcome = examine::examine(&mut program, step, &amount);
                 let report = verdict::report(step, &outcome, "the program");
                 let output = terminal::text(&report, true, false, terminal::WIDTH);
@@ -168,6 +170,7 @@ fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     let Submission { folder, build, run, .. } = submission;
     // Time that waits is bounded by `Terms::seconds` itself; this bounds what a process computes.
     let processor_s = Some(terms.seconds);
+    // A build takes part of the time that the submission has in all.
     let longest = terms.bounds.build.min(Duration::from_secs(terms.seconds));
     let bounds = Bounds { processor_s, build: longest, ..terms.bounds };
     sandbox::build(folder, build, &bounds)?;
@@ -233,6 +236,7 @@ pub fn text(grades: &[Grade], is_table: bool) -> String {
 
 /// One submission as Gradescope's results.json.
 pub fn gradescope(grade: &Grade) -> String {
+    // A submission that cannot be judged has the reason in the place of each verdict.
     let output = |at: usize| match (grade.steps.get(at), &grade.error) {
         (Some(step), _) => step.output.clone(),
         (None, error) => error.clone().unwrap_or_default(),

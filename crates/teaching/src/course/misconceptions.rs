@@ -54,19 +54,19 @@ enum Prediction {
     LineExchanged,
     /// Another rule for samples on edges, and nothing else.
     Rule(&'static str),
-    /// The picture is turned over.
+    /// The whole picture is turned over, or x and y are exchanged in it.
     Mirrored(Mirror, &'static str),
     /// Triangles of one winding are drawn.
     OneWinding(Windings, &'static str),
     /// Samples at the same distance from the pixel's upper left corner in x and y.
     SampledAt(i32, &'static str),
-    /// Corners on whole pixels.
+    /// The corners are moved to whole pixels before anything is drawn.
     Cut(Rounding, &'static str),
-    /// Every pixel of the bounding box.
+    /// A triangle has every pixel of its bounding box, cut at the window.
     WholeBox,
     /// A formula is answered with an empty list.
     NoNumber,
-    /// A formula is computed wrongly.
+    /// The numbers of a formula are those of a known mistake.
     Formula(Wrong),
 }
 
@@ -531,7 +531,7 @@ fn line_answer(asked: &LineQuestion, convention: &LineConvention) -> Option<Answ
     Some(Answer::Line(pixels.into_iter().map(|[x, y]| (x, y)).collect()))
 }
 
-/// No pixels, where pixels are asked for.
+/// An empty answer, for the requests whose answers are pixels.
 fn nothing(question: &Question) -> Option<Answer> {
     Some(match question.of {
         Asked::Coverage(_) => Answer::Coverage(Vec::new()),

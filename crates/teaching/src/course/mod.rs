@@ -73,7 +73,6 @@ pub struct Exercise {
     pub prepare: Prepare,
 }
 
-/// See [`Exercise::prepare`].
 type Prepare = fn(Case) -> Option<Case>;
 
 /// Reads the name of a function from the file of the steps, so that a name without a function is an error there.
@@ -90,12 +89,11 @@ fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     })
 }
 
-/// Cases that lie in their window.
+/// Cases that lie in their window, since clipping is a step of its own.
 fn inside(case: Case) -> Option<Case> {
     (!adapt_case::leaves_window(&case)).then_some(case)
 }
 
-/// Every case.
 fn anywhere(case: Case) -> Option<Case> {
     Some(case)
 }
@@ -166,6 +164,7 @@ pub fn known() -> String {
 /// The steps as a table; those passed are marked where the progress is known.
 pub fn listed(progress: Option<&Progress>) -> Report {
     let row = |step: &Step| {
+        // A plus for what was passed, an arrow for the current step.
         let mark = match progress {
             Some(progress) if progress.has_passed(step) => "+",
             Some(progress) if progress.current() == step => ">",
@@ -204,6 +203,7 @@ pub static STEPS: LazyLock<Vec<Step>> = LazyLock::new(|| {
     struct Steps {
         step: Vec<Step>,
     }
+    // A step whose families or functions do not exist is found by the tests, which read the same text.
     let steps: Steps = toml::from_str(include_str!("steps.toml")).expect("the steps are whole");
     steps.step
 });

@@ -7,17 +7,16 @@ use rasterproof_host::{input, limits};
 
 use super::{STEPS, Step};
 
-/// The name of the file.
 pub const FILE: &str = "course.toml";
 
-/// What stands above the fields.
+/// The comment at the top of the file, for people who edit it.
 const HEADER: &str = "\
 # Progress of `rasterproof course`. Yours to edit; `course check` writes it anew, without your comments.
 # build (may be empty) and run: commands as lists of words, run in this folder.
 # step: the current one. failures: how often it has failed; each shows one hint more.
 ";
 
-/// What the file says.
+/// How far a student has come, and how the program is built and run.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
@@ -26,7 +25,7 @@ pub struct Progress {
     pub build: Vec<String>,
     /// The words of the command that runs the program.
     pub run: Vec<String>,
-    /// The name of the current step.
+    /// The name of the step that `course check` judges next.
     pub step: String,
     /// The names of the steps that were passed, in the order in which they were.
     #[serde(default)]
@@ -36,7 +35,6 @@ pub struct Progress {
     pub failures: usize,
 }
 
-/// The progress file of a folder.
 pub fn path(folder: &Path) -> PathBuf {
     folder.join(FILE)
 }
@@ -74,6 +72,7 @@ impl Progress {
     /// # Errors
     /// What is wrong with it, with its line.
     pub fn parse(text: &str) -> Result<Self, String> {
+        // TOML's errors name the line, so they are passed on as they are.
         let progress: Self = toml::from_str(text).map_err(|e| e.to_string().trim().to_owned())?;
         // A step that was renamed or misspelt is an error, and not a step that was not passed.
         let unknown = |name: &&String| super::find(name).is_none();
@@ -84,13 +83,12 @@ impl Progress {
         Ok(progress)
     }
 
-    /// The text of the file.
     pub fn text(&self) -> String {
         // Strings, lists of them and a number: this cannot fail.
         format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
     }
 
-    /// The step to be done now.
+    /// The current step; the first one where the name is that of none.
     pub fn current(&self) -> &'static Step {
         super::find(&self.step).unwrap_or(&STEPS[0])
     }
@@ -117,7 +115,6 @@ impl Progress {
         }
     }
 
-    /// Whether the step was passed.
     #[must_use]
     pub fn has_passed(&self, step: &Step) -> bool {
         self.passed.contains(&step.name)

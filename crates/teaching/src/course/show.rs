@@ -43,7 +43,6 @@ pub struct ProgramPicture {
 /// Steps of 255 that two channels may differ by: values have a tolerance, colours are rounded.
 pub const VISIBLE: u8 = 2;
 
-/// The colour of what nobody draws.
 const BACKGROUND: Rgb<u8> = Rgb([18, 18, 24]);
 /// The colour of pixels that two triangles of a mosaic draw.
 const TWICE: Rgb<u8> = Rgb([255; 3]);
@@ -171,6 +170,7 @@ impl Studio<'_> {
         triangles: Vec<Triangle>,
         shade: fn(&Fragment<DVec2>) -> DVec3,
     ) -> RgbImage {
+        // Without a depth test, later triangles are drawn over earlier ones.
         let answers = self.ask(width, height, triangles.into_iter().map(Asked::Values).collect());
         let mut image = picture::plain(width, height, BACKGROUND);
         for answer in answers {
@@ -197,6 +197,7 @@ impl Studio<'_> {
         for answer in self.ask(WIDTH, HEIGHT, asked) {
             let Some(Answer::Numbers(numbers)) = answer else { continue };
             let Some([x, y, depth]) = place(&numbers) else { continue };
+            // Near edges are bright, and those at the far plane are black.
             let colour = DVec3::new(1.0, 0.85, 0.4) * (1.0 - depth.clamp(0.0, 1.0));
             put(&mut image, x.floor() as i32, y.floor() as i32, rgb(colour));
         }
@@ -652,6 +653,7 @@ pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
     // On the page, the pictures that differ most come first.
     let mut on_page = Vec::new();
     for (label, picture) in pictures {
+        // What a terminal prints of a picture is also its caption on the page.
         let of = picture.right.width() * picture.right.height();
         let refused = match picture.unanswered {
             0 => String::new(),
@@ -763,6 +765,7 @@ fn star([x, y]: [i32; 2], along: i32, across: i32) -> Vec<[[i32; 2]; 2]> {
 
 /// A point of the floor in clip space: the eye is one unit above it and looks along z.
 fn on_floor(x: f64, z: f64) -> [f64; 4] {
+    // The usual projection: z runs from -w at the near plane to w at the far one.
     let (near, far) = (1.0, 20.0);
     let depth = ((far + near) * z - 2.0 * far * near) / (far - near);
     [1.5 * x, -2.0, depth, z]
@@ -770,6 +773,7 @@ fn on_floor(x: f64, z: f64) -> [f64; 4] {
 
 /// A point of clip space in the window; texture coordinates as those of the floor that is there.
 fn in_window([x, y, z, w]: [f64; 4]) -> ScreenVertex<DVec2> {
+    // The window has y down, clip space has y up.
     let place = [(x / w + 1.0) / 2.0 * f64::from(WIDTH), (1.0 - y / w) / 2.0 * f64::from(HEIGHT)];
     vertex(place, z / w, w, DVec2::new(x / 9.0 + 0.5, w / 12.0))
 }

@@ -4,7 +4,7 @@
 
 use rasterproof_verify::oracle::formula::Formula;
 
-/// A mistake about a formula.
+/// A mistake about one of the formulas, by the formula that it is about.
 #[derive(Clone, Copy)]
 pub(super) enum Wrong {
     Project(Project),
@@ -34,7 +34,7 @@ impl Wrong {
     }
 }
 
-/// What a right program computes.
+/// What a right program computes: the exact numbers, rounded to floats.
 fn right(formula: Formula, numbers: &[f64]) -> Option<Vec<f64>> {
     Some(formula.of(numbers)?.iter().map(|given| given.exact.to_f64()).collect())
 }
@@ -55,16 +55,15 @@ pub(super) enum Project {
     AsItCame,
     /// x and y are divided by z, and not multiplied by the distance of the film.
     FilmForgotten,
-    /// The point is returned unchanged.
+    /// The point is returned as it came: nothing is projected.
     /// The divisor is the length of the way from the eye; w is z, as it should be.
     ByWay,
     /// The same, and w is that length too.
     ByWayAsW,
-    /// The right point, with w = 1.
+    /// The right place, with the w of a point that is not projected.
     WLost,
 }
 
-/// A point on the film, and w.
 fn project(how: Project, numbers: &[f64]) -> Option<Vec<f64>> {
     let &[n, x, y, z] = numbers else { return None };
     let way = length([x, y, z]);
@@ -123,7 +122,7 @@ pub(super) enum Winding {
     YUp,
     /// The sign of the area before snapping, with a threshold below which an area counts as none.
     AsGiven(f64),
-    /// The same after snapping.
+    /// The sign of the area of the snapped corners, with such a threshold.
     Snapped(f64),
     /// The area itself, with or without snapping, and in the square subpixels of the oracle.
     Area,
@@ -168,7 +167,6 @@ pub(super) enum Turn {
     NotMovedBack,
 }
 
-/// A point after a turn.
 fn turned_point(how: Turn, numbers: &[f64]) -> Option<Vec<f64>> {
     let axis = *numbers.first()?;
     let mut changed = numbers.to_vec();
@@ -241,7 +239,6 @@ pub(super) enum Light {
     LongNormalCut,
 }
 
-/// The light at a place.
 fn brightness(how: Light, numbers: &[f64]) -> Option<Vec<f64>> {
     let &[n0, n1, n2, l0, l1, l2, ambient, diffuse] = numbers else { return None };
     let normal = [n0, n1, n2];
@@ -308,7 +305,6 @@ pub(super) enum Level {
     NotBelow0,
 }
 
-/// The level of a texture.
 fn level(how: Level, numbers: &[f64]) -> Option<Vec<f64>> {
     let mut changed = numbers.to_vec();
     match how {

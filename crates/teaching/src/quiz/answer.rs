@@ -16,7 +16,7 @@ pub enum Right {
     },
 }
 
-/// What somebody answered.
+/// An answer that was read, of the kind that the question has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// One of the choices, counted from 0.
@@ -114,6 +114,7 @@ impl Right {
                     .map(str::to_owned),
             },
         };
+        // What would have been an answer, in the language of whoever gave this one.
         let remedy = &remedy[language as usize];
         Err(match language {
             Language::English => format!("'{word}' is no answer here; give {remedy}"),

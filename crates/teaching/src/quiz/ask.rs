@@ -70,6 +70,7 @@ pub fn paper(
         ));
     }
     let seed = seed.map_or_else(String::new, |seed| format!(" {seed}"));
+    // The seed stands in the title, so that the same paper can be printed again.
     let head = match (language, is_key) {
         (Language::English, false) => format!("Paper{seed}: {count} questions"),
         (Language::English, true) => format!("Key of paper{seed}"),
@@ -144,6 +145,7 @@ impl Quiz<'_> {
                 write!(self.output, "> ")?;
                 self.output.flush()?;
             }
+            // At the end of the input, the rest of the questions is not answered.
             let mut line = String::new();
             if self.input.read_line(&mut line)? == 0 {
                 writeln!(self.output)?;
@@ -181,6 +183,7 @@ impl Quiz<'_> {
         };
         let (grid, notes) = (grids(&solution), legend(&solution, self.language));
         let notes = notes.map(str::to_owned).into_iter().collect();
+        // The reason follows the verdict, with the pixels that show it.
         let answered = Excerpt { title, grid, notes, ..Excerpt::default() };
         self.output.write_all(text::excerpt(&answered, text::WIDTH).as_bytes())?;
         Ok(Some(is_right))

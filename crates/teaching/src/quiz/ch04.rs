@@ -33,7 +33,6 @@ fn distance(_: &[Text]) -> Solution {
     Solution::number(w, 0)
 }
 
-/// Where a point is on the film.
 fn film(_: &[Text]) -> Solution {
     let p = project(DVec3::new(2.0, 1.0, 4.0));
     Solution::number(p.x / p.w, 2)

@@ -25,7 +25,6 @@ fn winding(_: &[Text]) -> Solution {
     Solution::choice(&turns(RIGHT_ANGLE))
 }
 
-/// Twice the area in square pixels.
 fn area(_: &[Text]) -> Solution {
     let square = f64::from(SUBPIXELS).powi(2);
     let value = twice_area(&corners(RIGHT_ANGLE)) as f64 / square;

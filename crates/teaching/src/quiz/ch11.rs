@@ -8,7 +8,6 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 solvers!(away, short, beyond, between);
 
-/// A light that comes along z.
 const LIGHT: Light = Light { towards: DVec3::Z, ambient: 0.2, diffuse: 0.8 };
 
 /// A surface that faces away has the ambient light, and less than that without the bound at 0.

@@ -19,6 +19,7 @@ const SIDE: u32 = 16;
 
 /// A panel parallel to the screen, of one colour, from (x0, y0) to (x1, y1) in pixels.
 fn panel([x0, y0, x1, y1]: [f64; 4]) -> Item {
+    // From pixels to clip space, where y points up.
     let to_cube = |px: f64| px * 2.0 / f64::from(SIDE) - 1.0;
     let at = |x, y| DVec3::new(to_cube(x), -to_cube(y), 0.0);
     Item::new(

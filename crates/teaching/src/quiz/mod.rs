@@ -66,7 +66,6 @@ pub enum Language {
 }
 
 impl Language {
-    /// The text in this language.
     pub fn of(self, text: &Text) -> &str {
         &text[self as usize]
     }
@@ -108,12 +107,10 @@ impl Solution {
         Self::new(Right::Number { value, decimals })
     }
 
-    /// A whole number.
     fn count(value: u64) -> Self {
         Self::number(value as f64, 0)
     }
 
-    /// The one choice that holds.
     fn choice(holds: &[bool]) -> Self {
         Self::new(Right::only(holds))
     }
@@ -154,7 +151,6 @@ impl Exercise {
     }
 }
 
-/// The exercises of a page.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chapter {

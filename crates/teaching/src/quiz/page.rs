@@ -21,6 +21,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         Language::Chinese => ("在终端里提出这些问题。", " --language zh"),
     };
     let intro = format!("`cargo run -- quiz {word}{extra}` {ask}");
+    // The engines compute the answers each time that the page is written.
     let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
     let axes = match language {
         Language::English => {
@@ -90,7 +91,6 @@ fn wrapped(text: &str, language: Language) -> String {
     }
 }
 
-/// The choices with their letters.
 pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
     let choices = exercise.choices.iter().enumerate();
     choices.map(|(i, text)| format!("{}) {}", letter(i), language.of(text))).collect()

@@ -22,7 +22,6 @@ fn strip() -> Footprint {
     footprint(4.0 / 256.0, 32.0 / 256.0, 256)
 }
 
-/// The level of the longer side.
 fn level(_: &[Text]) -> Solution {
     Solution::number(strip().level(DVec2::ZERO, 1.0), 0)
 }

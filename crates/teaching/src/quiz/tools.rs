@@ -18,7 +18,6 @@ use rasterproof_verify::oracle::Oracle;
 /// The corners of a triangle, in pixels.
 pub type Px = [[f64; 2]; 3];
 
-/// The corners on the lattice.
 pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
@@ -32,7 +31,6 @@ pub fn covered(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect
     hits
 }
 
-/// What the oracle covers.
 pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
     let triangles: Vec<_> = triangles.iter().map(|&px| corners(px)).collect();
     covered(&Oracle, &triangles, window)
@@ -49,7 +47,6 @@ pub fn published(specimen: &dyn Published, triangles: &[Px], window: PixelRect) 
     hits
 }
 
-/// How often a pixel was hit.
 pub fn hits(coverage: &Coverage, [x, y]: [i32; 2]) -> u8 {
     coverage.get(x, y).expect("exercises ask of pixels of their window")
 }

@@ -135,6 +135,7 @@ fn collect_colours(image: &Image, colours: &mut BTreeSet<Colour>) {
 
 /// Published, repaired and their difference, below the name, the fault and its cure.
 fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
+    // Both versions in windows of the same size, and where they differ.
     let Some(panels) = versions(card) else { return RgbImage::new(1, 1) };
     let bounds = panels.published.bounds();
     // A pixel is a square of whole pixels of the sheet, and the largest panel fits.
