@@ -9,11 +9,13 @@ use crate::contents::{Contents, FilePart};
 
 /// What is counted of faces that are left out.
 const POSITION: &str = "position that is not finite of face";
+/// And of those whose positions are good.
 const COLOUR: &str = "colour that is not finite of face";
 
 /// Removes the faces of all parts that cannot be drawn, counts them among what is not drawn, and returns how many they are.
 pub(crate) fn leave_out(contents: &mut Contents, warnings: &mut Warnings) -> u64 {
     let all: u64 = contents.parts.iter().map(|part| part.polygons.len() as u64).sum();
+    // How many faces of which kind, where the first one is, and how many faces the parts before had.
     let (mut counts, mut first, mut before) = ([0; 2], None, 0);
     let mut uvs = 0;
     for part in &mut contents.parts {
@@ -69,6 +71,7 @@ pub(crate) fn leave_out(contents: &mut Contents, warnings: &mut Warnings) -> u64
 
 /// The first face that cannot be drawn, how many have such a position, and how many of the others such a colour.
 fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
+    // Nearly all files have none, which all threads look for.
     let is_broken = |vector: &DVec3| !vector.is_finite();
     parallel::first(&part.positions, is_broken)
         .or_else(|| parallel::first(&part.colours.values, is_broken))?;

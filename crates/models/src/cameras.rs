@@ -12,16 +12,20 @@ pub struct Camera {
     pub eye: DVec3,
     /// The direction in which it looks, of any length.
     pub ahead: DVec3,
+    /// The direction that is upwards in the picture, not along the view.
     pub up: DVec3,
     pub lens: Lens,
     /// The nearest and, where there is one, the farthest distance that it sees.
     pub near: f64,
+    /// Nothing for a camera that sees infinitely far.
     pub far: Option<f64>,
 }
 
+/// What a camera sees of what is before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     Perspective {
+        /// The angle that it sees from below to above.
         angle_rad: f64,
     },
     /// A projection without perspective.
@@ -42,15 +46,22 @@ impl Camera {
         let view = look_along(self.eye, self.ahead, self.up)?;
         let near = self.near;
         // A camera that sees infinitely far sees all of the model.
-        let far = self.far.unwrap_or_else(|| {
-            let corner = |at: usize| {
-                let pick =
-                    |bit: usize, min: f64, max: f64| if at >> bit & 1 == 0 { min } else { max };
-                DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z))
-            };
-            let farthest = (0..8).map(|at| view.transform_point3(corner(at)).z);
-            1.01 * farthest.fold(2.0 * near, f64::max)
-        });
+        let far = match self.far {
+            Some(far) => far,
+            None => {
+                let mut farthest = 2.0 * near;
+                for x in [min.x, max.x] {
+                    for y in [min.y, max.y] {
+                        for z in [min.z, max.z] {
+                            let corner = view.transform_point3(DVec3::new(x, y, z));
+                            farthest = farthest.max(corner.z);
+                        }
+                    }
+                }
+                // A little farther, so that no corner lies on the plane.
+                1.01 * farthest
+            }
+        };
         let projection = match self.lens {
             Lens::Perspective { angle_rad } => perspective(angle_rad, aspect, near, far),
             Lens::Parallel { half_height } => parallel(half_height, aspect, near, far),
@@ -58,12 +69,14 @@ impl Camera {
         Ok([view, projection])
     }
 
+    /// Moves it from the coordinates of its node, or of the file, to others.
     pub(crate) fn place(&mut self, matrix: DMat4) {
         self.eye = matrix.transform_point3(self.eye);
         self.ahead = matrix.transform_vector3(self.ahead);
         self.up = matrix.transform_vector3(self.up);
     }
 
+    /// Makes all lengths longer by a factor.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.eye *= factor;
         self.near *= factor;

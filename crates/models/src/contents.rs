@@ -26,11 +26,14 @@ const MOST_SINGLE_PARTS: usize = 1 << 12;
 /// Parts, merged ones too: there is at least one for each material that is used.
 const MOST_PARTS: usize = 1 << 16;
 
+/// What a reader makes of a file, the same for all formats.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     /// The file that it is read from, which all warnings name.
     pub path: PathBuf,
+    /// In the order of the file, as far as parts are not merged.
     pub parts: Vec<FilePart>,
+    /// In the coordinates of the file, as the lights are.
     pub cameras: Vec<Camera>,
     pub lights: Vec<PunctualLight>,
     /// The names of its animations, empty where they have none.
@@ -101,6 +104,7 @@ impl Contents {
 pub(crate) struct FilePart {
     /// The name of the object, group or node; empty without one.
     pub name: String,
+    /// Its number in [`Contents::materials`]; nothing for a grey one.
     pub material: Option<usize>,
     /// From the part's coordinates to those of the file.
     pub to_file: DMat4,
@@ -117,17 +121,20 @@ pub(crate) struct FilePart {
     pub tangents: Vec<DVec4>,
     /// The numbers of the positions of all corners, one polygon after the other.
     pub corners: Vec<u32>,
+    /// Where each polygon ends, and where it comes from.
     pub polygons: Polygons,
 }
 
 /// What a map of positions does to normals. The cofactors turn them as the transposed inverse does, and exist where it does not.
 pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
     let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+    // A mirror turns the cofactors over.
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
 impl FilePart {
+    /// What has to be equal for it to become one with another part.
     fn kind(&self) -> Kind {
         let lists =
             [self.colours.values.is_empty(), self.tangents.is_empty(), self.second_uvs.is_empty()];
@@ -381,7 +388,9 @@ impl Numbers {
 /// Vectors of one kind, and which of them each corner of a part has.
 #[derive(Debug, Default)]
 pub(crate) struct Vectors<V> {
+    /// Several corners may share a value.
     pub values: Vec<V>,
+    /// Which value belongs to which corner.
     pub numbers: Numbers,
 }
 
@@ -440,6 +449,7 @@ impl Polygons {
         self.count as usize
     }
 
+    /// Whether all polygons are triangles, so that nothing has to be cut.
     pub(crate) fn are_triangles(&self) -> bool {
         self.ends.is_empty()
     }
@@ -454,6 +464,7 @@ impl Polygons {
         start as usize..self.ends[number] as usize
     }
 
+    /// The number of the polygon that has this corner, found by bisection or by a division.
     pub(crate) fn of_corner(&self, corner: usize) -> usize {
         if self.ends.is_empty() {
             return corner / 3;
@@ -466,10 +477,12 @@ impl Polygons {
         self.lines.get(number).copied().unwrap_or(0)
     }
 
+    /// Whether some polygon belongs to a smoothing group.
     pub(crate) fn is_smooth(&self) -> bool {
         !self.smoothing.is_empty()
     }
 
+    /// The smoothing group of a polygon, 0 where it has none.
     #[inline]
     pub(crate) fn smoothing(&self, number: usize) -> u32 {
         if self.smoothing.is_empty() {
@@ -486,13 +499,16 @@ pub(crate) struct Surface {
     pub name: String,
     /// Diffuse colour, each channel in [0, 1].
     pub colour: DVec3,
+    /// Its texels are multiplied with the colour, as glTF and MTL say it.
     pub texture: Option<Arc<Texture>>,
     pub specular: Specular,
+    /// Nothing where it is opaque everywhere.
     pub opacity: Option<Opacity>,
     /// Of a surface in linear light its colour in it, and the rest. The texture, and colours of corners, are in linear light then.
     pub physical: Option<(DVec3, Arc<Physical>)>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
+    /// Whether its back is drawn, and turned towards the light.
     pub sides: Sides,
 }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::{gltf, ply, stl};
 
+/// The formats that are read. A file has one by its content, whatever its name ends in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ, with materials in MTL.
@@ -113,6 +114,7 @@ impl Format {
                 "this is a file of the format {name}, which is not read: export the model as GLB, glTF, OBJ, PLY or STL"
             ))
         };
+        // Formats that begin with bytes of their own.
         let begins = |magic: &[u8]| bytes.starts_with(magic);
         if let Some((_, name)) = OTHERS.iter().find(|(magic, _)| begins(magic)) {
             return refused(name);
@@ -124,6 +126,7 @@ impl Format {
         if begins(b"FORM") {
             return refused("LightWave or Modo (LWO, LXO)");
         }
+        // The others are texts, which may begin with spaces and have small or large letters.
         let head = head(bytes).to_ascii_lowercase();
         let text = head.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
         if let Some(rest) = text.strip_prefix('{') {

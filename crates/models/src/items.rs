@@ -34,22 +34,29 @@ pub(crate) fn model(
     format: Format,
     options: LoadOptions,
 ) -> Result<Model, Wrong> {
+    // What the user says about the axis comes before what the format usually has.
     let up = options.up.unwrap_or(format.usual_up());
     let turn = match up {
         Up::Y => DMat4::IDENTITY,
         // x stays, z becomes y, and y becomes -z.
         Up::Z => DMat4::from_cols(DVec4::X, DVec4::NEG_Z, DVec4::Y, DVec4::W),
     };
+    // All parts in the coordinates of the scene but for z, and what cannot be drawn left out.
     let mut warnings = Warnings::of(&contents.path);
     for part in &mut contents.parts {
         place(part, turn)?;
     }
     let left_out = broken::leave_out(&mut contents, &mut warnings);
+    // Cameras and lights are placed at once; positions are mirrored in `mesh`.
     let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
     let mut cameras = std::mem::take(&mut contents.cameras);
-    cameras.iter_mut().for_each(|camera| camera.place(mirror * turn));
-    let lights = contents.lights.iter().map(|light| light.placed(turn).placed(mirror));
-    let mut lights: Vec<PunctualLight> = lights.collect();
+    for camera in &mut cameras {
+        camera.place(mirror * turn);
+    }
+    let mut lights: Vec<PunctualLight> = Vec::new();
+    for light in &contents.lights {
+        lights.push(light.placed(turn).placed(mirror));
+    }
     if let Some(power) = to_usual_size(&mut contents.parts) {
         let what = if power > 0 { "small" } else { "large" };
         let text = format!(
@@ -58,17 +65,26 @@ pub(crate) fn model(
         );
         warnings.add("sizes", &text);
         for step in half_powers(power) {
-            cameras.iter_mut().for_each(|camera| camera.scale(step));
-            lights.iter_mut().for_each(|light| *light = light.scaled(step));
+            for camera in &mut cameras {
+                camera.scale(step);
+            }
+            for light in &mut lights {
+                *light = light.scaled(step);
+            }
         }
     }
+    // Normals are averaged over all parts, since a surface may go on in the next one.
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
+    // An item for each part that has triangles, and where its triangles come from.
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
     for mut part in std::mem::take(&mut contents.parts) {
+        // The surface, and where the triangles of the part come from.
         let surface = part.material.and_then(|number| contents.materials.get(number));
         if surface.is_some_and(|of| of.physical.is_some() && !of.is_linear(options)) {
-            part.colours.values.iter_mut().for_each(|colour| *colour = colour.map(encoded));
+            for colour in &mut part.colours.values {
+                *colour = colour.map(encoded);
+            }
         }
         let material = material(surface, &part, options);
         let name = surface.map_or(String::new(), |surface| surface.name.clone());
@@ -80,6 +96,7 @@ pub(crate) fn model(
         let tangents = std::mem::take(&mut part.tangents);
         let second_uvs = std::mem::take(&mut part.second_uvs);
         let mut mesh = mesh(part, &smooth, options.normals, &mut origin, &mut warnings);
+        // Most materials read all of their maps at the first coordinates.
         if !second_uvs.is_empty() && material.has_second_uvs() {
             mesh.triangles = mesh.triangles.with_second_uvs(Attribute::OfPositions(second_uvs));
         }
@@ -99,24 +116,25 @@ pub(crate) fn model(
         items.push(item);
         origins.push(origin);
     }
-    let shiny = contents.materials.iter().filter(|surface| surface.specular != Specular::default());
-    let shiny = shiny.count() as u64;
     if options.shading == Shading::Gouraud {
+        let (mut shiny, mut physical) = (0, 0);
+        for surface in &contents.materials {
+            shiny += u64::from(surface.specular != Specular::default());
+            physical += u64::from(surface.physical.is_some() && !surface.unlit);
+        }
         contents.count("specular colour, with Gouraud shading, of material", shiny);
+        contents.count("metal and roughness, with Gouraud shading, of material", physical);
     }
-    let is_physical = |surface: &&Surface| surface.physical.is_some() && !surface.unlit;
-    let physical = contents.materials.iter().filter(is_physical).count();
-    if options.shading == Shading::Gouraud {
-        let key = "metal and roughness, with Gouraud shading, of material";
-        contents.count(key, physical as u64);
-    }
-    let matt =
-        |item: &&Item| item.material.physical.is_none() && item.material.shading != Shading::Unlit;
-    let matt = items.iter().filter(matt).count() as u64;
     if !lights.is_empty() {
+        let mut matt = 0;
+        for Material { physical, shading, .. } in items.iter().map(|item| &item.material) {
+            matt += u64::from(physical.is_none() && *shading != Shading::Unlit);
+        }
         contents.count("light of the file, without metal and roughness, of primitive", matt);
     }
+    // What is said of the file as a whole.
     let not_drawn = counted(&contents.not_drawn);
+    // An empty picture has a reason, which is said in place of a verdict.
     let mut why_empty = clear_materials(&items, &origins, &mut warnings);
     if items.is_empty() {
         if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
@@ -199,6 +217,7 @@ fn place(part: &mut FilePart, turn: DMat4) -> Result<(), String> {
     let is_far =
         |position: &DVec3| position.is_finite() && position.abs().max_element() > MOST_COORDINATE;
     let is_far_corner = |&corner: &u32| is_far(&part.positions[corner as usize]);
+    // Only a position that some face uses ends the file.
     let far = parallel::first(&part.positions, is_far);
     match far.and_then(|_| parallel::first(&part.corners, is_far_corner)) {
         Some(corner) => Err(format!(
@@ -218,17 +237,20 @@ const USUAL_SIZES: RangeInclusive<i32> = -32..=32;
 /// would be lost. That changes no digit, and no pixel, since the eye is placed by the size of the model. Returns the
 /// power where there is one.
 fn to_usual_size(parts: &mut [FilePart]) -> Option<i32> {
-    let bounds = |part: &FilePart| {
-        let used = part.corners.iter().map(|&corner| part.positions[corner as usize]);
-        used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
-    };
-    let (min, max) = parts
-        .iter()
-        .map(bounds)
-        .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
-        .filter(|(min, max)| min.cmple(*max).all())?;
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for part in parts.iter() {
+        for &corner in &part.corners {
+            let position = part.positions[corner as usize];
+            (min, max) = (min.min(position), max.max(position));
+        }
+    }
+    // Without a corner there is no size.
+    if !min.cmple(max).all() {
+        return None;
+    }
     let side = (max - min).max_element();
     // All of it in one point: then the point's distance from the origin.
+    // The power of two by which the longest side becomes about 1.
     let size = if side > 0.0 { side } else { max.abs().max(min.abs()).max_element() };
     let exponent = exponent(size)?;
     if USUAL_SIZES.contains(&exponent) {
@@ -238,7 +260,9 @@ fn to_usual_size(parts: &mut [FilePart]) -> Option<i32> {
     let steps = half_powers(power);
     for part in parts {
         parallel::each_share(&mut part.positions, &|share| {
-            share.iter_mut().for_each(|position| *position = *position * steps[0] * steps[1]);
+            for position in share {
+                *position = *position * steps[0] * steps[1];
+            }
         });
     }
     Some(power)
@@ -254,51 +278,51 @@ fn exponent(size: f64) -> Option<i32> {
     (size > 0.0 && size.is_finite()).then(|| libm::ilogb(size))
 }
 
+/// How a part is drawn. One without a surface is grey, or has the colours of its vertices.
 fn material(surface: Option<&Surface>, part: &FilePart, options: LoadOptions) -> Material {
     let shading = options.shading;
     let vertex_colours = !part.colours.values.is_empty();
-    match surface {
-        Some(surface) => {
-            let mut material = Material {
-                colour: surface.colour,
-                vertex_colours,
-                texture: surface.texture.clone(),
-                specular: surface.specular,
-                opacity: surface.opacity.clone(),
-                shading: if surface.unlit { Shading::Unlit } else { shading },
-                physical: None,
-            };
-            match &surface.physical {
-                Some((colour, physical)) if surface.is_linear(options) => {
-                    material.colour = *colour;
-                    material.physical = Some(Arc::clone(physical));
-                }
-                Some(_) => {
-                    let stored =
-                        |texture: Arc<Texture>| Arc::new(Texture::clone(&texture).as_stored());
-                    material.texture = material.texture.map(stored);
-                }
-                None => {}
+    let Some(surface) = surface else {
+        let colour = if vertex_colours { DVec3::ONE } else { DVec3::splat(0.8) };
+        return Material { colour, vertex_colours, shading, ..Material::default() };
+    };
+    let mut material = Material {
+        colour: surface.colour,
+        vertex_colours,
+        texture: surface.texture.clone(),
+        specular: surface.specular,
+        opacity: surface.opacity.clone(),
+        shading: if surface.unlit { Shading::Unlit } else { shading },
+        physical: None,
+    };
+    match &surface.physical {
+        Some((colour, physical)) if surface.is_linear(options) => {
+            material.colour = *colour;
+            material.physical = Some(Arc::clone(physical));
+        }
+        // A surface of linear light that is shaded in another way has its picture as it is stored.
+        Some(_) => {
+            if let Some(texture) = &surface.texture {
+                material.texture = Some(Arc::new(Texture::clone(texture).as_stored()));
             }
-            material
         }
-        None => {
-            let colour = if vertex_colours { DVec3::ONE } else { DVec3::splat(0.8) };
-            Material { colour, vertex_colours, shading, ..Material::default() }
-        }
+        None => {}
     }
+    material
 }
 
 /// Normals of corners that have none, averaged over the polygons at a position by their areas. Positions are
 /// compared by value, since many files list a position again for each face, object or material.
 #[derive(Default)]
 struct SmoothNormals {
+    /// By position and group: the sum of the normals, and of their lengths, which are twice the areas.
     sums: HashMap<([u64; 3], u32), (DVec3, f64)>,
 }
 
 /// What a group of all polygons is called, whatever the file says.
 const ALL: u32 = u32::MAX;
 
+/// The smoothing group of a polygon; 0 where it is flat.
 fn group(smoothing: u32, normals: Normals) -> u32 {
     match normals {
         Normals::Flat => 0,
@@ -308,10 +332,12 @@ fn group(smoothing: u32, normals: Normals) -> u32 {
 }
 
 impl SmoothNormals {
+    /// Sums over all polygons that have a smoothing group.
     fn of(parts: &[FilePart], normals: Normals) -> Self {
         let mut this = Self::default();
         let mut points = Vec::new();
         for part in parts {
+            // A part without smooth polygons adds nothing, which most parts of large files are.
             let is_smooth = normals == Normals::Smooth || part.polygons.is_smooth();
             for number in (0..part.polygons.len()).filter(|_| is_smooth) {
                 let group = group(part.polygons.smoothing(number), normals);
@@ -348,6 +374,7 @@ fn mesh(
     origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
+    // Attributes by corners of polygons become those of corners of triangles.
     let normals = part_normals(&mut part, smooth, normals);
     let uvs = attribute(std::mem::take(&mut part.uvs), DVec2::ZERO);
     let colours = attribute(std::mem::take(&mut part.colours), DVec3::ONE);
@@ -361,7 +388,9 @@ fn mesh(
     };
     let mut positions = part.positions;
     parallel::each_share(&mut positions, &|share| {
-        share.iter_mut().for_each(|position| *position = mirrored(*position));
+        for position in share {
+            *position = mirrored(*position);
+        }
     });
     let positions = Arc::new(positions);
     let normals = match normals {
@@ -373,12 +402,14 @@ fn mesh(
     Mesh { positions, triangles }
 }
 
+/// A vector with z negated: from a right-handed to a left-handed system.
 fn mirrored(v: DVec3) -> DVec3 {
     DVec3::new(v.x, v.y, -v.z)
 }
 
 /// The corners of all polygons as corners of triangles, by their numbers in the part.
 fn cut(part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
+    // A polygon of n corners becomes n - 2 triangles.
     let most = part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2);
     let mut triangles: Vec<u32> = Vec::with_capacity(3 * most);
     let (mut points, mut faces) = (Vec::new(), Vec::new());
@@ -389,7 +420,9 @@ fn cut(part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32
         let line = part.polygons.line(number);
         points.clear();
         points.extend(part.corners[corners].iter().map(|&corner| part.positions[corner as usize]));
+        // The triangles of the polygon begin here.
         let first = triangles.len() as u32 / 3;
+        // Each triangle with the face and the line that it comes from.
         let mut emit = |corners: [usize; 3]| {
             triangles.extend(corners.map(|corner| first_corner + corner as u32));
             faces.push(face);
@@ -434,6 +467,7 @@ fn attribute<V>(vectors: Vectors<V>, missing: V) -> Attribute<V> {
         Numbers::Nothing => Attribute::Same(missing),
         Numbers::OfPositions => Attribute::OfPositions(values),
         Numbers::OfCorners(mut indices) => {
+            // Corners without one share a value at the end of the list.
             let none = values.len() as u32;
             values.push(missing);
             for number in indices.iter_mut().filter(|number| **number == NONE) {
@@ -472,6 +506,7 @@ fn part_normals(
         Numbers::Nothing if !is_smooth && part.polygons.are_triangles() => return None,
         _ => {}
     }
+    // Else each corner has a normal of the file, or one of the smooth polygons at its position, or that of its polygon.
     let mut indices = Vec::with_capacity(part.corners.len());
     let mut points = Vec::new();
     for number in 0..part.polygons.len() {
@@ -484,6 +519,7 @@ fn part_normals(
                 indices.push(given);
                 continue;
             }
+            // In a group all polygons at a position share a normal, unless theirs cancel.
             let smooth = if group == 0 { None } else { smooth.at(point(corner), group) };
             let next = values.len() as u32;
             indices.push(match smooth {

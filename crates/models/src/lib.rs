@@ -37,9 +37,11 @@ pub use textures::load_texture;
 /// What is wrong with a file, where, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadFile {
+    /// The file, which may be another one than the model: a texture, a material file.
     pub path: PathBuf,
     /// The line, from 1, where there are lines.
     pub line: Option<usize>,
+    /// What is wrong, and what to do about it.
     pub cause: String,
 }
 
@@ -92,12 +94,16 @@ impl From<FileError> for Wrong {
     }
 }
 
+/// The axis that points up in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
+    /// y points up, as in this project's scenes, so that nothing is turned.
     Y,
+    /// As in programs for buildings and for machines.
     Z,
 }
 
+/// Which normals light is computed with: those of the file, or others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; those that are missing from the faces, smooth where the file has a smoothing group and
@@ -110,8 +116,10 @@ pub enum Normals {
     Smooth,
 }
 
+/// What a user may say about a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions {
+    /// How light is computed, where the material does not decide it.
     pub shading: Shading,
     pub normals: Normals,
     /// The axis that points up; by default the one that is usual for the format.
@@ -120,10 +128,12 @@ pub struct LoadOptions {
     pub pose: Option<Pose>,
 }
 
+/// A moment of an animation, at which the model is drawn instead of at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// The number of the animation, from 0.
     pub animation: usize,
+    /// From the beginning of the animation.
     pub time_s: f64,
 }
 
@@ -137,7 +147,9 @@ impl LoadOptions {
 /// A model: what is drawn of a file, and what is not.
 #[derive(Clone, Debug)]
 pub struct Model {
+    /// One for each part that has triangles.
     pub items: Vec<Item>,
+    /// Where each item comes from, in the same order.
     pub origins: Vec<Origin>,
     /// The cameras of the file that stand in what is drawn of it.
     pub cameras: Vec<Camera>,
@@ -158,6 +170,7 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
+/// Where an item comes from, so that a message about a triangle names the place in the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The name of the object, group or node; empty without one.
@@ -171,6 +184,7 @@ pub struct Origin {
     pub lines: Vec<u32>,
     /// The triangles of polygons that are not convex, by their numbers in the item.
     pub concave: Vec<u32>,
+    /// The number of its first face in the file, from 1.
     pub first_face: u32,
 }
 
@@ -215,6 +229,7 @@ pub fn load(path: &Path, options: LoadOptions) -> Result<Model, BadFile> {
     read(path, options).map_err(|wrong| wrong.of(path))
 }
 
+/// Reads a file by its format, and makes a model of what it contains.
 fn read(path: &Path, options: LoadOptions) -> Result<Model, Wrong> {
     let mut file = Records::open(path)?;
     let length = file.length_bytes();
@@ -250,8 +265,11 @@ pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
 /// Warnings of a model, of which there may be as many as lines.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings {
+    /// The file that is read, which each line names.
     path: PathBuf,
+    /// The first lines of each kind.
     shown: Vec<String>,
+    /// By kind, how many there were, shown or not.
     counts: BTreeMap<String, u64>,
 }
 
@@ -293,6 +311,7 @@ impl Warnings {
         }
     }
 
+    /// The lines to show, with a count of those that are not shown.
     pub(crate) fn finish(mut self) -> Vec<String> {
         for (kind, count) in self.counts {
             if count > Self::MOST {

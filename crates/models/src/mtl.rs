@@ -11,6 +11,7 @@ use crate::Warnings;
 use crate::outside::NOT_QUOTED;
 use crate::{records, textures};
 
+/// A material as its file describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct MtlMaterial {
     /// Its name, for `usemtl`.
@@ -27,10 +28,12 @@ pub(crate) struct MtlMaterial {
     pub opacity_map: Option<textures::TextureStatement>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,
+    /// `Ka`, which is drawn only if it is the diffuse colour.
     ambient: Option<DVec3>,
     ambient_map: Option<textures::TextureStatement>,
     /// Its specular colour (`Ks`) and exponent (`Ns`).
     specular: Specular,
+    /// Whether `map_Ks` makes the highlights brighter and darker.
     has_specular_map: bool,
     /// Whether the model of light (`illum` 0 or 1) has no highlights.
     is_matt: bool,
@@ -83,6 +86,7 @@ pub(crate) fn without_comment(line: &str) -> &str {
     line
 }
 
+/// Reads a line by its first word, into the last material.
 fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result<(), String> {
     let lower = kind.to_ascii_lowercase();
     if lower == "newmtl" {
@@ -93,6 +97,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result
     if WITHOUT_EFFECT.contains(&lower.as_str()) {
         return Ok(());
     }
+    // A word that the format has, whether it is drawn or not.
     let is_map = lower.starts_with("map_")
         || ["bump", "disp", "decal", "refl", "norm"].contains(&lower.as_str());
     let colour_words = ["kd", "ka", "ks", "ke", "km", "kt", "tf"];
@@ -129,7 +134,9 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result
         "illum" if number == Some(0.0) || number == Some(1.0) => material.is_matt = true,
         _ => {}
     }
+    // A black colour changes nothing, so it is not counted.
     let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
+    // What the line says and is not drawn, if it says something that could be seen.
     let key = match lower.as_str() {
         "map_kd" | "map_ka" | "map_d" | "map_tr" | "map_opacity" => return Ok(()),
         _ if is_map && parsed().is_none() => return Ok(()),

@@ -32,6 +32,7 @@ type FaceCorner = [u32; 3];
 /// A kind of vector: the number of its index in a [`FaceCorner`], and what is said of it.
 struct VectorKind {
     number: usize,
+    /// What messages call one of them.
     name: &'static str,
     /// How many numbers a line has at least.
     least: usize,
@@ -39,6 +40,7 @@ struct VectorKind {
     not_finite: &'static str,
 }
 
+/// The three kinds of vectors, in the order of a face's numbers.
 const KINDS: [VectorKind; 3] = [
     kind(0, "position", 3, "the faces that use it are left out"),
     kind(1, "texture coordinate", 1, "it is taken as 0 0"),
@@ -62,6 +64,7 @@ const ZBRUSH_COLOUR: &str = "ZBrush colour (#MRGB) of position";
 
 /// Faces of one group and material, one after the other in the file.
 struct Run {
+    /// That of the object, or of the group.
     name: Arc<str>,
     /// The name of the material, and the first line that names it.
     material: Option<(Arc<str>, usize)>,
@@ -69,10 +72,12 @@ struct Run {
     part: FilePart,
 }
 
+/// The vectors of the file, which all runs share.
 #[derive(Default)]
 struct Vectors {
     positions: Vec<DVec3>,
     uvs: Vec<DVec2>,
+    /// Of any length, as the file has them.
     normals: Vec<DVec3>,
     /// The colours of the first positions, up to the last that has one.
     colours: Vec<DVec3>,
@@ -85,9 +90,11 @@ impl Vectors {
     }
 }
 
+/// What the lines of the file come to.
 #[derive(Default)]
 struct Lines {
     vectors: Vectors,
+    /// In the order of the file, one after the other.
     runs: Vec<Run>,
     /// What lines of material files name, each once.
     libraries: Vec<String>,
@@ -119,15 +126,20 @@ impl Lines {
 /// Where the next face belongs.
 #[derive(Default)]
 struct State {
+    /// The name of the last `o`; the group begins anew with it.
     object: Arc<str>,
     group: Arc<str>,
+    /// The name of the last `usemtl`, and the line in which it stands.
     material: Option<(Arc<str>, usize)>,
+    /// The number of the last `s`; 0 where it was `off`.
     smoothing: u32,
     /// Whether a face begins a new run.
     is_new: bool,
 }
 
+/// Reads the text of an OBJ and the material files that it names.
 pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> {
+    // The whole file is read before a part is made, since faces may name what follows them.
     let mut lines = lines(file, contents)?;
     check_faces(&mut lines, contents)?;
     let Lines { vectors, runs, libraries, .. } = lines;
@@ -136,6 +148,7 @@ pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> 
     for (number, material) in described.iter().enumerate() {
         numbers.insert(&material.name, number);
     }
+    // Materials are known by their names; each becomes a surface where it is first used, and textures are decoded then.
     let mut textures = Textures::new(&contents.folder());
     // The number in `contents` of each material that is used.
     let mut used: HashMap<usize, usize> = HashMap::new();
@@ -160,6 +173,7 @@ pub(crate) fn read(file: Records, contents: &mut Contents) -> Result<(), Wrong> 
             }
         };
         before = number;
+        // The part has lists of its own, and the surface that its material becomes where it is first used.
         let mut part = cutter.part(&vectors, run);
         if let Some(number) = number {
             let material = &described[number];
@@ -190,6 +204,7 @@ impl Cutter {
         Self { numbers: vectors.counts().map(|count| vec![NONE; count]) }
     }
 
+    /// A part with the vectors that a run uses.
     fn part(&mut self, vectors: &Vectors, Run { name, mut part, .. }: Run) -> FilePart {
         let p = self.local(0, &mut part.corners);
         let mut of = |kind: usize, numbers: &mut Numbers| match numbers {
@@ -203,9 +218,10 @@ impl Cutter {
         part.positions = p.iter().map(|&index| vectors.positions[index as usize]).collect();
         part.uvs.values = t.iter().map(|&index| vectors.uvs[index as usize]).collect();
         part.normals.values = n.iter().map(|&index| vectors.normals[index as usize]).collect();
-        let colours = p.iter().map(|&index| vectors.colours.get(index as usize).copied());
-        if colours.clone().any(|colour| colour.is_some()) {
-            let colours = colours.map(|colour| colour.unwrap_or(DVec3::ONE)).collect();
+        // Positions after the last one that has a colour are white.
+        if p.iter().any(|&index| (index as usize) < vectors.colours.len()) {
+            let colours = p.iter().map(|&index| vectors.colours.get(index as usize));
+            let colours = colours.map(|colour| *colour.unwrap_or(&DVec3::ONE)).collect();
             part.colours = contents::Vectors::of_positions(colours);
         }
         part
@@ -223,11 +239,15 @@ impl Cutter {
             }
             *index = *number;
         }
-        used.iter().for_each(|&index| numbers[index as usize] = NONE);
+        // Empty again, for the next part.
+        for &index in &used {
+            numbers[index as usize] = NONE;
+        }
         used
     }
 }
 
+/// What a material becomes; a picture that cannot be read is a warning.
 fn surface(
     material: &mtl::MtlMaterial,
     textures: &mut Textures,
@@ -291,6 +311,7 @@ fn read_libraries(libraries: &[String], contents: &mut Contents) -> (Vec<mtl::Mt
             let beside =
                 || find(folder, &path.with_extension("mtl").file_name()?.to_string_lossy());
             let named = find(folder, &name);
+            // The file of that name, or the one beside the model that has the model's name.
             let file = named.clone().or_else(beside);
             let file = file.unwrap_or_else(|| folder.join(name.replace('\\', "/")));
             if named.is_none() && file.is_file() {
@@ -331,10 +352,13 @@ fn library_names(folder: &Path, names: &str) -> Vec<String> {
     let mut at = 0;
     while at < words.len() {
         let joined = |end: usize| words[at..end].join(" ");
+        // The longest name that is there.
         let exists = (at + 1..=words.len()).rev().find(|&end| find(folder, &joined(end)).is_some());
         // A name that is not there ends where its ending is.
-        let ends = |end: &usize| words[end - 1].to_ascii_lowercase().ends_with(".mtl");
-        let end = exists.or_else(|| (at + 1..=words.len()).find(ends)).unwrap_or(words.len());
+        let is_end = |word: &&str| word.to_ascii_lowercase().ends_with(".mtl");
+        let end = exists.unwrap_or_else(|| {
+            words[at..].iter().position(is_end).map_or(words.len(), |last| at + last + 1)
+        });
         found.push(joined(end));
         at = end;
     }
@@ -371,6 +395,7 @@ fn refused(line: usize, cause: &str) -> Wrong {
     Wrong { line, cause: format!("{cause}: repair the line, or export the model again") }
 }
 
+/// Reads all lines, those that go on after a backslash as one.
 fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
     let is_wide = is_wide(&file.bytes);
     let mut read = Lines::default();
@@ -391,6 +416,7 @@ fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
             joined.extend_from_slice(line);
             line = &joined;
         }
+        // A line may go on after a backslash; messages name the first of its lines.
         let result = read_line(line, first, &mut read, &mut state, contents);
         if let Some(cause) = result.map_err(|cause| refused(first, &cause))? {
             contents.warnings.add_at(first, "lines", &cause);
@@ -402,16 +428,20 @@ fn lines(mut file: Records, contents: &mut Contents) -> Result<Lines, Wrong> {
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
         };
-        let ending =
-            contents.path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        let ending = ending.filter(|ending| ending != "obj").map_or(String::new(), |ending| {
-            format!(", and its name ends in .{}", printable_short(&ending, 10))
-        });
+        let ending = contents.path.extension().map(|ending| ending.to_string_lossy());
+        let ending = match ending.map(|ending| ending.to_ascii_lowercase()) {
+            Some(ending) if ending != "obj" => {
+                format!(", and its name ends in .{}", printable_short(&ending, 10))
+            }
+            _ => String::new(),
+        };
+        // Most such files are of another format.
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
         return Err(format!("{what}{ending}; {hint}").into());
     }
     // Some programs write bytes.
     let is_large = |colour: &DVec3| colour.is_finite() && colour.max_element() > 1.0;
+    // From 0 to 1, whatever the program wrote.
     let colours = &mut read.vectors.colours;
     let scale = if colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
     for colour in colours.iter_mut().filter(|colour| !colour.is_nan()) {
@@ -495,12 +525,14 @@ fn vector<'a>(
     line: usize,
     read: &mut Lines,
 ) -> Result<Option<String>, String> {
+    // A comma is read as a decimal point, which is said once for the line.
     let with_comma = words.clone().find(|word| memchr::memchr(b',', word).is_some());
     let values =
         numbers(words, kind).or_else(|cause| read.keep_broken(kind.number, line, cause))?;
     let Values { all, count, not_finite } = values;
     let vectors = &mut read.vectors;
     let vector = DVec3::from_slice(&all);
+    // The vector is kept in any case, so that the numbers of those after it are right.
     let is_finite = match kind.number {
         0 => {
             let colour = match count {
@@ -535,6 +567,7 @@ fn vector<'a>(
     })
 }
 
+/// The words of a line, up to a comment.
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     let end = memchr::memchr_iter(b'#', line).find(|&at| !records::is_of_number(line, at));
     line[..end.unwrap_or(line.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
@@ -548,6 +581,7 @@ fn rest(line: &[u8], kind: &[u8]) -> String {
 
 /// The numbers of a line that describes a vector, as far as they are used.
 struct Values {
+    /// Three coordinates, then perhaps a weight and a colour.
     all: [f64; 7],
     /// How many the line has.
     count: usize,
@@ -584,11 +618,17 @@ fn index(word: &[u8]) -> Option<u64> {
     if word.is_empty() || word.len() > 10 {
         return None;
     }
-    let digit =
-        |sum: u64, byte: &u8| byte.is_ascii_digit().then(|| sum * 10 + u64::from(byte - b'0'));
-    word.iter().try_fold(0, digit)
+    let mut value = 0;
+    for byte in word {
+        if !byte.is_ascii_digit() {
+            return None;
+        }
+        value = value * 10 + u64::from(byte - b'0');
+    }
+    Some(value)
 }
 
+/// Adds a face to the last run, or to a new one where its group or material is another.
 fn face<'a>(
     words: impl Iterator<Item = &'a [u8]>,
     number: usize,
@@ -639,16 +679,17 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
         if !all_digits {
             return Err(format!("'{}' is not a corner of a face", short(word)));
         }
-        let value = index(digits).and_then(|value| {
-            let value = usize::try_from(value).ok()?;
-            let value =
-                if is_back { counts[kind].checked_sub(value) } else { value.checked_sub(1) }?;
-            let is_there = value < ABSENT as usize && (!is_back || value < counts[kind]);
-            is_there.then_some(value as u32)
-        });
-        corner[kind] = value.unwrap_or(ABSENT);
+        corner[kind] = from_0(index(digits), is_back, counts[kind]).unwrap_or(ABSENT);
     }
     Ok(corner)
+}
+
+/// The index from 0 of a number of the file, which counts from 1, or back from the end of what was read so far.
+fn from_0(value: Option<u64>, is_back: bool, count: usize) -> Option<u32> {
+    let value = usize::try_from(value?).ok()?;
+    let value = if is_back { count.checked_sub(value) } else { value.checked_sub(1) }?;
+    let is_there = value < ABSENT as usize && (!is_back || value < count);
+    is_there.then_some(value as u32)
 }
 
 /// Looks whether what faces name is there. Takes away texture coordinates and normals that are not, and faces without all of their
@@ -662,6 +703,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
     // Why the first face is left out, if one is, and how many are.
     let (mut refusal, mut all_left_out) = (None, 0);
     for Run { part, .. } in runs.iter_mut() {
+        // Most files name nothing that is missing, so faces are looked at one by one only where something is.
         let are_there = Numbers::OfPositions.end(&part.corners) <= counts[0]
             && part.uvs.numbers.end(&part.corners) <= counts[1]
             && part.normals.numbers.end(&part.corners) <= counts[2];
@@ -681,11 +723,13 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
                     _ => &mut part.normals.numbers,
                 };
                 let named = corners.clone().filter_map(|at| numbers.get(at, part.corners[at]));
+                // All vectors of this kind that the face names; one that is wrong is enough.
                 let named: Vec<u32> = named.collect();
                 let is_wrong =
                     |index: &u32| *index as usize >= count || broken.contains_key(&(kind, *index));
                 let Some(&index) = named.iter().find(|index| is_wrong(index)) else { continue };
                 // Which line has to be repaired and why, and what is said of the face.
+                // A vector that was broken is to be repaired where it is; one that is not there, where it is named.
                 let (line, cause, of_vector) = match broken.get(&(kind, index)) {
                     Some((line, cause)) => {
                         (*line, cause.clone(), format!("the {name} of the face cannot be read"))
@@ -701,6 +745,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
                         (of_face, cause.clone(), cause)
                     }
                 };
+                // Without a position there is no face; other vectors it can do without.
                 let of_faces = match kind {
                     0 => "the face is left out".to_owned(),
                     _ => format!("the face is drawn without {name}s of the file"),
@@ -721,6 +766,7 @@ fn check_faces(lines: &mut Lines, contents: &mut Contents) -> Result<(), Wrong> 
             part.retain(|_, number| left_out.binary_search(&number).is_err());
         }
     }
+    // A file of which nothing is left is refused for the first of its mistakes.
     if let Some((line, cause)) = refusal
         && runs.iter().all(|run| run.part.polygons.len() == 0)
     {

@@ -17,17 +17,16 @@ use crate::{Wrong, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
-    let is = |bytes: &[u8], word: &[u8]| bytes.eq_ignore_ascii_case(word);
-    without_mark(bytes).split_at_checked(3).filter(|(ply, _)| is(ply, b"ply")).is_some_and(
-        |(_, rest)| {
-            let next = rest.trim_ascii_start();
-            next.len() < rest.len() && next.get(..6).is_some_and(|word| is(word, b"format"))
-                || rest.starts_with(b"\n")
-                || rest.starts_with(b"\r")
-        },
-    )
+    let Some((ply, rest)) = without_mark(bytes).split_at_checked(3) else { return false };
+    let next = rest.trim_ascii_start();
+    let has_format = next.len() < rest.len()
+        && next.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"format"));
+    // A comment may stand before the format, but not in the first line.
+    ply.eq_ignore_ascii_case(b"ply")
+        && (has_format || rest.starts_with(b"\n") || rest.starts_with(b"\r"))
 }
 
+/// The type of numbers of this name; nothing where there is no such type.
 fn kind_of(name: &str) -> Option<Kind> {
     Some(match name {
         "char" | "int8" => Kind::I8,
@@ -59,16 +58,22 @@ fn full(kind: Kind) -> f64 {
 /// A number of an element, or a list with its length.
 struct Property {
     name: String,
+    /// The type of the number, or of the numbers of the list.
     kind: Kind,
+    /// The type of the length of a list; nothing for a single number.
     length: Option<Kind>,
 }
 
+/// A kind of things that the file lists: how many there are, and what each of them has.
 struct Element {
     name: String,
+    /// How many of them the header announces.
     count: u64,
+    /// In the order in which each element has them.
     properties: Vec<Property>,
 }
 
+/// How numbers are written: as words, or as bytes of either order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Text,
@@ -79,6 +84,7 @@ enum Form {
 /// The lines before the data: the form of the file, and which elements follow in which order.
 struct Header {
     form: Form,
+    /// In the order in which their data follow.
     elements: Vec<Element>,
     /// Pictures that comments name, as some programs write them.
     textures: Vec<String>,
@@ -136,6 +142,7 @@ impl Body {
         self.long += u64::from(!self.file.bytes[words].trim_ascii().is_empty());
     }
 
+    /// The next number of an element: of binary files the next bytes, in text the next word of the line.
     fn number(&mut self, kind: Kind) -> Result<f64, String> {
         if self.form != Form::Text {
             let bytes = self.file.left().get(..kind.size()).ok_or("the file is cut off")?;
@@ -164,6 +171,7 @@ impl Body {
     /// The length of a list, which cannot be longer than what is left of the file.
     fn length(&mut self, kind: Kind) -> Result<usize, String> {
         let length = self.number(kind)?;
+        // A length is checked before anything is reserved for it.
         let is_whole = length >= 0.0 && length.fract() == 0.0;
         // Most lists end in what was read already, and then nobody has to ask for the length of the file.
         if !is_whole || length > self.file.left().len() as f64 {
@@ -196,6 +204,7 @@ fn header(body: &mut Body) -> Result<Header, Wrong> {
         let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
         // Some programs write capitals.
         let lower = line.to_ascii_lowercase();
+        // A line by its words; names are taken as they were written.
         let words: Vec<&str> = lower.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
         let wrong = || body.wrong(&format!("'{shown}' is no line of a header"));
@@ -265,11 +274,13 @@ const ALPHA: usize = 11;
 
 /// Reads the text or the bytes of a PLY.
 pub(crate) fn read(mut file: Records, contents: &mut Contents) -> Result<(), Wrong> {
+    // The first line break tells what all of them are: those of old systems are a carriage return alone.
     let line_break = file.left().iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     let line_break = &file.left()[line_break.unwrap_or(0)..];
     file.is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
     let (form, words) = (Form::Text, 0..0);
     let mut body = Body { file, form, words, element: 0, long: 0, comma: None };
+    // The header says in which form the rest is.
     let header = header(&mut body)?;
     body.form = header.form;
     if body.form != Form::Text {
@@ -277,6 +288,7 @@ pub(crate) fn read(mut file: Records, contents: &mut Contents) -> Result<(), Wro
         // A header may end the file.
         body.file.at = body.file.at.min(body.file.bytes.len());
     }
+    // All elements of a file make one part, in the order in which they come.
     let mut part = FilePart::default();
     for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
         body.element = 0;
@@ -315,6 +327,7 @@ pub(crate) fn read(mut file: Records, contents: &mut Contents) -> Result<(), Wro
         let text = "from this line on, a comma in a number is taken as a decimal point";
         warnings.add_at(line, "commas", text);
     }
+    // All elements are read; what names vertices is checked now, for they may have come after the faces.
     check(&part)?;
     if part.normals.values.len() == part.positions.len() {
         part.normals.numbers = Numbers::OfPositions;
@@ -362,19 +375,27 @@ const NO_VALUES: Vertex = {
     values
 };
 
+/// What a property of a vertex is, as its place in [`VERTEX`]; nothing where it is not drawn.
+fn place_in_vertex(property: &Property) -> Option<usize> {
+    let is = |name: &&str| property.name.eq_ignore_ascii_case(name);
+    VERTEX.iter().position(|names| property.length.is_none() && names.iter().any(is))
+}
+
+/// A number of a vertex: as it is, or as a channel from 0 to 1.
+fn scaled(place: usize, kind: Kind, value: f64) -> f64 {
+    if place < FIRST_COLOUR { value } else { value / full(kind) }
+}
+
+/// Reads the vertices: positions, and what else the header gives them.
 fn vertices(
     body: &mut Body,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
 ) -> Result<(), Wrong> {
-    let place = |property: &Property| {
-        let is = |name: &&str| property.name.eq_ignore_ascii_case(name);
-        let is_named = |names: &&[&str]| names.iter().any(is);
-        VERTEX.iter().position(|names| property.length.is_none() && is_named(names))
-    };
-    let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
+    let places: Vec<Option<usize>> = element.properties.iter().map(place_in_vertex).collect();
     let has = |range: Range<usize>| range.clone().all(|at| places.contains(&Some(at)));
+    // Nothing can be drawn without positions; of the others those are taken that are complete.
     if !has(0..3) {
         return Err("the header gives vertices no x, y and z".into());
     }
@@ -388,6 +409,7 @@ fn vertices(
     // As many as the file can hold, whatever the header says.
     part.positions.reserve(element.count.min(body.file.left_bytes()) as usize);
     let mut transparent = 0;
+    // Adds a vertex, with what the header gives to vertices.
     let mut push = |[x, y, z, nx, ny, nz, u, v, r, g, b, a]: Vertex| {
         part.positions.push(DVec3::new(x, y, z));
         if has_normals {
@@ -400,9 +422,6 @@ fn vertices(
             part.colours.values.push(clamped(DVec3::new(r, g, b)));
             transparent += u64::from(a < 1.0);
         }
-    };
-    let scaled = |place: usize, kind: Kind, value: f64| {
-        if place < FIRST_COLOUR { value } else { value / full(kind) }
     };
     // Whole records of bytes are read by all threads. What is cut off, and what has lists, is read number by number.
     if body.form != Form::Text && element.properties.iter().all(|one| one.length.is_none()) {
@@ -426,7 +445,9 @@ fn vertices(
             for bytes in bytes.chunks(size * SHARE * rayon::current_num_threads()) {
                 let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
                 records.map(vertex).collect_into_vec(&mut read);
-                read.iter().copied().for_each(&mut push);
+                for &values in &read {
+                    push(values);
+                }
             }
             bytes.len() / size
         });
@@ -457,11 +478,15 @@ fn clamped(colour: DVec3) -> DVec3 {
 
 /// The red, green and blue of an element that has all three.
 fn channels(element: &Element) -> Option<[&Property; 3]> {
-    let find = |names: &&[&str]| {
-        let is_named = |property: &&Property| names.contains(&property.name.as_str());
-        element.properties.iter().find(|property| property.length.is_none() && is_named(property))
-    };
-    let [r, g, b] = [8, 9, 10].map(|place| find(&VERTEX[place]));
+    let mut channels = [None; 3];
+    for property in &element.properties {
+        for (channel, names) in channels.iter_mut().zip(&VERTEX[FIRST_COLOUR..ALPHA]) {
+            if property.length.is_none() && names.contains(&property.name.as_str()) {
+                channel.get_or_insert(property);
+            }
+        }
+    }
+    let [r, g, b] = channels;
     Some([r?, g?, b?])
 }
 
@@ -479,9 +504,11 @@ enum Role {
     Uvs(Kind),
     /// A channel of its colour, by its number.
     Channel(usize),
+    /// What has no part in the picture is counted, and read past.
     NotDrawn,
 }
 
+/// Reads polygons as lists of vertices.
 fn faces(
     body: &mut Body,
     element: &Element,
@@ -492,6 +519,7 @@ fn faces(
         return Err("the header gives faces no list 'vertex_indices'".into());
     }
     // The colours of vertices are finer.
+    // A face has a colour of its own only where its vertices have none.
     let of_vertices = !part.colours.values.is_empty() && part.colours.numbers == Numbers::Nothing;
     let channels = if of_vertices { None } else { channels(element) };
     let role = |property: &Property| match property.length {
@@ -525,6 +553,7 @@ fn faces(
     // Those of the face that is read.
     let (mut corners, mut uvs) = (Vec::new(), Vec::new());
     loop {
+        // Triangles in the usual form are read many at once, up to a face of another form, which is read here.
         body.element += triangles(body, element, element.count - body.element, part)?;
         if body.element == element.count {
             break;
@@ -558,6 +587,7 @@ fn faces(
             continue;
         }
         // What the corners name follows what the faces before them name.
+        // Two numbers for each corner, or none of them is used.
         let (pairs, _) = uvs.as_chunks::<2>();
         let first_uv = part.uvs.values.len() as u32;
         let has_uvs = pairs.len() == corners.len();
@@ -588,6 +618,7 @@ fn triangles(
     part: &mut FilePart,
 ) -> Result<u64, Wrong> {
     const RECORD: usize = 13;
+    // A length of one byte and three numbers of four bytes are the form of nearly all files.
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
     else {
@@ -616,6 +647,7 @@ fn triangles(
         let records = bytes.as_chunks::<RECORD>().0;
         // A few first, since every other face may have four corners.
         let few = records[..records.len().min(SHARE)].iter().position(is_other);
+        // Up to the first face of another form.
         let found = few.or_else(|| parallel::first(records, is_other));
         let records = &records[..found.unwrap_or(records.len())];
         if records.len() <= SHARE {

@@ -20,6 +20,7 @@ const MOST_CORNERS: usize = 1 << 16;
 pub(crate) enum Shape {
     /// Convex, or without an area.
     Convex,
+    /// Some corner turns the other way, so the polygon was triangulated.
     Concave,
 }
 
@@ -49,7 +50,11 @@ pub(crate) fn triangles(
     emit: &mut impl FnMut([usize; 3]),
 ) -> Result<Shape, Odd> {
     let count = points.len();
-    let mut fan = || (1..count.saturating_sub(1)).for_each(|i| emit([0, i, i + 1]));
+    let mut fan = || {
+        for i in 1..count.saturating_sub(1) {
+            emit([0, i, i + 1]);
+        }
+    };
     // Without a normal it has no area, whatever the triangles.
     if count == 3 || normal == DVec3::ZERO || !normal.is_finite() {
         fan();
@@ -64,11 +69,14 @@ pub(crate) fn triangles(
         fan();
         return Err(Odd::TooManyCorners);
     }
+    // A polygon that is not convex is drawn as its triangulation, if that is the polygon.
     let made = delaunay(&flat);
     if let Some(triangles) = &made
         && (is_flat(points, normal) || have_outline(triangles, points))
     {
-        triangles.iter().for_each(|&triangle| emit(triangle));
+        for &triangle in triangles {
+            emit(triangle);
+        }
         return Ok(Shape::Concave);
     }
     fan();
@@ -79,9 +87,12 @@ pub(crate) fn triangles(
 fn is_flat(points: &[DVec3], normal: DVec3) -> bool {
     const SHARE: f64 = 1e-4;
     let (normal, first) = (normal.normalize_or_zero(), points[0]);
-    let size = points.iter().map(|&point| (point - first).length()).fold(0.0, f64::max);
-    let heights = || points.iter().map(|&point| (point - first).dot(normal));
-    let (least, most) = (heights().fold(0.0, f64::min), heights().fold(0.0, f64::max));
+    let (mut size, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for &point in points {
+        size = size.max((point - first).length());
+        let height = (point - first).dot(normal);
+        (least, most) = (least.min(height), most.max(height));
+    }
     most - least <= SHARE * size
 }
 
@@ -94,15 +105,19 @@ fn have_outline(triangles: &[[usize; 3]], points: &[DVec3]) -> bool {
     }
     // Triangles name the first of several corners at one position.
     let mut first: HashMap<[u64; 3], usize> = HashMap::new();
-    let corners = points.iter().enumerate();
-    let corners: Vec<usize> =
-        corners.map(|(corner, &point)| *first.entry(key(point)).or_insert(corner)).collect();
-    let next = corners.iter().cycle().skip(1);
-    let outline: HashSet<(usize, usize)> =
-        corners.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|(a, b)| a != b).collect();
-    let is_inside = |&(a, b): &(usize, usize)| edges.contains(&(b, a));
-    outline.iter().all(|edge| edges.contains(edge))
-        && edges.iter().all(|edge| outline.contains(edge) || is_inside(edge))
+    let mut corners: Vec<usize> = Vec::with_capacity(points.len());
+    for (corner, &point) in points.iter().enumerate() {
+        corners.push(*first.entry(key(point)).or_insert(corner));
+    }
+    let mut outline: HashSet<(usize, usize)> = HashSet::new();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        if a != b {
+            outline.insert((a, b));
+        }
+    }
+    outline.is_subset(&edges)
+        && edges.iter().all(|&(a, b)| outline.contains(&(a, b)) || edges.contains(&(b, a)))
 }
 
 /// The two coordinates other than the one in which the normal is largest, in the order that makes the polygon
@@ -123,20 +138,29 @@ fn projected(point: DVec3, normal: DVec3) -> DVec2 {
 /// Whether no corner turns right and the outline goes round once.
 fn is_convex(points: &[DVec2]) -> bool {
     let count = points.len();
-    let at = |i: usize| points[i % count];
-    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    let turns_right = |i: usize| orient2d(coord(at(i)), coord(at(i + 1)), coord(at(i + 2))) < 0.0;
-    if (0..count).any(turns_right) {
-        return false;
+    for i in 0..count {
+        let [a, b, c] = [i, i + 1, i + 2].map(|i| {
+            let DVec2 { x, y } = points[i % count];
+            Coord { x, y }
+        });
+        if orient2d(a, b, c) < 0.0 {
+            return false;
+        }
     }
     // Round once, it changes between left and right twice, and between up and down.
-    let changes = |part: fn(DVec2) -> f64| {
-        let steps = (0..count).map(|i| part(at(i + 1)) - part(at(i))).filter(|step| *step != 0.0);
-        let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
-        let next = signs.iter().cycle().skip(1);
-        signs.iter().zip(next).filter(|(a, b)| a != b).count()
-    };
-    changes(|p| p.x) <= 2 && changes(|p| p.y) <= 2
+    changes(points, 0) <= 2 && changes(points, 1) <= 2
+}
+
+/// How often an outline changes between growing and falling along an axis. Steps that do neither do not count.
+fn changes(points: &[DVec2], axis: usize) -> usize {
+    let mut signs: Vec<bool> = Vec::with_capacity(points.len());
+    for i in 0..points.len() {
+        let step = points[(i + 1) % points.len()][axis] - points[i][axis];
+        if step != 0.0 {
+            signs.push(step > 0.0);
+        }
+    }
+    (0..signs.len()).filter(|&i| signs[i] != signs[(i + 1) % signs.len()]).count()
 }
 
 /// The triangles inside a counter-clockwise polygon, which may touch itself, as one with a hole does at the bridge
@@ -199,6 +223,7 @@ fn delaunay(points: &[DVec2]) -> Option<Vec<[usize; 3]>> {
             open.extend(face.adjacent_edges());
         }
     }
+    // Faces of the triangulation that lie inside: around which the outline goes once.
     let mut triangles = Vec::new();
     for face in mesh.inner_faces() {
         match rounds[face.fix().index()] {

@@ -91,6 +91,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// How many bytes a number of this type has.
     pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -127,6 +128,7 @@ impl Kind {
 
 /// A file whose records are read one after the other.
 pub(crate) struct Records {
+    /// What is left of the file, which is read in pieces.
     file: Pieces,
     /// What was read and is not used up.
     pub bytes: Vec<u8>,
@@ -165,6 +167,7 @@ impl Records {
         self.file.length_bytes()
     }
 
+    /// The bytes that were read from the file and not yet used.
     pub(crate) fn left(&self) -> &[u8] {
         self.bytes.get(self.at..).unwrap_or_default()
     }

@@ -20,7 +20,9 @@ use crate::Wrong;
 use crate::contents::{Contents, Coordinate, FilePart, Polygons};
 use crate::records::{self, Records, is_wide, without_mark};
 
+/// The bytes before the triangles, the last four of which count them.
 const HEADER: usize = 84;
+/// A triangle has a normal, three corners and an attribute: 12 numbers of 4 bytes, and 2 bytes.
 const RECORD: usize = 50;
 /// The triangles that the header of a binary file counts.
 fn counted(bytes: &[u8]) -> Option<u64> {
@@ -50,6 +52,7 @@ pub(crate) fn begins_binary(path: &Path, bytes: &[u8]) -> bool {
     if is_wide(begin) || !begin.contains(&0) {
         return false;
     }
+    // Coordinates of real models are neither tiny nor huge.
     let is_usual = |word: &[u8; 4]| {
         let size = f32::from_le_bytes(*word).abs();
         size == 0.0 || (1e-20..1e20).contains(&size)
@@ -76,12 +79,14 @@ struct Corners<C> {
 const RECENT: usize = 1 << 14;
 
 impl<C: Coordinate> Corners<C> {
+    /// No corners yet, with the capacity for so many triangles.
     fn with_capacity(triangles: usize) -> Self {
         // A closed surface has half as many positions as triangles.
         let positions = Vec::with_capacity(triangles / 2);
         Self { positions, numbers: Vec::with_capacity(3 * triangles), recent: vec![0; RECENT] }
     }
 
+    /// Adds a corner, at a position that was added not long ago where there is an equal one.
     #[inline]
     fn push(&mut self, point: [C; 3]) {
         let [x, y, z]: [u64; 3] = point.map_array(|number| number.bits().into());
@@ -100,23 +105,23 @@ type Keyed<C> = ([<C as Coordinate>::Bits; 3], u32);
 
 /// The positions of all shares of a file, each once, in the order in which they come first; and their numbers at all corners.
 fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
-    let mut count = 0;
-    let with_start = shares.iter().map(|share| {
-        let start = count;
+    // Where the positions of each share begin among those of all.
+    let (mut starts, mut count) = (Vec::new(), 0);
+    for share in shares {
+        starts.push(count);
         count += share.positions.len();
-        (start, share)
-    });
-    let shares: Vec<(usize, &Corners<C>)> = with_start.collect();
+    }
     // Equal positions have the same hash, so they are looked for in one of many small tables, which fits into a cache. The
     // seed of the hash is random, so that no file can be written whose positions all are in the same one.
     let hasher = RandomState::default();
+    // Each table has about as many positions as a thread reads.
     let tables = count.div_ceil(SHARE).max(1);
     let hash = |[x, y, z]: [C::Bits; 3]| hasher.hash_one((x, y, z));
     let sorted: Vec<Vec<Vec<Keyed<C>>>> = parallel::map(shares.len(), |share| {
-        let (start, share) = shares[share];
+        let (start, share) = (starts[share], &shares[share]);
         let usual = share.positions.len() / tables;
-        let mut of_tables: Vec<_> =
-            (0..tables).map(|_| Vec::with_capacity(usual + usual / 16)).collect();
+        let mut of_tables = Vec::new();
+        of_tables.resize_with(tables, || Vec::with_capacity(usual + usual / 16));
         for (number, &point) in (start as u32..).zip(&share.positions) {
             let keys = point.map_array(C::bits);
             of_tables[(hash(keys) >> 32) as usize % tables].push((keys, number));
@@ -124,10 +129,10 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         of_tables
     });
     let found: Vec<Vec<(u32, u32)>> = parallel::map(tables, |table| {
-        let all = || sorted.iter().map(|of_tables| &of_tables[table]);
-        let mut known = HashTable::with_capacity(all().map(Vec::len).sum());
+        let count = sorted.iter().map(|of_tables| of_tables[table].len()).sum();
+        let mut known = HashTable::with_capacity(count);
         let mut again = Vec::new();
-        for &(keys, number) in all().flatten() {
+        for &(keys, number) in sorted.iter().flat_map(|of_tables| &of_tables[table]) {
             let is_same = |other: &Keyed<C>| other.0 == keys;
             match known.entry(hash(keys), is_same, |other| hash(other.0)) {
                 Entry::Occupied(first) => again.push((number, first.get().1)),
@@ -142,7 +147,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         numbers[number as usize] = first;
     }
     let mut positions = Vec::with_capacity(count);
-    for (number, &point) in shares.iter().flat_map(|(_, share)| &share.positions).enumerate() {
+    for (number, &point) in shares.iter().flat_map(|share| &share.positions).enumerate() {
         let first = numbers[number] as usize;
         if first == number {
             numbers[number] = positions.len() as u32;
@@ -152,7 +157,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         }
     }
     let mut corners = Vec::new();
-    for (start, share) in shares {
+    for (start, share) in starts.into_iter().zip(shares) {
         renumber(&share.numbers, &numbers[start..], &mut corners);
     }
     (positions, corners)
@@ -170,10 +175,12 @@ pub(crate) fn binary(mut file: Records, contents: &mut Contents) -> Result<(), W
     let length = file.left_bytes();
     let truncated =
         |cause: String| format!("is truncated: {cause}: copy it or export the model again");
-    let announced = counted(&file.bytes).ok_or_else(|| {
-        truncated(format!("an STL without text begins with {HEADER} bytes, and it has {length}"))
-    })?;
+    let Some(announced) = counted(&file.bytes) else {
+        let cause = format!("an STL without text begins with {HEADER} bytes, and it has {length}");
+        return Err(truncated(cause).into());
+    };
     file.at = HEADER;
+    // The header may count more triangles than there are, or fewer.
     let there = file.left_bytes() / RECORD as u64;
     let warnings = &mut contents.warnings;
     // Programs that write before they know the number leave one of these.
@@ -201,8 +208,9 @@ pub(crate) fn binary(mut file: Records, contents: &mut Contents) -> Result<(), W
     let read = file.records(RECORD, count, |bytes| {
         let records = bytes.as_chunks::<RECORD>().0;
         // Some programs keep a colour there, in ways that exclude each other.
-        let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
-        with_attribute += records.iter().filter(has_attribute).count() as u64;
+        for record in records {
+            with_attribute += u64::from(record[RECORD - 2..] != [0; 2]);
+        }
         all.extend(shares(records, rayon::current_num_threads()));
         records.len()
     });
@@ -223,18 +231,18 @@ const UNKNOWN: u64 = u32::MAX as u64;
 /// Reads the corners of records, a share of them by each of up to so many threads.
 fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
     let share = records.len().div_ceil(threads).max(SHARE);
-    let read = |share: &[[u8; RECORD]]| {
-        let mut corners = Corners::with_capacity(share.len());
-        for record in share {
+    let shares: Vec<_> = records.chunks(share).collect();
+    parallel::map(shares.len(), |share| {
+        let mut corners = Corners::with_capacity(shares[share].len());
+        for record in shares[share] {
+            // A normal, which is not read, three corners of three numbers, and the attribute.
             let (numbers, _) = record[12..RECORD - 2].as_chunks::<4>();
             for corner in numbers.as_chunks::<3>().0 {
                 corners.push(corner.map_array(f32::from_le_bytes));
             }
         }
         corners
-    };
-    let shares: Vec<_> = records.chunks(share).collect();
-    parallel::map(shares.len(), |share| read(shares[share]))
+    })
 }
 
 /// Reads triangles in text, of which each `solid` becomes a part.
@@ -243,15 +251,10 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
     let mut parts: Vec<FilePart> = Vec::new();
     // Those of the last part.
     let mut corners = Corners::with_capacity(0);
-    let end = |part: Option<&mut FilePart>, corners: &mut Corners<f64>| {
-        if let Some(part) = part {
-            let corners = std::mem::replace(corners, Corners::with_capacity(0));
-            (part.positions, part.corners) = merged(&[corners]);
-        }
-    };
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut triangles = 0u64;
     // The first line of a facet that has not ended, and whether a solid has not.
+    // How far it was when a file ends, which tells one that is cut off.
     let (mut open, mut is_open) = (None, false);
     loop {
         let number = file.line + 1;
@@ -261,6 +264,7 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
         let mut words = words.peekable();
         // Most lines have one statement, and some files one line.
         while let (Some(word), None) = (words.next(), &wrong) {
+            // Some programs write `end facet` in two words.
             let mut kind = statement(word);
             if kind == Some("end")
                 && let Some(next) = words.next()
@@ -301,15 +305,18 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
                         parts.push(FilePart::default());
                     }
                     if let Some(part) = parts.last_mut() {
-                        points.drain(..).for_each(|point| corners.push(point));
+                        for point in points.drain(..) {
+                            corners.push(point);
+                        }
                         part.polygons.push(3, open.unwrap_or(number) as u32, 0);
                     }
                     triangles += 1;
                     // Where no `endfacet` is before it.
                     open = (kind == Some("facet")).then_some(number);
                 }
+                // What was read so far belongs to the solid before this one.
                 Some("solid") => {
-                    end(parts.last_mut(), &mut corners);
+                    end_part(parts.last_mut(), &mut corners);
                     let name = name(&mut words, &["facet", "endsolid"]);
                     // A line is six bytes, and a part hundreds.
                     if parts.last().is_some_and(|part| part.polygons.len() == 0) {
@@ -333,6 +340,7 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
             // Normals, and what is no statement.
             while words.next_if(|word| statement(word).is_none()).is_some() {}
         }
+        // A wrong line ends the file, unless it is the last one.
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
         if file.next_line()?.is_some() {
@@ -352,11 +360,19 @@ pub(crate) fn text(mut file: Records, contents: &mut Contents) -> Result<(), Wro
             format!("ends without 'endsolid' after {triangles} triangles: it may be truncated");
         warnings.add("ends", &text);
     }
-    end(parts.last_mut(), &mut corners);
+    end_part(parts.last_mut(), &mut corners);
     for part in parts {
         contents.add(part)?;
     }
     Ok(())
+}
+
+/// Moves the corners that were read into the part that they belong to.
+fn end_part(part: Option<&mut FilePart>, corners: &mut Corners<f64>) {
+    if let Some(part) = part {
+        let corners = std::mem::replace(corners, Corners::with_capacity(0));
+        (part.positions, part.corners) = merged(&[corners]);
+    }
 }
 
 /// A text STL has these words beside numbers and the names of solids.
@@ -376,18 +392,23 @@ fn end_of(word: &[u8]) -> Option<&'static str> {
 
 /// The name of a solid: what is left of a line, up to a word that begins the next statement where a facet is in the same line.
 fn name<'a>(words: &mut Peekable<impl Iterator<Item = &'a [u8]> + Clone>, next: &[&str]) -> String {
-    let is = |word: &[u8], known: &str| word.eq_ignore_ascii_case(known.as_bytes());
-    let pairs = words.clone().zip(words.clone().skip(1));
-    let has_facet = { pairs }.any(|(word, after)| is(word, "facet") && is(after, "normal"));
+    // A facet begins with its normal; a solid may be called `facet`.
+    let (mut has_facet, mut is_after_facet) = (false, false);
+    for word in words.clone() {
+        has_facet |= is_after_facet && word.eq_ignore_ascii_case(b"normal");
+        is_after_facet = word.eq_ignore_ascii_case(b"facet");
+    }
+    let ends_name = |word: &[u8]| {
+        has_facet && next.iter().any(|next| word.eq_ignore_ascii_case(next.as_bytes()))
+    };
     let mut name = Vec::new();
-    while let Some(word) =
-        words.next_if(|word| !has_facet || !next.iter().any(|next| is(word, next)))
-    {
+    while let Some(word) = words.next_if(|word| !ends_name(word)) {
         name.push(String::from_utf8_lossy(word));
     }
     records::name(&name.join(" ")).to_owned()
 }
 
+/// The beginning of a line, for a message.
 fn shown(line: &[u8]) -> String {
     printable_short(String::from_utf8_lossy(line).trim(), 60)
 }

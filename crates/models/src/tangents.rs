@@ -14,9 +14,12 @@ pub(crate) fn with(
 ) -> Triangles {
     if of_file.is_empty() {
         let mut corners: Vec<[Corner; 3]> = triangles.iter().collect();
-        for (number, corners) in corners.iter_mut().enumerate().filter(|_| is_second) {
-            let uvs = triangles.second_uvs(number);
-            corners.iter_mut().zip(uvs).for_each(|(corner, uv)| corner.uv = uv);
+        if is_second {
+            for (number, corners) in corners.iter_mut().enumerate() {
+                for (corner, uv) in corners.iter_mut().zip(triangles.second_uvs(number)) {
+                    corner.uv = uv;
+                }
+            }
         }
         let tangents = vec![[DVec4::ZERO; 3]; corners.len()];
         let mut surface = Surface { positions, corners, tangents };
@@ -25,7 +28,9 @@ pub(crate) fn with(
             Err(_) => triangles,
         }
     } else {
-        of_file.iter_mut().for_each(|tangent| *tangent = mirrored(*tangent));
+        for tangent in &mut of_file {
+            *tangent = mirrored(*tangent);
+        }
         triangles.with_tangents(Attribute::OfPositions(of_file))
     }
 }
@@ -39,6 +44,7 @@ fn mirrored(DVec4 { x, y, z, w }: DVec4) -> DVec4 {
 struct Surface<'a> {
     positions: &'a [DVec3],
     corners: Vec<[Corner; 3]>,
+    /// Filled in by the algorithm, corner by corner.
     tangents: Vec<[DVec4; 3]>,
 }
 

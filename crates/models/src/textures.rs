@@ -23,8 +23,10 @@ const MOST_ENTRIES: usize = 1 << 16;
 /// What is said of a picture that cannot be decoded; what follows may quote its bytes.
 pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP";
 
+/// A picture as a texture and, where it has some, with opacities.
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
+    /// Its colours, read by the filter that the file asks for.
     pub texture: Texture,
     /// The opacities of its texels, where some are not opaque.
     alpha: Option<OpacityMap>,
@@ -62,6 +64,7 @@ pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
 /// The pictures that materials name, each decoded once, however often and by however many names it is named.
 #[derive(Default)]
 pub(crate) struct Pictures {
+    /// Also those that are broken, so that they are not decoded again.
     decoded: HashMap<PictureKey, Result<Decoded, String>>,
     /// Bytes of the files so far, one that was read several times counted as often.
     read_bytes: u64,
@@ -90,6 +93,7 @@ impl Pictures {
         }
         let bytes = read(left_bytes.min(limits::TEXTURE_BYTES))?;
         self.read_bytes += bytes.len() as u64;
+        // Two files with the same bytes are one picture.
         let key = (Sha256::digest(&bytes).into(), is_tga(path));
         let Self { decoded, taken_bytes, .. } = self;
         let decoded = decoded.entry(key).or_insert_with(|| decode(path, &bytes, taken_bytes));
@@ -97,6 +101,7 @@ impl Pictures {
     }
 }
 
+/// Whether the name ends as that of a TGA.
 fn is_tga(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("tga"))
 }
@@ -116,6 +121,7 @@ fn decode(path: &Path, bytes: &[u8], taken_bytes: &mut u64) -> Result<Decoded, S
     sides.max_image_height = Some(MAX_SIDE_PX);
     sides.max_alloc = Some(limits::DECODED_TEXTURE_BYTES);
     reader.limits(sides);
+    // The head of the picture is read, and so much is known that its size can be refused before it is decoded.
     let decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
     let is_grey = !decoder.color_type().has_color();
@@ -136,6 +142,7 @@ fn decode(path: &Path, bytes: &[u8], taken_bytes: &mut u64) -> Result<Decoded, S
     }
     *taken_bytes += kept_bytes;
     let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
+    // Opacities are kept apart from colours, for not all surfaces use them.
     let alpha = alpha(&picture).and_then(|alpha| Texture::grey(width, height, alpha));
     let texture = if is_grey {
         Texture::grey(width, height, picture.into_luma8().into_raw())
@@ -166,6 +173,7 @@ fn alpha(picture: &DynamicImage) -> Option<Vec<u8>> {
 /// The file that a model means by a name that it contains: as it is written, with slashes for backslashes, with
 /// other cases of letters, or the last part of the name beside the model.
 pub(crate) fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+    // Names as files write them, from the most literal on.
     let trimmed = name.trim();
     let plain = trimmed.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
     let plain = plain.unwrap_or(trimmed);
@@ -210,11 +218,13 @@ fn other_case(folder: &Path, name: &str) -> Option<OsString> {
 /// What follows `map_Kd`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TextureStatement {
+    /// The picture, as the file writes it.
     pub name: String,
     /// By which texture coordinates are multiplied.
     pub scale: DVec2,
     /// What is added to them afterwards.
     pub offset: DVec2,
+    /// Whether the borders go on, where usually the picture repeats.
     pub clamp: bool,
     /// Options that change the picture and are not applied.
     pub not_applied: Vec<&'static str>,
@@ -255,7 +265,9 @@ impl TextureStatement {
         let mut rest = text.trim();
         while let Some((option, after)) = next_word(rest).filter(|(word, _)| word.starts_with('-'))
         {
+            // Options may stand in any order before the name.
             let fixed = NOT_APPLIED.iter().find(|(name, _)| *name == option);
+            // How many words may follow the option.
             let most = match (option, fixed) {
                 (_, Some((_, count))) => *count,
                 ("-s" | "-o" | "-t", _) => 3,
@@ -292,6 +304,7 @@ impl TextureStatement {
     }
 }
 
+/// The first word of a text, and what follows it.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_start();
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
@@ -302,7 +315,9 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 pub(crate) struct Textures {
     folder: PathBuf,
     pictures: Pictures,
+    /// What came of each path, so that no file is read twice.
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
+    /// How many names were looked for and not found.
     missing: u32,
 }
 
@@ -310,6 +325,7 @@ pub(crate) struct Textures {
 const MOST_MISSING: u32 = 1 << 10;
 
 impl Textures {
+    /// None yet, of a model in this folder.
     pub(crate) fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -341,6 +357,7 @@ impl Textures {
         Ok(Arc::new(map.clone().with(Filter::Bilinear, wrap)))
     }
 
+    /// The picture of this name, searched for and decoded once.
     fn find(&mut self, name: &str) -> Result<&Decoded, BadFile> {
         // Where options are written in another way, the last word is the name.
         let last = name.split_whitespace().next_back().unwrap_or_default();

@@ -56,29 +56,30 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
         let width = (S - a[0]).clamp(0, S);
         return (sign * i128::from(width * (y1 - y0)), 1);
     }
-    let n = |y: i64| i128::from(a[0]) * dy + i128::from(y - a[1]) * dx;
     let s = i128::from(S);
-    let (n0, n1) = (n(y0), n(y1));
+    let [n0, n1] = [y0, y1].map_array(|y| i128::from(a[0]) * dy + i128::from(y - a[1]) * dx);
     // Edges that pass by the pixel are whole numbers, which are not rounded.
     if n0.max(n1) <= 0 || n0.min(n1) >= s * dy {
         let width = if n0 < s * dy { s } else { 0 };
         return (sign * width * i128::from(y1 - y0), 1);
     }
-    // Twice dy squared times the antiderivative of g.
-    let p = |n: i128| {
-        if n <= 0 {
-            2 * s * n * dy
-        } else if n < s * dy {
-            2 * s * n * dy - n * n
-        } else {
-            s * s * dy * dy
-        }
-    };
-    let (numerator, denominator) = (p(n1) - p(n0), 2 * dy * dx);
+    let (numerator, denominator) = (antiderivative(n1, dy) - antiderivative(n0, dy), 2 * dy * dx);
     if denominator < 0 {
         (-sign * numerator, -denominator)
     } else {
         (sign * numerator, denominator)
+    }
+}
+
+/// Twice dy squared times the antiderivative of g.
+fn antiderivative(n: i128, dy: i128) -> i128 {
+    let s = i128::from(S);
+    if n <= 0 {
+        2 * s * n * dy
+    } else if n < s * dy {
+        2 * s * n * dy - n * n
+    } else {
+        s * s * dy * dy
     }
 }
 

@@ -20,10 +20,6 @@ const REACH: i64 = 8;
 #[must_use]
 pub fn corner(rng: &mut Rng, in_perspective: bool) -> Whole {
     let unit = UNIT as i64;
-    let along = |rng: &mut Rng| match rng.chance(2) {
-        true => rng.int(-unit, unit),
-        false => rng.int(-REACH * unit, REACH * unit),
-    };
     let (x, y) = (along(rng), along(rng));
     if in_perspective {
         let w = rng.int(-3 * unit, 12 * unit);
@@ -31,6 +27,15 @@ pub fn corner(rng: &mut Rng, in_perspective: bool) -> Whole {
         [x, y, 9 * (w - unit), w]
     } else {
         [x, y, rng.int(-8 * unit, 16 * unit), unit]
+    }
+}
+
+/// A coordinate in the view, or one that may lie far from it.
+fn along(rng: &mut Rng) -> i64 {
+    let unit = UNIT as i64;
+    match rng.chance(2) {
+        true => rng.int(-unit, unit),
+        false => rng.int(-REACH * unit, REACH * unit),
     }
 }
 
@@ -64,12 +69,7 @@ impl Linear {
 #[must_use]
 pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
     let wide = corners.map_array(|c| c.map_array(i128::from));
-    // The side of the plane through the eye and an edge, as (x, y, 1) in clip space.
-    let edge = |i: usize| {
-        let ([ax, ay, _, aw], [bx, by, _, bw]) = (wide[(i + 1) % 3], wide[(i + 2) % 3]);
-        [ay * bw - aw * by, aw * bx - ax * bw, ax * by - ay * bx]
-    };
-    let edges = [edge(0), edge(1), edge(2)];
+    let edges = [edge(wide[1], wide[2]), edge(wide[2], wide[0]), edge(wide[0], wide[1])];
     let [x, y, _, w] = wide[0];
     let volume = edges[0][0] * x + edges[0][1] * y + edges[0][2] * w;
     if volume == 0 {
@@ -77,13 +77,19 @@ pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
     }
     let edges = edges.map_array(|e| e.map_array(|v| v * volume.signum()));
     // Depth and w of the plane through the corners, both times the volume; z counts in 1/8 more.
-    let weighed = |of: [i128; 3]| {
-        [0, 1, 2]
-            .map_array(|axis| edges.iter().zip(of).map(|(e, value)| e[axis] * value).sum::<i128>())
-    };
-    let near = weighed(wide.map_array(|c| c[2]));
-    let far = weighed(wide.map_array(|c| 8 * c[3] - c[2]));
+    let (mut near, mut far) = ([0; 3], [0; 3]);
+    for (edge, corner) in edges.iter().zip(wide) {
+        for axis in 0..3 {
+            near[axis] += edge[axis] * corner[2];
+            far[axis] += edge[axis] * (8 * corner[3] - corner[2]);
+        }
+    }
     Some([edges[0], edges[1], edges[2], near, far].map(Linear))
+}
+
+/// The side of the plane through the eye and an edge, as a function of (x, y, 1) in clip space.
+fn edge([ax, ay, _, aw]: [i128; 4], [bx, by, _, bw]: [i128; 4]) -> [i128; 3] {
+    [ay * bw - aw * by, aw * bx - ax * bw, ax * by - ay * bx]
 }
 
 #[cfg(test)]

@@ -75,16 +75,12 @@ impl Double {
     /// a b exactly (Dekker, Veltkamp): halves of 26 bits, whose products fit. Not by `mul_add`, which
     /// is a call where the machine has no such instruction.
     fn product(a: f64, b: f64) -> Self {
-        let halves = |v: f64| {
-            let scaled = v * ((1 << 27) + 1) as f64;
-            let high = scaled - (scaled - v);
-            (high, v - high)
-        };
         let ((a1, a0), (b1, b0)) = (halves(a), halves(b));
         let hi = a * b;
         Self { hi, lo: ((a1 * b1 - hi) + a1 * b0 + a0 * b1) + a0 * b0 }
     }
 
+    /// The sum: the high and the low parts are added apart, each with its rounding error, and joined again.
     fn plus(self, other: Self) -> Self {
         let (high, low) = (Self::sum(self.hi, other.hi), Self::sum(self.lo, other.lo));
         let once = Self::ordered(high.hi, high.lo + low.hi);
@@ -188,11 +184,8 @@ impl<const N: usize> NearTriangle<N> {
             return None;
         }
         // Below 2^33, so exact in a float.
-        let side = |i: usize| {
-            let (p, o) = (corners[i], corners[0]);
-            [i64::from(p.x) - i64::from(o.x), i64::from(p.y) - i64::from(o.y)]
-        };
-        let ([x1, y1], [x2, y2]) = (side(1), side(2));
+        let [o, p1, p2] = corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+        let ([x1, y1], [x2, y2]) = ([p1[0] - o[0], p1[1] - o[1]], [p2[0] - o[0], p2[1] - o[1]]);
         let area = i128::from(x1) * i128::from(y2) - i128::from(x2) * i128::from(y1);
         if area == 0 {
             return None;
@@ -258,13 +251,22 @@ pub fn along_line_at_most([a, b]: [f64; 2], step: u64, length: u64, value: f64) 
     }
     // A point has the values of its first end.
     let length = length.max(1);
-    let weighed = |end: f64, weight: u64| {
-        let number = Double::product(end, weight as f64);
-        Sized { number, size: number.hi.abs() }
-    };
     let numerator = weighed(a, length - step).plus(weighed(b, step));
     let length = length as f64;
     at_most(value, numerator, Sized { number: Double::of(length), size: length })
+}
+
+/// Two numbers of 26 bits whose sum is this one (Veltkamp).
+fn halves(v: f64) -> (f64, f64) {
+    let scaled = v * ((1 << 27) + 1) as f64;
+    let high = scaled - (scaled - v);
+    (high, v - high)
+}
+
+/// An end of a line times the steps from the other one.
+fn weighed(end: f64, weight: u64) -> Sized {
+    let number = Double::product(end, weight as f64);
+    Sized { number, size: number.hi.abs() }
 }
 
 /// |value - numerator / denominator| = |value denominator - numerator| / |denominator|, from above.

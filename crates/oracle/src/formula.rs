@@ -66,7 +66,11 @@ impl Formula {
 }
 
 fn largest(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(0.0, |most, number| most.max(number.abs()))
+    let mut most = 0.0_f64;
+    for number in numbers {
+        most = most.max(number.abs());
+    }
+    most
 }
 
 /// Numbers that may be off by a part of the largest of them, or of `least` where that is more.
@@ -76,6 +80,7 @@ fn alike(exact: Vec<Exact>, least: f64) -> Vec<ExactNumber> {
     exact.into_iter().map(|exact| ExactNumber { exact, scale }).collect()
 }
 
+/// See [`Formula::Project`], as of those below.
 fn project(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[n, .., z] = numbers else { return None };
     let [film, x, y, w] = <[f64; 4]>::try_from(numbers).ok()?.map(Exact::from);
@@ -136,17 +141,20 @@ fn normal(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let (matrix, n) = numbers.split_at_checked(9)?;
     let [x, y, z] = n else { return None };
     // The inverse, transposed, has at each place the cofactor of that place, divided by the determinant.
-    let cofactor = |row: usize, column: usize| {
-        let at = |i: usize, j: usize| &matrix[3 * ((row + i) % 3) + (column + j) % 3];
-        at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)
-    };
-    let determinant = (0..3).map(|j| &matrix[j] * cofactor(0, j)).reduce(|a, b| a + b)?;
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| cofactor(matrix, row, column)));
+    let [c0, c1, c2] = &rows[0];
+    let determinant = &matrix[0] * c0 + &matrix[1] * c1 + &matrix[2] * c2;
     if determinant == Exact::from(0.0) {
         return None;
     }
-    let row =
-        |i: usize| (cofactor(i, 0) * x + cofactor(i, 1) * y + cofactor(i, 2) * z) / &determinant;
-    Some(alike(vec![row(0), row(1), row(2)], 0.0))
+    let moved = rows.map(|[a, b, c]| (a * x + b * y + c * z) / &determinant);
+    Some(alike(moved.into(), 0.0))
+}
+
+/// The determinant of what is left of a matrix without a row and a column, with its sign: the rows and columns after these, in turn.
+fn cofactor(matrix: &[Exact], row: usize, column: usize) -> Exact {
+    let at = |i: usize, j: usize| &matrix[3 * ((row + i) % 3) + (column + j) % 3];
+    at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)
 }
 
 fn light(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
@@ -171,13 +179,12 @@ fn texel(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     if !(1..=MOST_TEXELS).contains(&count) || (256.0 * place).fract() != 0.0 {
         return None;
     }
-    let at = |index: i64| Exact::from(texels[index.rem_euclid(count as i64) as usize]);
-    let nearest = at(place.floor() as i64);
     // A texel has its value at its centre.
     let from_centre = place - 0.5;
-    let left = from_centre.floor() as i64;
-    let share = Exact::from(from_centre - from_centre.floor());
-    let mixed = at(left) + (at(left + 1) - at(left)) * share;
+    let left = from_centre.floor();
+    let [nearest, first, second] = [place.floor(), left, left + 1.0]
+        .map(|index| Exact::from(texels[(index as i64).rem_euclid(count as i64) as usize]));
+    let mixed = &first + (second - &first) * Exact::from(from_centre - left);
     let scale = largest(texels);
     Some(vec![ExactNumber { exact: nearest, scale }, ExactNumber { exact: mixed, scale }])
 }
@@ -188,12 +195,18 @@ type TexturedCorner = [Exact; 5];
 fn level(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     let &[width, height, ref corners @ .., _, _] = numbers else { return None };
     let numbers: Vec<Exact> = numbers.iter().map(|number| Exact::from(*number)).collect();
-    let ws = corners.chunks_exact(5).map(|corner| corner[2]);
-    if corners.len() != 15 || width < 1.0 || height < 1.0 || ws.into_iter().any(|w| w <= 0.0) {
+    if corners.len() != 15 || width < 1.0 || height < 1.0 {
         return None;
     }
-    let corner = |i: usize| <TexturedCorner>::try_from(numbers[2 + 5 * i..7 + 5 * i].to_vec()).ok();
-    let corners = [corner(0)?, corner(1)?, corner(2)?];
+    let mut exact = Vec::new();
+    for (given, exact_numbers) in corners.chunks_exact(5).zip(numbers[2..].chunks_exact(5)) {
+        // What lies behind the eye is not seen.
+        if given[2] <= 0.0 {
+            return None;
+        }
+        exact.push(TexturedCorner::try_from(exact_numbers.to_vec()).ok()?);
+    }
+    let corners: [TexturedCorner; 3] = exact.try_into().ok()?;
     let at = [&numbers[17], &numbers[18]];
     let one = Exact::from(1.0);
     // 1/w, u/w and v/w change evenly in the window: each with its value at the place, and its slopes.
@@ -206,14 +219,10 @@ fn level(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
     if inv_w[0] <= zero {
         return None;
     }
-    let derivative = |over_w: &[Exact; 3], slope: usize, texels: &Exact| {
-        let value = &over_w[0] / &inv_w[0];
-        (&over_w[slope] - value * &inv_w[slope]) / &inv_w[0] * texels
-    };
     let mut longest = zero.clone();
     for slope in [1, 2] {
-        let [du, dv] =
-            [derivative(&u_over_w, slope, &numbers[0]), derivative(&v_over_w, slope, &numbers[1])];
+        let du = derivative(&u_over_w, &inv_w, slope) * &numbers[0];
+        let dv = derivative(&v_over_w, &inv_w, slope) * &numbers[1];
         let square = &du * &du + &dv * &dv;
         longest = if square > longest { square } else { longest };
     }
@@ -221,6 +230,12 @@ fn level(numbers: &[f64]) -> Option<Vec<ExactNumber>> {
         return None;
     }
     Some(alike(vec![Exact::from(0.5 * libm::log2(longest.to_f64()))], 1.0))
+}
+
+/// How u or v grows along an axis, as the quotient of two planes.
+fn derivative(over_w: &[Exact; 3], inv_w: &[Exact; 3], slope: usize) -> Exact {
+    let value = &over_w[0] / &inv_w[0];
+    (&over_w[slope] - value * &inv_w[slope]) / &inv_w[0]
 }
 
 /// Of the plane through three values over w: its value at a place, and its slopes along x and y. Nothing of a triangle without area.

@@ -103,8 +103,8 @@ impl Oracle {
         bounds: PixelRect,
         emit: &mut dyn FnMut(PixelPoint, u64),
     ) {
-        let end = |pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 };
-        self.line_pixels(&ScreenLine { ends: ends.map_array(end) }, bounds, emit);
+        let ends = ends.map_array(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
+        self.line_pixels(&ScreenLine { ends }, bounds, emit);
     }
 }
 

@@ -45,21 +45,26 @@ pub fn cover_and_count_ties(
     }
     let parts = corners.map_array(|corner| corner.map_array(take_apart));
     // Centres are odd multiples of 2^-1.
-    let last_bits = parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
-    let unit = last_bits.map(|&(_, exponent)| exponent).fold(-1, i32::min);
+    let mut unit = -1;
+    for &(mantissa, exponent) in parts.as_flattened() {
+        if mantissa != 0 {
+            unit = unit.min(exponent);
+        }
+    }
     // Where corners and the samples around them are below 2^n units, differences are below 2^(n+1),
     // products of those below 2^(2n+2), and a sum of one and a smaller one below 2^(2n+3): 63 bits
     // hold them for n = 30, and 125 for n = 61. In pixels they are below 2^24.
     if unit < -37 {
-        let whole = |(mantissa, exponent): (i64, i32)| {
-            BigInt::from(mantissa) << shift(mantissa, exponent, unit)
-        };
+        let big = parts.map_array(|corner| corner.map_array(|part| big_in(part, unit)));
         let centre = |px: i32| BigInt::from(2 * i64::from(px) + 1) << (-1 - unit);
-        return scan(&parts.map_array(|corner| corner.map_array(whole)), centre, rect, emit);
+        return scan(&big, centre, rect, emit);
     }
-    let whole =
-        |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
-    let wide = parts.map_array(|corner| corner.map_array(whole));
+    let mut wide = [[0i128; 2]; 3];
+    for (value, &(mantissa, exponent)) in
+        wide.as_flattened_mut().iter_mut().zip(parts.as_flattened())
+    {
+        *value = i128::from(mantissa) << shift(mantissa, exponent, unit);
+    }
     // No sample, nor the column after the last, reaches farther than these.
     let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map_array(|px| centre_in(px, unit));
     if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
@@ -79,20 +84,24 @@ pub fn cover_and_count_ties(
 #[must_use]
 pub fn edge_value(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> (Ordering, f64) {
     let parts = [a, b, p].map_array(|point| point.map_array(take_apart));
-    let unit = parts.as_flattened().iter().map(|&(_, exponent)| exponent).fold(0, i32::min);
-    let [a, b, p] = parts.map_array(|point| {
-        point.map_array(|(mantissa, exponent)| {
-            BigInt::from(mantissa) << shift(mantissa, exponent, unit)
-        })
-    });
+    let mut unit = 0;
+    for &(_, exponent) in parts.as_flattened() {
+        unit = unit.min(exponent);
+    }
+    let [a, b, p] = parts.map_array(|point| point.map_array(|part| big_in(part, unit)));
     let value = (&b[0] - &a[0]) * (&p[1] - &a[1]) - (&b[1] - &a[1]) * (&p[0] - &a[0]);
     // So many bits below the first 53 go; halves of a power that may itself be no f64.
     let cut = value.bits().saturating_sub(53);
     let scale = 2 * i64::from(unit) + cut as i64;
     let (half, rest) = (scale / 2, scale - scale / 2);
-    let two_to = |exponent: i64| 2_f64.powi(exponent as i32);
     let head = (&value >> cut).to_f64().unwrap_or(f64::NAN);
-    (value.sign().cmp(&Sign::NoSign), head * two_to(half) * two_to(rest))
+    let scaled = head * 2_f64.powi(half as i32) * 2_f64.powi(rest as i32);
+    (value.sign().cmp(&Sign::NoSign), scaled)
+}
+
+/// A number that was taken apart, in units of 2^`unit`.
+fn big_in((mantissa, exponent): (i64, i32), unit: i32) -> BigInt {
+    BigInt::from(mantissa) << shift(mantissa, exponent, unit)
 }
 
 /// How far a mantissa moves to count in units of 2^`unit`; zero stays where it is.
@@ -107,13 +116,14 @@ fn centre_in(px: i32, unit: i32) -> i128 {
 
 /// All pixels whose squares touch the bounding box of the corners. Floors of floats are exact.
 fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
-    let ends = |axis: usize| {
-        let [a, b, c] = corners.map_array(|corner| corner[axis].floor());
-        // Within the domain, so both fit i32.
-        (a.min(b).min(c) as i32, a.max(b).max(c) as i32 + 1)
-    };
-    let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
-    PixelRect { x0, y0, x1, y1 }
+    let [a, b, c] = corners.map_array(|corner| corner.map_array(f64::floor));
+    // Within the domain, so all of them fit i32.
+    PixelRect {
+        x0: a[0].min(b[0]).min(c[0]) as i32,
+        y0: a[1].min(b[1]).min(c[1]) as i32,
+        x1: a[0].max(b[0]).max(c[0]) as i32 + 1,
+        y1: a[1].max(b[1]).max(c[1]) as i32 + 1,
+    }
 }
 
 /// A whole number of any size.
@@ -150,6 +160,7 @@ fn scan<T: Whole>(
     rect: PixelRect,
     emit: &mut dyn FnMut(Span),
 ) -> u64 {
+    // From column to column, x dy grows by a constant, so that nothing is multiplied for a sample.
     let first = centre(rect.x0);
     let pixel = centre(rect.x0 + 1).minus(&first);
     let mut ties = 0;
@@ -162,11 +173,17 @@ fn scan<T: Whole>(
             (false, true) => Some(Crossing::new(b, a, &y, &first, &pixel)),
             _ => None,
         });
-        for (a, b) in pairs.into_iter().filter(|(a, b)| a[1] == y && b[1] == y) {
+        for (a, b) in pairs {
+            // A level edge at this height holds samples, and is crossed by none.
+            if a[1] != y || b[1] != y {
+                continue;
+            }
             let (low, high) = if a[0] < b[0] { (&a[0], &b[0]) } else { (&b[0], &a[0]) };
-            let columns = (rect.x0..rect.x1).map(&centre);
-            ties += columns.filter(|x| low <= x && x <= high).count() as u64;
+            for x in (rect.x0..rect.x1).map(&centre) {
+                ties += u64::from(*low <= x && x <= *high);
+            }
         }
+        // Runs of samples that are inside become spans.
         let mut start = None;
         for x_px in rect.x0..rect.x1 {
             let mut is_inside = false;

@@ -28,6 +28,7 @@ pub enum Fit {
     Outside,
 }
 
+/// The centre of a column or row, in subpixels.
 fn centre(px: i32) -> i64 {
     i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }
@@ -35,26 +36,26 @@ fn centre(px: i32) -> i64 {
 /// Whether a pixel's centre lies in the rectangle made wider and longer on all sides by so many
 /// subpixels, with its border or without.
 fn in_rectangle([a, b]: &Ends, (x, y): (i32, i32), more: i64, closed: bool) -> bool {
-    let wide = |v: i64| i128::from(v);
     let d = [i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y)];
     let s = [centre(x) - i64::from(a.x), centre(y) - i64::from(a.y)];
-    let cross = wide(d[0] * s[1] - d[1] * s[0]);
-    let dot = wide(d[0] * s[0] + d[1] * s[1]);
-    let length2 = wide(d[0] * d[0] + d[1] * d[1]);
+    let cross = i128::from(d[0] * s[1] - d[1] * s[0]);
+    let dot = i128::from(d[0] * s[0] + d[1] * s[1]);
+    let length2 = i128::from(d[0] * d[0] + d[1] * d[1]);
     // |cross| / length <= half + more, and -more <= dot / length <= length + more.
-    let half = wide(i64::from(HALF_PIXEL) + more);
+    let (half, more) = (i128::from(HALF_PIXEL) + i128::from(more), i128::from(more));
     // How far inside the nearer end, times the length.
     let inward = dot.min(length2 - dot);
-    let is_within = |value: i128, limit: i128| {
-        let (square, limit) = (value * value, limit * limit * length2);
-        square < limit || (closed && square == limit)
-    };
     let along = match inward.signum() {
-        -1 => more > 0 && is_within(-inward, wide(more)),
+        -1 => more > 0 && is_within(-inward, more * more * length2, closed),
         0 => more > 0 || (more == 0 && closed),
-        _ => more >= 0 || inward * inward > wide(more * more) * length2,
+        _ => more >= 0 || inward * inward > more * more * length2,
     };
-    along && is_within(cross, half)
+    along && is_within(cross, half * half * length2, closed)
+}
+
+/// Whether a square is below a limit, or at it where that belongs.
+fn is_within(value: i128, limit: i128, closed: bool) -> bool {
+    value * value < limit || (closed && value * value == limit)
 }
 
 /// The same of a parallelogram.
@@ -78,18 +79,19 @@ fn in_parallelogram([a, b]: &Ends, (x, y): (i32, i32), more: i64, closed: bool) 
 /// How lit pixels of a window stand to a rectangle of width 1 px, on a lattice of this step.
 #[must_use]
 pub fn rectangle(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
-    shape(|pixel, more, closed| in_rectangle(ends, pixel, more, closed), lit, side_px, step)
+    shape(in_rectangle, ends, lit, side_px, step)
 }
 
 /// How they stand to a parallelogram.
 #[must_use]
 pub fn parallelogram(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
-    shape(|pixel, more, closed| in_parallelogram(ends, pixel, more, closed), lit, side_px, step)
+    shape(in_parallelogram, ends, lit, side_px, step)
 }
 
 /// How they stand to a shape that is made wider by so many subpixels, with its border or without.
 fn shape(
-    holds: impl Fn((i32, i32), i64, bool) -> bool,
+    holds: fn(&Ends, (i32, i32), i64, bool) -> bool,
+    ends: &Ends,
     lit: &Pixels,
     side_px: i32,
     step: i32,
@@ -99,8 +101,8 @@ fn shape(
         let is_lit = lit.contains(&pixel);
         // The corners of the shape are rounded to the lattice: its sides move by a step at most.
         let [is_right, is_allowed] = match is_lit {
-            true => [0, i64::from(step)].map_array(|more| holds(pixel, more, true)),
-            false => [0, -i64::from(step)].map_array(|more| !holds(pixel, more, false)),
+            true => [0, i64::from(step)].map_array(|more| holds(ends, pixel, more, true)),
+            false => [0, -i64::from(step)].map_array(|more| !holds(ends, pixel, more, false)),
         };
         match (is_right, is_allowed) {
             (true, _) => {}
@@ -111,6 +113,7 @@ fn shape(
     fit
 }
 
+/// The pixels of a window, row by row.
 fn window(side_px: i32) -> impl Iterator<Item = (i32, i32)> {
     (0..side_px).flat_map(move |y| (0..side_px).map(move |x| (x, y)))
 }
@@ -152,17 +155,23 @@ fn enters([a, b]: &Ends, pixel: (i32, i32)) -> bool {
 /// The pixels of a window that the diamond-exit rule lights.
 #[must_use]
 pub fn diamonds(ends: &Ends, side_px: i32) -> Pixels {
-    let holds = |pixel| {
-        let [x, y] = from_centre(ends[1], pixel);
-        x.abs() + y.abs() < i64::from(HALF_PIXEL) * FINE
-    };
-    let near = |v: [i32; 2], px: i32| {
-        let (low, high) = (v[0].min(v[1]) / SUBPIXELS - 1, v[0].max(v[1]) / SUBPIXELS + 1);
-        (low..=high).contains(&px)
-    };
     let [a, b] = ends;
-    let is_near = |(x, y): &(i32, i32)| near([a.x, b.x], *x) && near([a.y, b.y], *y);
-    window(side_px).filter(is_near).filter(|p| enters(ends, *p) && !holds(*p)).collect()
+    let mut lit = Pixels::new();
+    for (x, y) in window(side_px) {
+        // A pixel that holds the last end is not left.
+        let [from_x, from_y] = from_centre(*b, (x, y));
+        let holds_end = from_x.abs() + from_y.abs() < i64::from(HALF_PIXEL) * FINE;
+        let is_near = is_in_reach([a.x, b.x], x) && is_in_reach([a.y, b.y], y);
+        if is_near && !holds_end && enters(ends, (x, y)) {
+            lit.insert((x, y));
+        }
+    }
+    lit
+}
+
+/// Whether a column or row lies between two coordinates in subpixels, with one to spare.
+fn is_in_reach([a, b]: [i32; 2], px: i32) -> bool {
+    (a.min(b) / SUBPIXELS - 1..=a.max(b) / SUBPIXELS + 1).contains(&px)
 }
 
 /// How lit pixels stand to the diamond-exit rule. Allowed are a pixel more or fewer, each at most one
@@ -177,14 +186,24 @@ pub fn diamond_exit(ends: &Ends, lit: &Pixels, side_px: i32) -> Fit {
     let [a, b] = ends;
     let is_wide = (b.x - a.x).abs() >= (b.y - a.y).abs();
     let major: BTreeSet<i32> = lit.iter().map(|p| if is_wide { p.0 } else { p.1 }).collect();
-    let near = |p: &(i32, i32), of: &Pixels| {
-        (-1..=1).any(|dy| (-1..=1).any(|dx| of.contains(&(p.0 + dx, p.1 + dy))))
-    };
+    // One that is missing needs no neighbour.
     let is_allowed = major.len() == lit.len()
         && lit.len().abs_diff(ideal.len()) <= 1
-        && lit.iter().all(|p| near(p, &ideal))
-        && ideal.iter().all(|p| near(p, lit) || lit.len() < ideal.len());
+        && lit.iter().all(|p| has_neighbour(*p, &ideal))
+        && (lit.len() < ideal.len() || ideal.iter().all(|p| has_neighbour(*p, lit)));
     if is_allowed { Fit::Allowed } else { Fit::Outside }
+}
+
+/// Whether a pixel, or one of the eight around it, is among these.
+fn has_neighbour((x, y): (i32, i32), of: &Pixels) -> bool {
+    for near_y in y - 1..=y + 1 {
+        for near_x in x - 1..=x + 1 {
+            if of.contains(&(near_x, near_y)) {
+                return true;
+            }
+        }
+    }
+    false
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::borrow::Borrow;
 use std::cmp::Ordering;
 use std::ops;
 
-use num_bigint::{BigInt, Sign};
+use num_bigint::{BigInt, BigUint, Sign};
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use rasterproof_core::arrays::MapArray as _;
@@ -66,8 +66,8 @@ struct LinearFunction {
 impl LinearFunction {
     fn new(corners: &Corners, area: i128, values: &[Dyadic; 3]) -> Self {
         // Zero has no exponent of its own.
-        let exponent =
-            values.iter().filter(|v| !v.mantissa.is_zero()).map(|v| v.exponent).min().unwrap_or(0);
+        let of_others = values.iter().filter(|v| !v.mantissa.is_zero());
+        let exponent = of_others.map(|v| v.exponent).min().unwrap_or(0);
         let [f0, f1, f2] = [0, 1, 2].map_array(|i| {
             let value = &values[i];
             if value.mantissa.is_zero() {
@@ -76,14 +76,11 @@ impl LinearFunction {
                 &value.mantissa << (value.exponent - exponent)
             }
         });
-        let offset = |i: usize| {
-            let (p, o) = (corners[i], corners[0]);
-            (i64::from(p.x) - i64::from(o.x), i64::from(p.y) - i64::from(o.y))
-        };
-        let ((x1, y1), (x2, y2)) = (offset(1), offset(2));
+        let [o, p1, p2] = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let ([x1, y1], [x2, y2]) = ([p1[0] - o[0], p1[1] - o[1]], [p2[0] - o[0], p2[1] - o[1]]);
         let (g1, g2) = (f1 - &f0, f2 - &f0);
         Self {
-            origin: [i64::from(corners[0].x), i64::from(corners[0].y)],
+            origin: o,
             at_origin: f0 * area,
             per_x: &g1 * y2 - &g2 * y1,
             per_y: &g2 * x1 - &g1 * x2,
@@ -122,7 +119,7 @@ impl PartialOrd for Exact {
 
 /// Arithmetic without rounding, between numbers and references to them.
 macro_rules! operator {
-    ($operator:ident, $method:ident, |$a:ident, $b:ident| $result:expr) => {
+    ($operator:ident, $method:ident($a:ident, $b:ident) $result:block) => {
         impl<R: Borrow<Exact>> ops::$operator<R> for &Exact {
             type Output = Exact;
 
@@ -142,20 +139,20 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, |a, b| {
+operator!(Add, add(a, b) {
     let numerator = &a.numerator * &b.denominator + &b.numerator * &a.denominator;
     Exact { numerator, denominator: &a.denominator * &b.denominator }
 });
-operator!(Sub, sub, |a, b| {
+operator!(Sub, sub(a, b) {
     let numerator = &a.numerator * &b.denominator - &b.numerator * &a.denominator;
     Exact { numerator, denominator: &a.denominator * &b.denominator }
 });
-operator!(Mul, mul, |a, b| {
+operator!(Mul, mul(a, b) {
     let numerator = &a.numerator * &b.numerator;
     Exact { numerator, denominator: &a.denominator * &b.denominator }
 });
 // The divisor is not zero.
-operator!(Div, div, |a, b| {
+operator!(Div, div(a, b) {
     Exact::new(&a.numerator * &b.denominator, &a.denominator * &b.numerator, 0)
 });
 
@@ -192,23 +189,14 @@ impl Exact {
         }
         // The quotient lies between 2^(bits - 1) and 2^(bits + 1).
         let bits = top.bits() as i64 - bottom.bits() as i64;
-        let scaled = |exponent: i64| {
-            // top / (bottom 2^exponent) as two whole numbers.
-            let shift = exponent.unsigned_abs();
-            if exponent < 0 {
-                (top << shift, bottom.clone())
-            } else {
-                (top.clone(), bottom << shift)
-            }
-        };
-        let (left, right) = scaled(bits);
+        let (left, right) = over_power(top, bottom, bits);
         let first_bit = if left >= right { bits } else { bits - 1 };
         if first_bit > 1023 {
             return if self.numerator.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY };
         }
         // Subnormal numbers end at 2^-1074, others 52 bits after the first.
         let last_bit = (first_bit - 52).max(-1074);
-        let (left, right) = scaled(last_bit);
+        let (left, right) = over_power(top, bottom, last_bit);
         let (down, rest) = (&left / &right, &left % &right);
         let down = down.to_u64().unwrap_or(u64::MAX);
         let up = match (rest << 1u32).cmp(&right) {
@@ -245,13 +233,21 @@ impl Exact {
     }
 }
 
+/// top / (bottom 2^exponent) as two whole numbers.
+fn over_power(top: &BigUint, bottom: &BigUint, exponent: i64) -> (BigUint, BigUint) {
+    let shift = exponent.unsigned_abs();
+    if exponent < 0 { (top << shift, bottom.clone()) } else { (top.clone(), bottom << shift) }
+}
+
+/// The leading 64 bits of a magnitude, and how many follow.
+fn leading(n: &BigInt) -> (f64, i32) {
+    let shift = n.bits().saturating_sub(64);
+    let top = (n.magnitude() >> shift).to_u64().unwrap_or(u64::MAX);
+    (top as f64, shift as i32)
+}
+
 /// |a / b| as a float, from the leading 64 bits of each.
 fn quotient(a: &BigInt, b: &BigInt) -> f64 {
-    let leading = |n: &BigInt| {
-        let shift = n.bits().saturating_sub(64);
-        let top = (n.magnitude() >> shift).to_u64().unwrap_or(u64::MAX);
-        (top as f64, shift as i32)
-    };
     if a.sign() == Sign::NoSign {
         return 0.0;
     }
@@ -286,12 +282,8 @@ impl<const N: usize> ExactTriangle<N> {
         inv_w: [f64; 3],
         attributes: [[f64; N]; 3],
     ) -> Option<Self> {
-        let d = |i: usize, j: usize| {
-            let (p, q) = (corners[i], corners[j]);
-            (i128::from(q.x) - i128::from(p.x), i128::from(q.y) - i128::from(p.y))
-        };
-        let ((x1, y1), (x2, y2)) = (d(0, 1), d(0, 2));
-        let area = x1 * y2 - x2 * y1;
+        let [o, p, q] = corners.map(|corner| [i128::from(corner.x), i128::from(corner.y)]);
+        let area = (p[0] - o[0]) * (q[1] - o[1]) - (q[0] - o[0]) * (p[1] - o[1]);
         let mut numbers = depth.iter().chain(&inv_w).chain(attributes.as_flattened());
         if area == 0 || !numbers.all(|number| number.is_finite()) {
             return None;
@@ -319,11 +311,12 @@ impl<const N: usize> ExactTriangle<N> {
     pub(super) fn of_planes(&self, planes: &[ValuePlane], x_px: i32, y_px: i32) -> Vec<Exact> {
         let [x, y] = [x_px, y_px].map_array(centre);
         let inv_w = self.inv_w.numerator(x, y);
-        let one = |ValuePlane(plane): &ValuePlane| {
+        let mut values = Vec::with_capacity(planes.len());
+        for ValuePlane(plane) in planes {
             let exponent = plane.exponent - self.inv_w.exponent;
-            Exact::new(plane.numerator(x, y), inv_w.clone(), exponent)
-        };
-        planes.iter().map(one).collect()
+            values.push(Exact::new(plane.numerator(x, y), inv_w.clone(), exponent));
+        }
+        values
     }
 
     /// Depth and attributes at the centre of a pixel.

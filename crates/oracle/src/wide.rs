@@ -24,9 +24,6 @@ pub fn covers(
         WideForm::Parallelogram if d[0].abs() >= d[1].abs() => [d[0], 0],
         WideForm::Parallelogram => [0, d[1]],
     };
-    let product = |p: [i64; 2], q: [i64; 2]| {
-        i128::from(p[0]) * i128::from(q[0]) + i128::from(p[1]) * i128::from(q[1])
-    };
     let (at, end) = (product(along, s), product(along, along));
     if d == [0, 0] || at < 0 || at > end {
         return false;
@@ -41,6 +38,10 @@ pub fn covers(
     (beside * beside < reach || owns([-d[1] * turn, d[0] * turn]))
         && (at > 0 || owns(along.map(|v| -v)))
         && (at < end || owns(along))
+}
+
+fn product(p: [i64; 2], q: [i64; 2]) -> i128 {
+    i128::from(p[0]) * i128::from(q[0]) + i128::from(p[1]) * i128::from(q[1])
 }
 
 #[cfg(test)]

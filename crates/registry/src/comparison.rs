@@ -28,6 +28,7 @@ impl Engine {
 pub struct EnginesToJudge {
     pub triangles: Vec<Engine>,
     pub lines: Vec<LineEngine>,
+    /// Engines for corners that are not snapped, which have families of their own.
     pub unsnapped: Vec<ExactEngine>,
 }
 
@@ -46,6 +47,7 @@ impl EnginesToJudge {
 
     /// The planted fault of this name, in each kind of engine that has one.
     pub fn planted(name: &str) -> Self {
+        // One name may belong to faults of several kinds.
         let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
         let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
         let unsnapped = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
@@ -56,10 +58,12 @@ impl EnginesToJudge {
         }
     }
 
+    /// Whether there is no engine, as for a name that no fault has.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.lines.is_empty() && self.unsnapped.is_empty()
     }
 
+    /// Whether an engine of this name is among them.
     fn has(&self, name: &str) -> bool {
         self.triangles.iter().any(|e| e.name() == name)
             || self.lines.iter().any(|e| e.name() == name)
@@ -69,6 +73,7 @@ impl EnginesToJudge {
     /// These engines, then those of [`Self::all`] that are not among them.
     #[must_use]
     pub fn with_others(&self) -> Self {
+        // By their names, so that no engine is judged twice.
         let (all, mut these) = (Self::all(), self.clone());
         these.triangles.extend(all.triangles.into_iter().filter(|e| !self.has(e.name())));
         these.lines.extend(all.lines.into_iter().filter(|e| !self.has(e.name())));
@@ -76,6 +81,7 @@ impl EnginesToJudge {
         these
     }
 
+    /// The engines with their names, and with the bounds of their values.
     fn engines(&self) -> Engines<Engine, LineEngine, ExactEngine> {
         let triangles = self.triangles.iter().map(|e| (e.name(), *e, Some(e.tolerance())));
         Engines {
@@ -85,6 +91,7 @@ impl EnginesToJudge {
         }
     }
 
+    /// Judges them by the oracle and by each other; `progress` gets the number of cases that are done.
     pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
         self.engines().judge(options, progress)
     }
@@ -92,9 +99,11 @@ impl EnginesToJudge {
     /// Why an engine is wrong, found by asking it more.
     #[must_use]
     pub fn cause(&self, engine: &str) -> Option<Cause> {
+        // The engine is asked more until a convention or a mistake explains its answers.
         self.engines().cause(engine)
     }
 
+    /// What is found of each engine in one case.
     #[must_use]
     pub fn judge_case(&self, case: &Case) -> Vec<([String; 2], Finding)> {
         self.engines().judge_case(case)
@@ -102,27 +111,32 @@ impl EnginesToJudge {
 
     /// The hits of each engine that draws such shapes, after its name.
     pub fn hits(&self, case: &Case) -> Vec<(String, Hits)> {
-        let drawn = |name: &str, hits: Result<Coverage, EnginePanic>| {
-            (name.to_owned(), hits.map_err(String::from))
-        };
+        // Each kind of shape has engines of its own.
         let window = case.window;
+        let mut all = Vec::new();
+        let mut add = |name: &str, hits: Result<Coverage, EnginePanic>| {
+            all.push((name.to_owned(), hits.map_err(String::from)));
+        };
         match &case.shape {
             Shape::Triangles { list, .. } => {
-                let hits = |e: &Engine| drawn(e.name(), engine_coverage(e, list, window));
-                self.triangles.iter().map(hits).collect()
+                for engine in &self.triangles {
+                    add(engine.name(), engine_coverage(engine, list, window));
+                }
             }
             Shape::Lines(list) => {
-                let hits = |e: &LineEngine| drawn(e.name(), line_coverage(e, list, window));
-                self.lines.iter().map(hits).collect()
+                for engine in &self.lines {
+                    add(engine.name(), line_coverage(engine, list, window));
+                }
             }
             Shape::Unsnapped { list, .. } => {
-                let hits = |e: &ExactEngine| {
-                    drawn(e.name(), exact_coverage(e, list, window).map(|(hits, _)| hits))
-                };
-                self.unsnapped.iter().map(hits).collect()
+                for engine in &self.unsnapped {
+                    add(engine.name(), exact_coverage(engine, list, window).map(|(hits, _)| hits));
+                }
             }
-            Shape::Numbers { .. } => Vec::new(),
+            // These are polygons for tessellators, which no engine draws.
+            Shape::Numbers { .. } => {}
         }
+        all
     }
 }
 

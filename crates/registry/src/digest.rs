@@ -40,12 +40,14 @@ pub struct DigestRow {
     pub sha256: String,
 }
 
+/// A kind of result of an engine, which has a digest of its own.
 #[derive(Clone, Copy)]
 enum Job {
     /// Hit counts of triangles.
     Coverage(Engine),
     /// Depths and attributes of triangles.
     Values(Engine),
+    /// Pixels of lines with their values.
     Lines(LineEngine),
     /// Hit counts of triangles off the lattice, and how they were decided.
     OffGrid(ExactEngine),
@@ -53,6 +55,7 @@ enum Job {
     Frames(Drawer),
 }
 
+/// The engines of each kind that are digested: the judged ones, and the oracle.
 const ENGINES: [Engine; 3] = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle];
 const LINE_ENGINES: [LineEngine; 3] = [LineEngine::Dda, LineEngine::Bresenham, LineEngine::Oracle];
 const EXACT_ENGINES: [ExactEngine; 3] =
@@ -63,6 +66,7 @@ fn drawn(families: &'static [Family]) -> impl Iterator<Item = &'static Family> {
     families.iter().filter(|family| family.design().is_none())
 }
 
+/// Everything that is digested, in the order of the table.
 fn jobs() -> Vec<Job> {
     let mut jobs = Vec::new();
     jobs.extend(ENGINES.iter().flat_map(|&e| [Job::Coverage(e), Job::Values(e)]));
@@ -73,6 +77,7 @@ fn jobs() -> Vec<Job> {
 }
 
 impl Job {
+    /// The name of the engine, and what is digested of it.
     fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Coverage(engine) => (engine.name(), "coverage"),
@@ -83,6 +88,7 @@ impl Job {
         }
     }
 
+    /// How many hashes there are: one for each case of each family, or for each scene.
     fn count(self, cases: u64) -> u64 {
         let families = match self {
             Self::Coverage(_) | Self::Values(_) => drawn(cases::triangles::FAMILIES).count(),
@@ -93,12 +99,13 @@ impl Job {
         families as u64 * cases
     }
 
+    /// The hash of one case; the index counts through the families, then through the cases of each.
     fn hash(self, DigestOptions { seed, cases }: DigestOptions, index: u64) -> [u8; 32] {
+        // A hash of its own for each case, so that cases can be computed in any order.
         let mut hash = Hash(Sha256::new());
         let of = |families: &'static [Family]| {
-            let family =
-                drawn(families).nth((index / cases) as usize).expect("as many as are counted");
-            family.case(seed, index % cases)
+            let family = drawn(families).nth((index / cases) as usize);
+            family.expect("as many as are counted").case(seed, index % cases)
         };
         match self {
             Self::Coverage(engine) => coverage(engine, &of(cases::triangles::FAMILIES), &mut hash),
@@ -106,6 +113,7 @@ impl Job {
             Self::Lines(engine) => lines(engine, &of(cases::lines::FAMILIES), &mut hash),
             Self::OffGrid(engine) => off_grid(engine, &of(unsnapped::FAMILIES), &mut hash),
             Self::Frames(drawer) => {
+                // The scenes of the book come first, then random ones.
                 let scenes = chapters::SCENES.len() as u64;
                 let scene = match chapters::SCENES.get(index as usize) {
                     // A turn that no angle makes simple.
@@ -121,6 +129,7 @@ impl Job {
     }
 }
 
+/// The names of all engines that have a digest, in alphabetical order.
 pub fn engines() -> Vec<&'static str> {
     let mut names: Vec<_> = jobs().into_iter().map(|job| job.names().0).collect();
     names.sort_unstable();
@@ -135,28 +144,32 @@ pub fn digest(
     engine: Option<&str>,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<DigestRow> {
-    let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
-    jobs()
-        .into_iter()
-        .filter(wanted)
-        .map(|job| {
-            let hashes = parallel::map(job.count(options.cases) as usize, |index| {
-                let hash = job.hash(options, index as u64);
-                progress(1);
-                hash
-            });
-            let ((engine, what), sha256) = (job.names(), hex(&Sha256::digest(hashes.concat())));
-            DigestRow { engine, what, sha256 }
-        })
-        .collect()
+    let mut rows = Vec::new();
+    for job in jobs_of(engine) {
+        let hashes = parallel::map(job.count(options.cases) as usize, |index| {
+            let hash = job.hash(options, index as u64);
+            progress(1);
+            hash
+        });
+        let (engine, what) = job.names();
+        rows.push(DigestRow { engine, what, sha256: hex(&Sha256::digest(hashes.concat())) });
+    }
+    rows
+}
+
+/// The jobs of one engine, or of all.
+fn jobs_of(engine: Option<&str>) -> Vec<Job> {
+    let mut jobs = jobs();
+    jobs.retain(|job| engine.is_none_or(|name| job.names().0 == name));
+    jobs
 }
 
 /// How many cases [`digest`] goes through.
 pub fn case_count(options: DigestOptions, engine: Option<&str>) -> u64 {
-    let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
-    jobs().into_iter().filter(wanted).map(|job| job.count(options.cases)).sum()
+    jobs_of(engine).into_iter().map(|job| job.count(options.cases)).sum()
 }
 
+/// The digest of all rows with their names, in their order.
 pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();
     for DigestRow { engine, what, sha256 } in parts {
@@ -182,6 +195,7 @@ impl Hash {
         self.0.update(y_px.to_le_bytes());
     }
 
+    /// A float by its bits, all NaNs alike.
     fn number(&mut self, value: f64) {
         self.whole(canonical(value));
     }
@@ -189,13 +203,18 @@ impl Hash {
     fn fragment<const N: usize>(&mut self, fragment: &Fragment<impl Varying>, values: [f64; N]) {
         self.pixel(fragment.x_px, fragment.y_px);
         self.number(fragment.depth);
-        values.into_iter().for_each(|value| self.number(value));
+        for value in values {
+            self.number(value);
+        }
     }
 
+    /// The hits of all pixels, row by row.
     fn coverage(&mut self, hits: &Coverage) {
         for (y_px, row) in hits.rows() {
             self.pixel(hits.bounds().x0, y_px);
-            row.iter().for_each(|&count| self.whole(u64::from(count)));
+            for &count in row {
+                self.whole(u64::from(count));
+            }
         }
     }
 }
@@ -205,6 +224,7 @@ fn canonical(value: f64) -> u64 {
     if value.is_nan() { 0x7ff8 << 48 } else { value.to_bits() }
 }
 
+/// Hashes how often each pixel is hit by all triangles of a case together.
 fn coverage(engine: Engine, case: &Case, hash: &mut Hash) {
     let Shape::Triangles { list, .. } = &case.shape else { return };
     let mut hits = Coverage::new(case.window, 0);
@@ -215,6 +235,7 @@ fn coverage(engine: Engine, case: &Case, hash: &mut Hash) {
     hash.coverage(&hits);
 }
 
+/// Hashes depths and attributes of a case.
 fn values(engine: Engine, case: &Case, hash: &mut Hash) {
     let Shape::Triangles { list, .. } = &case.shape else { return };
     // The oracle divides big integers at each pixel: a few rows stand for all.
@@ -227,6 +248,7 @@ fn values(engine: Engine, case: &Case, hash: &mut Hash) {
     }
 }
 
+/// Hashes the fragments of lines, with a mark after each line.
 fn lines(engine: LineEngine, case: &Case, hash: &mut Hash) {
     let Shape::Lines(list) = &case.shape else { return };
     for line in list {
@@ -235,11 +257,13 @@ fn lines(engine: LineEngine, case: &Case, hash: &mut Hash) {
     }
 }
 
+/// Hashes how triangles off the lattice were decided, and their hits.
 fn off_grid(engine: ExactEngine, case: &Case, hash: &mut Hash) {
     let mut hits = Coverage::new(case.window, 0);
     for corners in case.free_corners() {
-        let hit = |s: rasterproof_core::triangle::Span| hits.hit(s.y_px, s.x0_px, s.x1_px);
-        let decisions = engine.cover_exact(corners, case.window, hit);
+        let decisions = engine.cover_exact(corners, case.window, |s| {
+            hits.hit(s.y_px, s.x0_px, s.x1_px);
+        });
         hash.whole(decisions.by_filter);
         hash.whole(decisions.by_fallback);
     }
@@ -248,27 +272,34 @@ fn off_grid(engine: ExactEngine, case: &Case, hash: &mut Hash) {
 
 /// A scene planned, and with every depth of every sample.
 fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
+    // With every depth and every sample, so that nothing is left out that could differ.
     let complete =
         Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
     let antialias = [Antialias::None, Antialias::Multisample4, Antialias::Supersample(2)];
+    // Each scene has another format of depth, in turn.
     let depth = DepthFormat::ALL[index as usize % DepthFormat::ALL.len()];
     for antialias in antialias {
         let Ok(mut target) = Target::new(64, 48, antialias, depth) else { continue };
+        // The plan is part of the digest, so that another plan shows even where it leads to the same picture.
         let Ok(plan) = drawer.plan(scene, &Effects::PLANNED, &Canvas::of(&target)) else {
             hash.whole(u64::MAX);
             continue;
         };
         hash.0.update(serde_json::to_string(&plan).unwrap_or_default());
         for effects in [Effects::PLANNED, complete] {
+            // The picture as planned, and as it is with all samples and depths.
             let Ok(rendered) = drawer.render(scene, &effects, &mut target) else { continue };
             for (_, row) in rendered.picture.rows() {
                 hash.0.update(row.as_flattened());
             }
         }
+        // Colours and depths of every sample, as the last frame has left them.
         for plane in &target.planes {
             for ((_, colours), (_, keys)) in plane.colour.rows().zip(plane.depth.rows()) {
                 hash.0.update(colours.as_flattened());
-                keys.iter().for_each(|&key| hash.whole(key));
+                for &key in keys {
+                    hash.whole(key);
+                }
             }
         }
     }

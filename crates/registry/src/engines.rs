@@ -46,10 +46,12 @@ use rasterproof_verify::oracle::Oracle;
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
     Scanline,
+    /// The bounding box and three integer edge functions.
     EdgeFunction,
     /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
     /// edge function.
     Tile,
+    /// Slow, and right: what the others are judged by.
     Oracle,
     Mutant(TriangleMutant),
     /// The tiles with a planted fault, of lists of one triangle.
@@ -108,6 +110,7 @@ impl Engine {
         }
     }
 
+    /// What [`Interpolate::fragments`] does.
     fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
@@ -184,7 +187,9 @@ impl LineEngine {
 /// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
+    /// The scanline engine, with the DDA for the edges of wireframes.
     Scanline,
+    /// The edge-function engine, with Bresenham's lines for the edges of wireframes.
     EdgeFunction,
 }
 
@@ -195,6 +200,7 @@ enum FrameEngine {
     EdgeFunction(EdgeFunctionIn),
 }
 
+// Frames are drawn by runs of fragments, which are the hot loop; what is called once for each triangle may choose here.
 impl Rasterize for FrameEngine {
     #[inline]
     fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
@@ -246,6 +252,7 @@ impl Drawer {
         }
     }
 
+    /// The name of its line drawer, for edges.
     pub fn line_name(self) -> &'static str {
         match self {
             Self::Scanline => LineEngine::Dda.name(),
@@ -253,6 +260,7 @@ impl Drawer {
         }
     }
 
+    /// The rasterizer, with the numbers that an effect allows to edge functions.
     fn engine(self, wide_words: Mode) -> FrameEngine {
         match self {
             Self::Scanline => FrameEngine::Scanline,
@@ -307,6 +315,7 @@ impl Drawer {
         effect: Effect,
         target: &mut Target,
     ) -> Result<Rendered, BadScene> {
+        // Before the frame is drawn without this effect.
         target.clear_colour([255, 0, 255, 255], &mut Counters::default());
         for plane in &mut target.planes {
             plane.depth.fill(0);
@@ -362,6 +371,7 @@ pub enum ExactEngine {
 }
 
 impl ExactEngine {
+    /// The rasterizers of a verdict about corners that are not snapped.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
     pub fn name(&self) -> &'static str {
@@ -413,7 +423,9 @@ pub enum Specimen {
 pub struct Entry {
     pub name: &'static str,
     pub about: &'static str,
+    /// What it rasterizes triangles with, if it does.
     pub engine: Option<Engine>,
+    /// What it draws lines with, if it does.
     pub line_engine: Option<LineEngine>,
     /// The rasterizer of this name for corners that are not snapped.
     pub exact_engine: Option<ExactEngine>,
@@ -432,9 +444,11 @@ pub enum Variant {
     WideLines(WideLines),
     /// The shares of pixels.
     Area(AreaLevels),
+    /// Samples with values, computed at one of three places.
     SampleValues(SampleValues),
 }
 
+/// An entry that can do nothing, which the tables fill in.
 const NOBODY: Entry = Entry {
     name: "",
     about: "",
@@ -446,6 +460,7 @@ const NOBODY: Entry = Entry {
 };
 
 /// Entries from a table: name, what it is, and what it can do.
+// A member that a line of the table does not name is `None`.
 macro_rules! entries {
     ($($name:literal, $about:literal, $($can:ident: $by:expr),+;)*) => {
         [$(Entry { name: $name, about: $about, $($can: Some($by),)+ ..NOBODY }),*]
@@ -533,11 +548,14 @@ pub fn speaking() -> impl Iterator<Item = &'static Entry> {
     ENTRIES.iter().chain(&VARIANTS).chain(&SPECIMENS)
 }
 
+/// The entry of this name, of those that speak the line protocol.
 pub fn find(name: &str) -> Option<&'static Entry> {
     speaking().find(|entry| entry.name == name)
 }
 
+/// An entry for the planted fault of this name, by all kinds of engines that have it.
 pub fn find_planted(name: &str) -> Option<Entry> {
+    // One name may be that of several faults, in engines of different kinds.
     let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);

@@ -27,7 +27,9 @@ use rasterproof_verify::comparison::{caught, line_coverage};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::partition::{Coordinates, Family};
 
+/// The name and the version of the format.
 pub const FORMAT: &str = "rasterproof-fixtures/2";
+/// How many cases there are of each kind.
 pub const QUOTAS: [(Kind, usize); 5] = [
     (Kind::Triangle, 400),
     (Kind::Fan, 150),
@@ -42,6 +44,7 @@ const BITS: std::ops::RangeInclusive<u32> = 4..=SUBPIXEL_BITS;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
+    /// Three corners, at the centre of each pixel.
     Triangle,
     /// The first point with each pair of the following ones.
     Fan,
@@ -61,6 +64,7 @@ pub type Run = [i32; 3];
 pub struct Fixtures {
     /// [`FORMAT`].
     pub format: String,
+    /// The version of this project that made the file.
     pub rasterproof: String,
     pub seed: u64,
     /// Where the samples of a kind lie in a pixel, in px from its upper left corner.
@@ -76,6 +80,7 @@ pub struct PolygonFixture {
     pub family: String,
     /// Inside is where they run around a point an odd number of times.
     pub contours: Vec<Vec<[i32; 2]>>,
+    /// In square units of the coordinates.
     pub twice_area: i64,
 }
 
@@ -84,15 +89,17 @@ pub const POLYGONS: usize = 200;
 const POLYGONS_LOOKED_AT: u64 = 200;
 
 impl PolygonFixture {
+    /// The polygon of a family, in whole numbers.
     fn new(family: Family, seed: u64, index: u64) -> Self {
         let polygon = family.polygon(seed, index, Coordinates::Integer);
-        let whole = |contour: &Vec<[f64; 2]>| {
-            contour.iter().map(|point| point.map(|v| v as i32)).collect::<Vec<_>>()
-        };
-        let contours: Vec<_> = polygon.contours.iter().map(whole).collect();
-        // Contours turn one way around what is inside and the other way around holes, so their areas add up.
-        let twice_area = contours.iter().map(|contour| shoelace(contour)).sum::<i64>().abs();
-        Self { family: family.name().to_owned(), contours, twice_area }
+        let (mut contours, mut twice_area) = (Vec::new(), 0);
+        for contour in &polygon.contours {
+            let whole: Vec<_> = contour.iter().map(|point| point.map(|v| v as i32)).collect();
+            // Contours turn one way around what is inside and the other way around holes, so their areas add up.
+            twice_area += shoelace(&whole);
+            contours.push(whole);
+        }
+        Self { family: family.name().to_owned(), contours, twice_area: twice_area.abs() }
     }
 
     /// Fewer vertices come first, then fewer digits.
@@ -102,17 +109,20 @@ impl PolygonFixture {
     }
 }
 
+/// Twice the area of a polygon, with the sign of the way in which it turns.
 fn shoelace(contour: &[[i32; 2]]) -> i64 {
-    let next = contour.iter().cycle().skip(1);
-    let cross = |(&[ax, ay], &[bx, by]): (&[i32; 2], &[i32; 2])| {
-        i64::from(ax) * i64::from(by) - i64::from(bx) * i64::from(ay)
-    };
-    contour.iter().zip(next).map(cross).sum()
+    let mut sum = 0;
+    for (i, &[ax, ay]) in contour.iter().enumerate() {
+        let [bx, by] = contour[(i + 1) % contour.len()];
+        sum += i64::from(ax) * i64::from(by) - i64::from(bx) * i64::from(ay);
+    }
+    sum
 }
 
 /// The smallest polygons of each family: the same number of each, but for one.
 fn polygons(seed: u64) -> Vec<PolygonFixture> {
     let mut all = Vec::new();
+    // What is left is shared evenly among the families that follow.
     let mut families = Family::ALL.len();
     for family in Family::ALL {
         let mut found: Vec<_> =
@@ -135,6 +145,7 @@ pub struct Fixture {
     pub window: [u32; 2],
     /// In px, y down; of a line whole columns and rows.
     pub points: Vec<[f64; 2]>,
+    /// The planted fault for which it was found.
     pub found_by: String,
     /// Its pixels, for every number of bits below the pixel.
     pub expected: Vec<ExpectedPictures>,
@@ -144,6 +155,7 @@ pub struct Fixture {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedPictures {
+    /// From the first to the last number of bits, both included.
     pub bits: [u32; 2],
     /// The pictures of the samples of a pixel, in the order of [`Fixtures::samples`].
     pub samples: Vec<Pixels>,
@@ -153,6 +165,7 @@ pub struct ExpectedPictures {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pixels {
+    /// Hit exactly once, however corners are moved to the grid.
     pub hit: Vec<Run>,
     /// Hit once or not, since a corner off the grid may be moved to it up or down.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -171,11 +184,14 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// Every fault that can be seen in pixels, engines first.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let triangles = TriangleMutant::ALL.into_iter().map(Self::Triangle);
-        let tiles = TileMutant::ALL.into_iter().map(Self::Tile);
-        triangles.chain(tiles).chain(LineMutant::ALL.into_iter().map(Self::Line)).collect()
+        let mut all = Vec::new();
+        all.extend(TriangleMutant::ALL.map(Self::Triangle));
+        all.extend(TileMutant::ALL.map(Self::Tile));
+        all.extend(LineMutant::ALL.map(Self::Line));
+        all
     }
 
     pub fn name(self) -> &'static str {
@@ -187,8 +203,10 @@ impl Fault {
     }
 }
 
+/// Whoever draws a case: engines of both kinds, or a planted fault.
 #[derive(Clone, Copy, Debug)]
 pub enum Drawer {
+    /// A rasterizer for triangles, a line drawer for lines.
     Engines(Engine, LineEngine),
     Fault(Fault),
 }
@@ -198,24 +216,32 @@ pub enum Drawer {
 struct Drawing {
     kind: Kind,
     window: [u32; 2],
+    /// In subpixels; of a line whole pixels.
     points: Vec<SubpixelPoint>,
 }
 
 impl Drawing {
+    /// The drawing that a fixture holds.
     fn of(fixture: &Fixture) -> Self {
         let unit = if fixture.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
-        let point = |[x, y]: [f64; 2]| SubpixelPoint::new((x * unit) as i32, (y * unit) as i32);
-        let points = fixture.points.iter().copied().map(point).collect();
+        let mut points = Vec::with_capacity(fixture.points.len());
+        for [x, y] in &fixture.points {
+            points.push(SubpixelPoint::new((x * unit) as i32, (y * unit) as i32));
+        }
         Self { kind: fixture.kind, window: fixture.window, points }
     }
 
+    /// The drawing as a fixture, with what is expected of it.
     fn fixture(&self, found_by: &str) -> Fixture {
         let unit = if self.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
-        let points = self.points.iter().map(|p| [f64::from(p.x) / unit, f64::from(p.y) / unit]);
+        let mut points = Vec::with_capacity(self.points.len());
+        for p in &self.points {
+            points.push([f64::from(p.x) / unit, f64::from(p.y) / unit]);
+        }
         Fixture {
             kind: self.kind,
             window: self.window,
-            points: points.collect(),
+            points,
             found_by: found_by.to_owned(),
             expected: self.expected(),
         }
@@ -235,22 +261,26 @@ impl Drawing {
         }
     }
 
+    /// The triangles of these points; a line has none.
     fn triangles(&self, points: &[SubpixelPoint]) -> Vec<Corners> {
-        match self.kind {
-            Kind::Line => Vec::new(),
-            Kind::Fan => match points.split_first() {
-                Some((&hub, ring)) => ring.windows(2).map(|two| [hub, two[0], two[1]]).collect(),
-                None => Vec::new(),
-            },
-            _ => points.windows(3).map(|three| [three[0], three[1], three[2]]).collect(),
+        let mut triangles = Vec::new();
+        for i in 2..points.len() {
+            match self.kind {
+                Kind::Line => {}
+                Kind::Fan => triangles.push([points[0], points[i - 1], points[i]]),
+                _ => triangles.push([points[i - 2], points[i - 1], points[i]]),
+            }
         }
+        triangles
     }
 
+    /// The line between the first two points, which are pixels.
     fn line(&self) -> cases::Line {
         let [a, b] = [0, 1].map_array(|i| PixelPoint::new(self.points[i].x, self.points[i].y));
         plain_line(a, b)
     }
 
+    /// What is expected for every number of bits, neighbouring numbers with the same pictures together.
     fn expected(&self) -> Vec<ExpectedPictures> {
         if self.kind == Kind::Line {
             let (mut hit, outline) = (Coverage::new(self.rect(), 0), self.halfway());
@@ -261,6 +291,7 @@ impl Drawing {
                 samples: vec![pixels],
             }];
         }
+        // Neighbouring numbers of bits often have the same pictures, and are one entry then.
         let mut found: Vec<ExpectedPictures> = Vec::new();
         for bits in BITS {
             let samples: Vec<_> =
@@ -274,32 +305,30 @@ impl Drawing {
     }
 
     /// The pixels for so many bits, by every way to move corners to that grid.
-    fn pixels(&self, bits: u32, [dx, dy]: [i32; 2]) -> Pixels {
+    fn pixels(&self, bits: u32, offset: [i32; 2]) -> Pixels {
         let window = self.rect();
         let [mut always, mut ever, mut outline] = [(); 3].map_array(|()| Coverage::new(window, 0));
-        let moved =
-            |p: &SubpixelPoint| SubpixelPoint::new(p.x.saturating_add(dx), p.y.saturating_add(dy));
         for (number, points) in self.on_grid(bits).into_iter().enumerate() {
-            let points: Vec<_> = points.iter().map(moved).collect();
-            let triangles = self.triangles(&points);
+            let triangles = self.triangles(&moved(&points, offset));
             let mut hits = Coverage::new(window, 0);
             for corners in &triangles {
                 Oracle.spans(*corners, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
-            for y in window.y0..window.y1 {
-                let all = always.row_mut(y).iter_mut().zip(ever.row_mut(y));
-                for ((always, ever), (_, &hits)) in all.zip((window.x0..).zip(hits.row(y))) {
+            for (y, row) in hits.rows() {
+                for (x, &hits) in row.iter().enumerate() {
                     let is_hit = u8::from(hits > 0);
+                    let always = &mut always.row_mut(y)[x];
                     *always = if number == 0 { is_hit } else { *always & is_hit };
-                    *ever |= is_hit;
+                    ever.row_mut(y)[x] |= is_hit;
                 }
             }
             mark_outline(&triangles, &mut outline);
         }
+        // What is hit by some ways and not by all of them may be either.
         let mut either = ever;
-        for y in window.y0..window.y1 {
-            for (either, always) in either.row_mut(y).iter_mut().zip(always.row(y)) {
-                *either &= 1 - always;
+        for (y, row) in always.rows() {
+            for (x, &always) in row.iter().enumerate() {
+                either.row_mut(y)[x] &= 1 - always;
             }
         }
         Pixels { hit: runs(&always), either: runs(&either), outline: runs(&outline) }
@@ -308,25 +337,33 @@ impl Drawing {
     /// The points on the grid of so many bits, in each way that moves every coordinate by less than a step.
     fn on_grid(&self, bits: u32) -> Vec<Vec<SubpixelPoint>> {
         let step = SUBPIXELS >> bits;
-        let mut ways = vec![Vec::new()];
+        let mut ways: Vec<Vec<SubpixelPoint>> = vec![Vec::new()];
         for p in &self.points {
-            let places = [p.x, p.y].map_array(|v| {
+            let [xs, ys] = [p.x, p.y].map_array(|v| {
                 let down = v.div_euclid(step) * step;
                 if down == v { vec![v] } else { vec![down, down + step] }
             });
-            let [xs, ys] = &places;
-            ways = ways
-                .iter()
-                .flat_map(|way| xs.iter().flat_map(move |x| ys.iter().map(move |y| (way, *x, *y))))
-                .map(|(way, x, y)| [&way[..], &[SubpixelPoint::new(x, y)]].concat())
-                .collect();
+            // Each way so far, with each place of this point.
+            let mut longer = Vec::new();
+            for way in &ways {
+                for &x in &xs {
+                    for &y in &ys {
+                        longer.push([&way[..], &[SubpixelPoint::new(x, y)]].concat());
+                    }
+                }
+            }
+            ways = longer;
         }
         ways
     }
 
     /// Coordinates that are no multiple of 1/16 px.
     fn fine_coordinates(&self) -> usize {
-        self.points.iter().flat_map(|p| [p.x, p.y]).filter(|v| v.rem_euclid(16) != 0).count()
+        let mut count = 0;
+        for p in &self.points {
+            count += usize::from(p.x.rem_euclid(16) != 0) + usize::from(p.y.rem_euclid(16) != 0);
+        }
+        count
     }
 
     /// The two pixels of each step in which a line passes halfway between them.
@@ -336,6 +373,7 @@ impl Drawing {
             [self.points[0], self.points[1]].map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let steps = dx.abs().max(dy.abs());
+        // A step along the longer axis moves by minor / steps across it.
         let is_flat = dx.abs() >= dy.abs();
         let (minor, sign) = if is_flat { (dy, dx.signum()) } else { (dx, dy.signum()) };
         for y in 0..i64::from(self.window[1]) {
@@ -364,18 +402,18 @@ impl Drawing {
             }
             _ if self.kind == Kind::Line => None,
             _ => {
+                // With several samples the case is drawn once for each of them.
                 let offsets = self.offsets().into_iter();
                 offsets.map(|offset| self.drawn_moved(drawer, offset)).collect()
             }
         }
     }
 
-    fn drawn_moved(&self, drawer: Drawer, [dx, dy]: [i32; 2]) -> Option<Coverage> {
+    /// What is drawn at one place of samples.
+    fn drawn_moved(&self, drawer: Drawer, offset: [i32; 2]) -> Option<Coverage> {
         let window = self.rect();
-        let by = |v: i32, d: i32| v.saturating_add(d);
-        let points: Vec<_> =
-            self.points.iter().map(|p| SubpixelPoint::new(by(p.x, dx), by(p.y, dy))).collect();
-        let triangles = self.triangles(&points);
+        let triangles = self.triangles(&moved(&self.points, offset));
+        // A fault may panic, as real code does; then it has drawn nothing.
         let drawn = caught(|| {
             let mut hits = Coverage::new(window, 0);
             match drawer {
@@ -388,10 +426,9 @@ impl Drawing {
                 }
                 Drawer::Fault(Fault::Triangle(mutant)) => {
                     for &corners in &triangles {
-                        let mut hit = |s: rasterproof_core::triangle::Span| {
-                            hits.hit(s.y_px, s.x0_px, s.x1_px)
-                        };
-                        mutant.spans(corners, window, &mut hit);
+                        mutant.spans(corners, window, &mut |s| {
+                            hits.hit(s.y_px, s.x0_px, s.x1_px);
+                        });
                     }
                 }
                 Drawer::Engines(engine, _) => {
@@ -417,12 +454,15 @@ impl Drawing {
         self.drawn(oracle).unwrap_or_default()
     }
 
+    /// Which of the faults draw it wrong.
     fn killed(&self, faults: &[Fault]) -> Vec<bool> {
         let truth = self.truth();
-        let is_wrong = |fault: &Fault| {
-            self.applies(*fault) && self.drawn(Drawer::Fault(*fault)).as_ref() != Some(&truth)
-        };
-        faults.iter().map(is_wrong).collect()
+        let mut killed = Vec::with_capacity(faults.len());
+        for &fault in faults {
+            let is_right = || self.drawn(Drawer::Fault(fault)).as_ref() == Some(&truth);
+            killed.push(self.applies(fault) && !is_right());
+        }
+        killed
     }
 
     /// Whether every pixel is hit at most once, as in meshes that do not fold over.
@@ -432,8 +472,18 @@ impl Drawing {
     }
 }
 
+/// Points moved by an offset, as far as there are coordinates.
+fn moved(points: &[SubpixelPoint], [dx, dy]: [i32; 2]) -> Vec<SubpixelPoint> {
+    let mut moved = Vec::with_capacity(points.len());
+    for p in points {
+        moved.push(SubpixelPoint::new(p.x.saturating_add(dx), p.y.saturating_add(dy)));
+    }
+    moved
+}
+
 /// Marks samples on edges that belong to one triangle alone; a triangle without area has none.
 fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
+    // How many triangles each edge belongs to, whichever way they run along it.
     let mut edges: BTreeMap<[SubpixelPoint; 2], u32> = BTreeMap::new();
     for [a, b, c] in triangles.iter().filter(|corners| twice_area(corners) != 0) {
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -441,12 +491,16 @@ fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
         }
     }
     let window = outline.bounds();
-    for [a, b] in edges.into_iter().filter(|(_, count)| count % 2 == 1).map(|(edge, _)| edge) {
+    for ([a, b], count) in edges {
+        // An edge of two triangles lies inside of both together.
+        if count % 2 == 0 {
+            continue;
+        }
+        let (xs, ys) = (a.x.min(b.x)..=a.x.max(b.x), a.y.min(b.y)..=a.y.max(b.y));
         for y_px in window.y0..window.y1 {
             for x_px in window.x0..window.x1 {
                 let sample = centre_of(x_px, y_px);
-                let is_between = |v: i32, p: i32, q: i32| (p.min(q)..=p.max(q)).contains(&v);
-                let is_near = is_between(sample.x, a.x, b.x) && is_between(sample.y, a.y, b.y);
+                let is_near = xs.contains(&sample.x) && ys.contains(&sample.y);
                 if is_near && twice_area(&[a, b, sample]) == 0 {
                     outline.row_mut(y_px)[(x_px - window.x0) as usize] = 1;
                 }
@@ -455,11 +509,13 @@ fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
     }
 }
 
+/// The pixels that are hit, as runs of the rows.
 fn runs(pixels: &Coverage) -> Vec<Run> {
     let mut found: Vec<Run> = Vec::new();
     for (y, row) in pixels.rows() {
-        for (x, _) in (pixels.bounds().x0..).zip(row).filter(|(_, hits)| **hits > 0) {
+        for (x, hits) in (pixels.bounds().x0..).zip(row) {
             match found.last_mut() {
+                _ if *hits == 0 => {}
                 Some(run) if run[0] == y && run[2] == x => run[2] += 1,
                 _ => found.push([y, x, x + 1]),
             }
@@ -468,27 +524,41 @@ fn runs(pixels: &Coverage) -> Vec<Run> {
     found
 }
 
+impl Pixels {
+    /// Whether these are hit once: all that must be, and of the others only those that may be.
+    fn accept(&self, drawn: &Coverage) -> bool {
+        for (y, row) in drawn.rows() {
+            for (x, &hits) in (0..).zip(row) {
+                let is_right = match hits {
+                    0 => !holds(&self.hit, x, y),
+                    1 => holds(&self.hit, x, y) || holds(&self.either, x, y),
+                    _ => false,
+                };
+                if !is_right {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+}
+
+/// Whether a pixel lies in one of these runs.
+fn holds(runs: &[Run], x: i32, y: i32) -> bool {
+    runs.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x))
+}
+
 impl Fixture {
     /// Whether a picture is the expected one of rasterizers with 8 bits and the top-left rule.
     #[must_use]
     pub fn accepts(&self, drawer: Drawer) -> bool {
         let Some(drawn) = Drawing::of(self).drawn(drawer) else { return false };
+        // The pictures for 8 bits below the pixel, which all engines here have.
         let Some(expected) = self.expected.iter().find(|e| e.bits[1] == SUBPIXEL_BITS) else {
             return false;
         };
         drawn.len() == expected.samples.len()
-            && drawn.iter().zip(&expected.samples).all(|(drawn, pixels)| {
-                let holds = |runs: &[Run], x: i32, y: i32| {
-                    runs.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x))
-                };
-                drawn.rows().all(|(y, row)| {
-                    (0..).zip(row).all(|(x, &hits)| match hits {
-                        0 => !holds(&pixels.hit, x, y),
-                        1 => holds(&pixels.hit, x, y) || holds(&pixels.either, x, y),
-                        _ => false,
-                    })
-                })
-            })
+            && drawn.iter().zip(&expected.samples).all(|(drawn, pixels)| pixels.accept(drawn))
     }
 
     /// Whether a fault is of what is drawn here.
@@ -506,17 +576,21 @@ impl Fixture {
 
 /// The families that cases of a kind come from, by name; windows of `far` do not begin at the origin.
 fn families(kind: Kind) -> Vec<&'static cases::Family> {
-    let wanted = |name: &str| match kind {
-        Kind::Fan => name == "fan",
-        Kind::Strip => name == "strip",
-        Kind::Line => name.starts_with("line-"),
+    cases::families().filter(|family| has_cases_of(family.name, kind)).collect()
+}
+
+/// Whether cases of a family are drawings of this kind that begin at the origin.
+fn has_cases_of(family: &str, kind: Kind) -> bool {
+    match kind {
+        Kind::Fan => family == "fan",
+        Kind::Strip => family == "strip",
+        Kind::Line => family.starts_with("line-"),
         Kind::Triangle | Kind::Samples4 => {
-            !name.starts_with("line-")
-                && !name.starts_with("w-")
-                && !["fan", "strip", "rectangle", "far", "off-screen"].contains(&name)
+            !family.starts_with("line-")
+                && !family.starts_with("w-")
+                && !["fan", "strip", "rectangle", "far", "off-screen"].contains(&family)
         }
-    };
-    cases::families().filter(|family| wanted(family.name)).collect()
+    }
 }
 
 /// A generated case as a drawing; nothing for one that is no drawing of this kind.
@@ -531,15 +605,15 @@ fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
             ends.iter().map(|end| SubpixelPoint::new(end.pixel.x, end.pixel.y)).collect()
         }
         Shape::Triangles { list, .. } => {
+            // A mesh becomes the list of points that makes it up.
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             let first = corners.first()?;
             match kind {
-                Kind::Fan => {
-                    let ring = corners.iter().map(|c| c[2]);
-                    [first[0], first[1]].into_iter().chain(ring).collect()
-                }
-                Kind::Strip => {
-                    first.iter().copied().chain(corners[1..].iter().map(|c| c[2])).collect()
+                // Each further triangle adds one point.
+                Kind::Fan | Kind::Strip => {
+                    let mut points = first.to_vec();
+                    points.extend(corners[1..].iter().map(|corners| corners[2]));
+                    points
                 }
                 _ => first.to_vec(),
             }
@@ -556,6 +630,7 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
         return greedy(start, mesh_size, mesh_candidates, fails);
     }
     let window = start.rect();
+    // A single shape is shrunk as every other case is.
     let shape = match kind {
         Kind::Line => Shape::Lines(vec![start.line()]),
         _ => {
@@ -563,6 +638,7 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
             Shape::Triangles { list: vec![plain_triangle(corners)], disjoint: false }
         }
     };
+    // Shrinking may leave the kind, as where two ends fall on one pixel.
     let case =
         shrink(Case { window, shape }, |case| drawing(kind, case).is_some_and(|d| fails(&d)));
     drawing(kind, &case).unwrap_or(start)
@@ -570,15 +646,19 @@ fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
 
 /// Points, then coordinates that are no multiple of half a pixel, then how far the points lie, then the window.
 fn mesh_size(drawing: &Drawing) -> (usize, usize, i64, u32) {
-    let all = || drawing.points.iter().flat_map(|p| [p.x, p.y]);
-    let odd = all().filter(|v| v.rem_euclid(HALF_PIXEL) != 0).count();
-    let far = all().map(|v| i64::from(v).abs()).sum();
+    let (mut odd, mut far) = (0, 0);
+    for v in drawing.points.iter().flat_map(|p| [p.x, p.y]) {
+        odd += usize::from(v.rem_euclid(HALF_PIXEL) != 0);
+        far += i64::from(v).abs();
+    }
     (drawing.points.len(), odd, far, drawing.window[0] + drawing.window[1])
 }
 
+/// Drawings that may be smaller than a mesh, the greatest steps first.
 fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
     let mut found = Vec::new();
     let mut add = |points: Vec<SubpixelPoint>| found.push(Drawing { points, ..drawing.clone() });
+    // Without one of its points.
     if drawing.points.len() > 4 {
         for i in 0..drawing.points.len() {
             let mut fewer = drawing.points.clone();
@@ -586,15 +666,22 @@ fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
             add(fewer);
         }
     }
+    // Nearer to the origin as a whole, by whole pixels.
     for (dx, dy) in [(4, 0), (0, 4), (1, 0), (0, 1)] {
-        let by = |p: &SubpixelPoint| SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS);
-        add(drawing.points.iter().map(by).collect());
+        let mut nearer = drawing.points.clone();
+        for p in &mut nearer {
+            *p = SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS);
+        }
+        add(nearer);
     }
+    // One coordinate simpler: on the border or in the middle of its pixel, or nearer to 0.
     for i in 0..drawing.points.len() {
         for axis in 0..2 {
             let SubpixelPoint { x, y } = drawing.points[i];
             let v = if axis == 0 { x } else { y };
+            // The left or upper border of the pixel in which it lies.
             let border = v.div_euclid(SUBPIXELS) * SUBPIXELS;
+            // Half of it on a grid of sixteenths, and a pixel or half of one nearer to 0.
             let nearer = [
                 v / 2 / 16 * 16,
                 v - v.signum() * SUBPIXELS.min(v.abs()),
@@ -611,6 +698,7 @@ fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
             }
         }
     }
+    // A smaller window, as long as it has a pixel.
     let [width, height] = drawing.window;
     for window in
         [[width / 2, height], [width, height / 2], [width - 1, height], [width, height - 1]]
@@ -627,12 +715,14 @@ const TRIES: u64 = 60;
 
 /// A small drawing that this fault, and every fault that its origin kills, draws wrong.
 fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> Option<Drawing> {
+    // Families in turn, and in each one cases that no other fault has looked at.
     let families = families(kind);
     // Every other round keeps corners that lie on no coarse grid; meshes lie on one, since each of their coordinates
     // doubles the ways to move it.
     let is_fine = round % 2 == 1 && matches!(kind, Kind::Triangle | Kind::Samples4);
     for attempt in round * TRIES..(round + 1) * TRIES {
         let family = families[(attempt % families.len() as u64) as usize];
+        // A case of the family that this round comes to.
         let mut start = drawing(kind, &family.case(seed, attempt + 1_000_003 * number as u64))?;
         if matches!(kind, Kind::Fan | Kind::Strip) {
             for p in &mut start.points {
@@ -642,6 +732,7 @@ fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> O
         if !start.is_single() || is_fine && start.fine_coordinates() == 0 {
             continue;
         }
+        // It stays small only while it shows everything that it shows now.
         let killed = start.killed(faults);
         if !killed[number] {
             continue;
@@ -668,14 +759,17 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
     let mut cases = Vec::new();
     for (kind, quota) in QUOTAS {
         let is_line = kind == Kind::Line;
+        // Faults of lines are not seen in triangles, and the other way round.
         let faults: Vec<_> =
             Fault::all().into_iter().filter(|f| matches!(f, Fault::Line(_)) == is_line).collect();
         let mut alive: Vec<usize> = (0..faults.len()).collect();
+        // Sorted and without repetitions, since several faults may lead to one drawing.
         let mut found: BTreeMap<Drawing, &str> = BTreeMap::new();
         if kind == Kind::Triangle {
             found.insert(wider_than_i32(), TileMutant::WrappedWidth.name());
         }
         for round in 0.. {
+            // Each fault that is still looked for gets a drawing a round.
             let drawings = parallel::map(alive.len(), |i| {
                 (alive[i], find(kind, &faults, alive[i], seed, round))
             });
@@ -687,6 +781,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
             if round > 400 || alive.is_empty() {
                 break;
             }
+            // The same drawing may be found for several faults; it keeps the name of the first.
             let before = found.len();
             for (number, drawing) in drawings {
                 if let Some(drawing) = drawing.filter(|_| found.len() < quota) {
@@ -700,8 +795,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
         }
         cases.extend(found.iter().map(|(drawing, found_by)| drawing.fixture(found_by)));
     }
-    let place = |(x, y): (i32, i32)| [f64::from(x) / 16.0, f64::from(y) / 16.0];
-    let four = SAMPLES.iter().copied().map(place).collect();
+    let four = SAMPLES.map(|(x, y)| [f64::from(x) / 16.0, f64::from(y) / 16.0]).to_vec();
     Fixtures {
         format: FORMAT.to_owned(),
         rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
@@ -715,6 +809,7 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
 impl Fixtures {
     /// As text, a case or a polygon a line.
     pub fn to_json(&self) -> String {
+        // The head is one line, then a line for each case, which version control compares well.
         let head = serde_json::json!({
             "format": self.format, "rasterproof": self.rasterproof, "seed": self.seed, "samples": self.samples,
         });

@@ -24,6 +24,7 @@ pub fn find(name: &str) -> Option<NamedCase> {
     named().into_iter().find(|case| case.name.eq_ignore_ascii_case(name))
 }
 
+/// x, y, z and w of a corner in clip space.
 type Clip = (f64, f64, f64, f64);
 type Px = (f64, f64);
 
@@ -54,6 +55,7 @@ fn clipped(triangles: &[[Clip; 3]]) -> Case {
     drawn(WINDOW, list)
 }
 
+/// A case of triangles whose interiors do not meet.
 fn drawn(window: PixelRect, list: Vec<Triangle>) -> Case {
     Case { window, shape: Shape::Triangles { list, disjoint: true } }
 }
@@ -68,11 +70,14 @@ fn scaled(corners: [Clip; 3], scale: f64) -> [Clip; 3] {
     corners.map_array(|(x, y, z, w)| (x * scale, y * scale, z * scale, w * scale))
 }
 
+/// The cases that begin in clip space: w of other signs and sizes, and planes that cut.
 fn perspective() -> Vec<NamedCase> {
+    // Small enough that 1/w would overflow a 32-bit grid.
     let eps = 0.5f64.powi(30);
     let hex = f64::from_bits;
     // Corners of the square from (4, 4) to (12, 12) px, from the upper left clockwise.
     let [a, b, c, d] = [(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)];
+    // A corner of the square at a depth and a distance, which stays at its place.
     let with = |(x, y): Px, z: f64, w: f64| (x * w, y * w, z * w, w);
     let plain = [with(a, 0.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)];
     let edge = |z: f64, w: f64| [with(a, z, w), with(c, z, w)];
@@ -105,6 +110,7 @@ fn perspective() -> Vec<NamedCase> {
         vertex.depth = 0.1;
     }
     // Both triangles cover the same pixels.
+    // The fields that the table cannot state are changed here.
     let mut twice = clipped(&[scaled(plain, 1e-23), scaled(plain, 1e20)]);
     if let Shape::Triangles { disjoint, .. } = &mut twice.shape {
         *disjoint = false;
@@ -138,24 +144,22 @@ fn perspective() -> Vec<NamedCase> {
     ]
 }
 
+/// The cases in which a pixel has several samples, each moved onto the centre in turn.
 fn samples() -> Vec<NamedCase> {
     // Around pixel (1 + 3 s, 1) a square whose diagonal passes through sample s; moved so that the
     // centres are the samples.
-    let through: Vec<Triangle> = SAMPLES
-        .into_iter()
-        .enumerate()
-        .flat_map(|(s, (x_16th, y_16th))| {
-            let sample =
-                (1.0 + 3.0 * s as f64 + f64::from(x_16th) / 16.0, 1.0 + f64::from(y_16th) / 16.0);
-            let corner = |x: f64, y: f64| {
-                let moved = onto_centre(at((sample.0 + x, sample.1 + y)), (x_16th, y_16th));
-                moved.expect("far from the domain's end")
-            };
-            let [a, b, c, d] =
-                [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-            [plain_triangle([a, b, c]), plain_triangle([a, c, d])]
-        })
-        .collect();
+    let mut through: Vec<Triangle> = Vec::new();
+    for (s, (x_16th, y_16th)) in SAMPLES.into_iter().enumerate() {
+        let x = 1.0 + 3.0 * s as f64 + f64::from(x_16th) / 16.0;
+        let y = 1.0 + f64::from(y_16th) / 16.0;
+        let corners =
+            [(x - 1.0, y - 1.0), (x + 1.0, y - 1.0), (x + 1.0, y + 1.0), (x - 1.0, y + 1.0)];
+        let [a, b, c, d] = corners.map_array(|corner| {
+            onto_centre(at(corner), (x_16th, y_16th)).expect("far from the domain's end")
+        });
+        through.extend([plain_triangle([a, b, c]), plain_triangle([a, c, d])]);
+    }
+    // Edges that rise by two pixels in 64: many centres lie close to them.
     let strip = [
         [(0.0, 0.3), (64.0, 0.3), (64.0, 2.35)],
         [(0.0, 0.3), (64.0, 2.35), (0.0, 2.1)],
@@ -169,6 +173,7 @@ fn samples() -> Vec<NamedCase> {
         [(2.0, 2.0), (0.0, 1.2), (1.2, 0.0)],
         [(2.0, 2.0), (1.2, 0.0), (2.0, 0.0)],
     ];
+    // A list without samples or planes of its own.
     let plain = |list: [[Px; 3]; 4]| {
         list.map_array(|corners| plain_triangle(corners.map_array(at))).to_vec()
     };

@@ -31,16 +31,19 @@ use rasterproof_verify::comparison::caught;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
+/// What is counted of triangles or lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Counts {
     /// Triangles or lines drawn.
     pub shapes: u64,
+    /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
     pub wrong_pixels: u64,
     /// Those with a wrong value at a pixel that they cover.
     pub wrong_values: u64,
     /// Those that the specimen refuses, since the published code is undefined there.
     pub refused: u64,
+    /// Pixels that the oracle covers, by which rates are divided.
     pub pixels: u64,
     /// Wrong pixels, each triangle for itself.
     pub tally: Tally,
@@ -55,6 +58,7 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Adds what was counted elsewhere; of errors the larger one stays.
     fn merge(mut self, other: Self) -> Self {
         self.shapes += other.shapes;
         self.wrong += other.wrong;
@@ -69,6 +73,7 @@ impl Counts {
         self
     }
 
+    /// The wrong ones in percent of all.
     pub fn percent(&self) -> f64 {
         self.percent_of(self.wrong)
     }
@@ -87,10 +92,14 @@ impl Counts {
 #[derive(Clone, Debug, Serialize)]
 pub struct SpecimenReport {
     pub name: &'static str,
+    /// The book or the course that it is from.
     pub source: &'static str,
     pub fault: &'static str,
+    /// What to write instead, in a sentence.
     pub cure: &'static str,
+    /// The name of the case that shows the fault.
     pub case: &'static str,
+    /// Pixels, values and refusals that are wrong in it.
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
     pub harmless_wrong: u64,
@@ -98,6 +107,7 @@ pub struct SpecimenReport {
     pub recorded: Vec<(&'static str, Counts)>,
     /// Family and counts; empty for scenes.
     pub families: Vec<(&'static str, Counts)>,
+    /// All families together, as they are ranked by.
     pub all: Counts,
 }
 
@@ -120,7 +130,9 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
         }
         None => Vec::new(),
     };
+    // The sum decides the order of the survey.
     let all = families.iter().fold(Counts::default(), |sum, (_, counts)| sum.merge(*counts));
+    // Its own two cases, the inputs that the book shows, and cases of every family.
     let [case_wrong, harmless_wrong] =
         [Setting::Exposing, Setting::Harmless].map_array(|s| wrong(card, s));
     SpecimenReport {
@@ -146,32 +158,38 @@ const BLOCK: u64 = 16;
 /// Cases whose counts are kept until they are summed, so that any number of cases takes no more memory.
 const MOST_PER_ROUND: u64 = 1 << 16;
 
+/// What is counted in so many cases of each family.
 fn over(
     families: &'static [Family],
     seed: u64,
     cases: u64,
     judge: impl Fn(&Case) -> Counts + Sync,
 ) -> Vec<(&'static str, Counts)> {
-    let counts = |family: &Family| {
+    let mut all = Vec::new();
+    for family in families {
         let (mut sum, mut done) = (Counts::default(), 0);
         while done < cases {
             let end = cases.min(done.saturating_add(MOST_PER_ROUND));
-            let block = |number: usize| {
+            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
                 let first = done + number as u64 * BLOCK;
-                let cases = first..end.min(first.saturating_add(BLOCK));
-                cases
-                    .map(|index| judge(&family.case(seed, index)))
-                    .fold(Counts::default(), Counts::merge)
-            };
-            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, block);
-            sum = blocks.into_iter().fold(sum, Counts::merge);
+                let mut sum = Counts::default();
+                for index in first..end.min(first.saturating_add(BLOCK)) {
+                    sum = sum.merge(judge(&family.case(seed, index)));
+                }
+                sum
+            });
+            // In the order of the blocks, whichever was done first.
+            for block in blocks {
+                sum = sum.merge(block);
+            }
             done = end;
         }
-        sum
-    };
-    families.iter().map(|family| (family.name, counts(family))).collect()
+        all.push((family.name, sum));
+    }
+    all
 }
 
+/// The name of the case that shows its fault.
 pub fn exposing_name(card: &Card) -> &'static str {
     match &card.exhibit {
         Exhibit::Triangles([case, _]) => case.name,
@@ -183,6 +201,7 @@ pub fn exposing_name(card: &Card) -> &'static str {
 /// Pixels with a wrong hit count, a wrong value or a wrong colour in one of a card's cases; a
 /// refusal counts as one.
 pub fn wrong(card: &Card, setting: Setting) -> u64 {
+    // The exposing case is the first of the two.
     let which = usize::from(setting == Setting::Harmless);
     let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
     match (&card.exhibit, specimen) {
@@ -201,33 +220,46 @@ pub fn wrong(card: &Card, setting: Setting) -> u64 {
     }
 }
 
+/// How many pixels of two pictures differ.
 fn different(a: &Image, b: &Image) -> u64 {
-    let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
-    pixels.filter(|(a, b)| a != b).count() as u64
+    let mut count = 0;
+    for ((_, a), (_, b)) in a.rows().zip(b.rows()) {
+        for (a, b) in a.iter().zip(b) {
+            count += u64::from(a != b);
+        }
+    }
+    count
 }
 
 /// A card's triangles with their values.
 pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
-    let vertex = |corners: &[(f64, f64); 3], i: usize| RealVertex {
-        position_px: DVec2::new(corners[i].0, corners[i].1),
-        depth: case.values[i],
-        w: case.w[i],
-        varying: DVec2::splat(case.values[i]),
-    };
-    case.corners_px.iter().map(|corners| [0, 1, 2].map_array(|i| vertex(corners, i))).collect()
+    let mut triangles = Vec::new();
+    for corners in case.corners_px {
+        triangles.push([0, 1, 2].map_array(|i| RealVertex {
+            position_px: corners[i].into(),
+            depth: case.values[i],
+            w: case.w[i],
+            varying: DVec2::splat(case.values[i]),
+        }));
+    }
+    triangles
 }
 
 /// The same triangle on the lattice; none where a corner does not lie there.
 pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
-    let vertex = |v: &RealVertex| {
-        let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
-        let is_exact = DVec2::from(position.to_px()) == v.position_px;
-        let vertex =
-            ScreenVertex { position, depth: v.depth, inv_w: 1.0 / v.w, varying: v.varying };
-        is_exact.then_some(vertex)
-    };
     let [a, b, c] = triangle;
-    Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
+    Some(ScreenTriangle {
+        vertices: [vertex_on_lattice(a)?, vertex_on_lattice(b)?, vertex_on_lattice(c)?],
+    })
+}
+
+/// A vertex, where its position lies on the lattice.
+fn vertex_on_lattice(v: &RealVertex) -> Option<ScreenVertex<DVec2>> {
+    // Snapped, it must be the same position again.
+    let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
+    let is_exact = DVec2::from(position.to_px()) == v.position_px;
+    let vertex = ScreenVertex { position, depth: v.depth, inv_w: 1.0 / v.w, varying: v.varying };
+    is_exact.then_some(vertex)
 }
 
 /// Hits of the oracle for free corners; none for a triangle outside the domain.
@@ -259,14 +291,18 @@ pub fn judge_recorded(case: &RecordedCase) -> Counts {
     }
 }
 
+/// Judges triangles that need not lie on the lattice.
 fn judge_free(specimen: &dyn Published, triangles: &[RealTriangle], window: PixelRect) -> Counts {
-    let one = |triangle: &RealTriangle| {
+    let mut counts = Counts::default();
+    for triangle in triangles {
         let truth = free_truth(std::slice::from_ref(triangle), window);
-        judge(specimen, triangle, on_lattice(triangle).as_ref(), window, &truth)
-    };
-    triangles.iter().map(one).fold(Counts::default(), Counts::merge)
+        let on_lattice = on_lattice(triangle);
+        counts = counts.merge(judge(specimen, triangle, on_lattice.as_ref(), window, &truth));
+    }
+    counts
 }
 
+/// A card's line in a window that ends some pixels beyond it, so that a pixel beside it shows.
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map_array(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
@@ -305,6 +341,7 @@ pub fn specimen_line_coverage(
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         for line in lines {
+            // Published drawers take positions in pixels.
             let ends = line.ends.map_array(|end| centre(end.pixel));
             specimen
                 .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
@@ -314,15 +351,18 @@ pub fn specimen_line_coverage(
     })?
 }
 
+/// Judges a generated case of triangles.
 fn triangles(specimen: &dyn Published, case: &Case) -> Counts {
     let Shape::Triangles { list, disjoint } = &case.shape else { return Counts::default() };
-    let one = |triangle: &Triangle| {
-        let mut truth = Coverage::new(case.window, 0);
-        Oracle.spans(triangle.corners(), case.window, &mut |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
-        judge(specimen, &from_screen(triangle), Some(triangle), case.window, &truth)
-    };
-    let mut counts = list.iter().map(one).fold(Counts::default(), Counts::merge);
+    let (window, mut counts) = (case.window, Counts::default());
+    for triangle in list {
+        let mut truth = Coverage::new(window, 0);
+        Oracle.spans(triangle.corners(), window, &mut |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
+        let real = from_screen(triangle);
+        counts = counts.merge(judge(specimen, &real, Some(triangle), window, &truth));
+    }
     if *disjoint && list.len() > 1 {
+        // Disjoint triangles have no pixel together, so whatever they share is drawn twice.
         counts.shared = shared(specimen, list, case.window);
     }
     counts
@@ -332,9 +372,13 @@ fn triangles(specimen: &dyn Published, case: &Case) -> Counts {
 fn shared(specimen: &dyn Published, list: &[Triangle], window: PixelRect) -> u64 {
     let mesh: Vec<RealTriangle> = list.iter().map(from_screen).collect();
     let Ok(together) = specimen_coverage(specimen, &mesh, window) else { return 0 };
-    let alone = |t: &RealTriangle| specimen_coverage(specimen, std::slice::from_ref(t), window);
-    let each = mesh.iter().filter_map(|t| Some(alone(t).ok()?.covered()));
-    each.sum::<u64>().saturating_sub(together.covered())
+    let mut each = 0u64;
+    for triangle in &mesh {
+        if let Ok(alone) = specimen_coverage(specimen, &[*triangle], window) {
+            each += alone.covered();
+        }
+    }
+    each.saturating_sub(together.covered())
 }
 
 /// Compares hits with the truth, and values where the triangle lies on the lattice.
@@ -346,6 +390,7 @@ fn judge(
     truth: &Coverage,
 ) -> Counts {
     let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
+    // A refusal is counted, and is neither right nor wrong.
     let Ok(hits) = specimen_coverage(specimen, &[*triangle], window) else {
         counts.refused = 1;
         return counts;
@@ -354,6 +399,7 @@ fn judge(
     if let Some(triangle) = on_lattice.filter(|_| specimen.has_values()) {
         (counts.worst_attribute, counts.worst_depth) = values(specimen, triangle, window, truth);
     }
+    // A triangle may be wrong in its pixels, in its values, or in both.
     let off = counts.worst_attribute.max(counts.worst_depth) > VALUE_DIFFERS;
     counts.wrong_pixels = u64::from(counts.tally.total() > 0);
     counts.wrong_values = u64::from(off);
@@ -370,6 +416,7 @@ fn values(
     truth: &Coverage,
 ) -> (f64, f64) {
     let v = &triangle.vertices;
+    // The exact values of what the specimen interpolates: its own kind of depth, and the attributes.
     let depths = v.map_array(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
     let attributes = v.map_array(|v| v.varying.to_array());
     let inv_w = v.map_array(|v| v.inv_w);
@@ -377,40 +424,47 @@ fn values(
     let exact = ExactTriangle::new(&triangle.corners(), depths, inv_w, attributes);
     let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
     let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
+    // Only at pixels that the triangle covers has it a value that could be wrong.
     let mut drawn: Vec<Fragment<DVec2>> = Vec::new();
     let _ = specimen.fragments(&from_screen(triangle), window, &mut |f| {
         if truth.get(f.x_px, f.y_px).is_some_and(|hits| hits > 0) {
             drawn.push(f);
         }
     });
-    let worse = |old: f64, new: f64| if new.is_nan() { f64::INFINITY } else { old.max(new) };
     let (mut attribute, mut depth) = (0.0, 0.0);
+    let spreads = [0, 1].map_array(|i| spread(attributes.map_array(|a| a[i])));
+    // Some of them, evenly, for exact values take long.
     for f in drawn.iter().step_by(drawn.len().div_ceil(COMPARED).max(1)) {
         let (exact_depth, [a, b]) = exact.at(f.x_px, f.y_px);
         // Chapter 6 compares w, which is linear in space and not on the screen.
         let is_w = specimen.compares_w();
         let exact_depth = if is_w { exact_w.at(f.x_px, f.y_px).1[0].clone() } else { exact_depth };
         if !is_w {
-            attribute =
-                worse(attribute, a.distance(f.varying.x) / spread(attributes.map_array(|a| a[0])));
-            attribute =
-                worse(attribute, b.distance(f.varying.y) / spread(attributes.map_array(|a| a[1])));
+            attribute = worse(attribute, a.distance(f.varying.x) / spreads[0]);
+            attribute = worse(attribute, b.distance(f.varying.y) / spreads[1]);
         }
         depth = worse(depth, exact_depth.distance(f.depth) / spread(depths));
     }
     (attribute, depth)
 }
 
+/// The larger of two errors; what is no number is an infinite one.
+fn worse(old: f64, new: f64) -> f64 {
+    if new.is_nan() { f64::INFINITY } else { old.max(new) }
+}
+
 /// Largest minus smallest, or the magnitude where they are equal.
 fn spread(values: [f64; 3]) -> f64 {
-    let low = values.into_iter().fold(f64::INFINITY, f64::min);
-    let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let [a, b, c] = values;
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     if high > low { high - low } else { high.abs().max(f64::MIN_POSITIVE) }
 }
 
+/// Compares each line of a case with the oracle's pixels.
 fn lines(specimen: &dyn PublishedLine, case: &Case) -> Counts {
     let Shape::Lines(list) = &case.shape else { return Counts::default() };
-    let one = |line: &Line| {
+    let mut sum = Counts::default();
+    for line in list {
         let mut truth = Coverage::new(case.window, 0);
         Oracle.draw(line, case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
         let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
@@ -420,7 +474,7 @@ fn lines(specimen: &dyn PublishedLine, case: &Case) -> Counts {
         }
         counts.wrong = u64::from(counts.tally.total() > 0);
         counts.wrong_pixels = counts.wrong;
-        counts
-    };
-    list.iter().map(one).fold(Counts::default(), Counts::merge)
+        sum = sum.merge(counts);
+    }
+    sum
 }

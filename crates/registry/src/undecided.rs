@@ -38,7 +38,11 @@ pub struct Ties {
 impl Ties {
     /// Pixels that are undecided by either rasterizer.
     pub fn count(&self) -> u64 {
-        self.undecided.rows().flat_map(|(_, row)| row).filter(|&&is| is).count() as u64
+        let mut count = 0;
+        for (_, row) in self.undecided.rows() {
+            count += row.iter().filter(|&&is| is).count() as u64;
+        }
+        count
     }
 
     /// Whether a pixel of the picture is undecided.
@@ -65,6 +69,7 @@ impl Ties {
 #[derive(Clone, Copy)]
 pub struct EngineFrame<'a> {
     pub engine: Engine,
+    /// With every depth of every sample.
     pub target: &'a Target,
 }
 
@@ -79,9 +84,12 @@ const MOST_RIVALS: usize = 1 << 19;
 pub fn find(scene: &Scene, frames: [EngineFrame<'_>; 2]) -> Result<Ties, BadScene> {
     let target = frames[0].target;
     let tied = TiedPieces::new(scene, target)?;
+    // The size counts pixels, the bounds samples where the target is larger.
     let (size, bounds) = (tied.size(), target.bounds());
+    // As many rows as have about so many samples.
     let per_row = u64::from(size.width()) * target.antialias().samples();
     let rows = (BAND_SAMPLES / per_row).max(1) as usize;
+    // Each band is judged by itself, so that the pieces of a few rows are held at once.
     let bands = parallel::map((size.height() as usize).div_ceil(rows), |number| {
         let y0 = size.y0 + (number * rows) as i32;
         let y1 = (y0 + rows as i32).min(size.y1);
@@ -115,6 +123,7 @@ fn excuse_far_textures(tied: &TiedPieces<'_>, frames: [EngineFrame<'_>; 2], ties
             let [a, b] = colours(x, y);
             a != b && !ties.is_excused(plane, x, y)
         };
+        // Only pieces that meet the differing pixels are looked at again.
         let Some(differing) = box_of(frames[0].target.bounds(), |x, y| differs(ties, x, y)) else {
             continue;
         };
@@ -155,9 +164,12 @@ fn far_textures(
     let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
         return Vec::new();
     };
+    // The piece without its values: where it is, and how deep.
     let is_multisampled = frames[0].target.antialias() == Antialias::Multisample4;
+    // For each frame the samples at which it shows the piece as it may, in order, to be compared.
     let mut shown = [0, 1].map_array(|who| {
         let EngineFrame { engine, target } = frames[who];
+        // Each frame by the bounds of the engine that drew it.
         let (tolerance, here) = (engine.tolerance(), &target.planes[plane]);
         let at_depth = |x: i32, y: i32| {
             let depth = exact.at(x, y).0.to_f64();
@@ -168,10 +180,11 @@ fn far_textures(
         let bound = |values: [f64; 3]| tolerance.attribute.at(values);
         let mut good = Vec::new();
         // A multisampled pixel is shaded in the middle, or at whichever sample comes first.
-        let places: Vec<Option<usize>> = match is_multisampled {
-            true => (0..SAMPLES.len()).map(Some).chain([None]).collect(),
-            false => vec![Some(plane)],
-        };
+        let mut places = vec![Some(plane)];
+        if is_multisampled {
+            places = (0..SAMPLES.len()).map(Some).collect();
+            places.push(None);
+        }
         for place in places {
             let by = (&engine, &bound as &dyn Fn([f64; 3]) -> f64);
             tied.texels(by, piece, place, (rect, &wanted), &mut |x, y, colours| {
@@ -184,11 +197,13 @@ fn far_textures(
         good.dedup();
         good
     });
+    // What both frames show as they may is excused.
     let [first, second] = &mut shown;
     first.retain(|sample| second.binary_search(sample).is_ok());
     first.iter().map(|&(y, x)| (x, y)).collect()
 }
 
+/// The samples of a band of rows that are undecided, and those of them that are excused.
 #[derive(Default)]
 struct Band {
     undecided: Vec<Sample>,
@@ -218,6 +233,7 @@ fn halves(rect: PixelRect) -> Option<[PixelRect; 2]> {
 /// A tied piece, and what is known of it by each of the two rasterizers.
 #[derive(Clone, Copy)]
 struct Candidate {
+    /// The piece, and the sample at which it ties.
     tied_piece: TiedPiece,
     /// The nearest and the farthest key that the rasterizer may store.
     keys: [(u64, u64); 2],
@@ -226,14 +242,18 @@ struct Candidate {
     colours: [[Option<Colour>; SAMPLES.len()]; 2],
 }
 
+/// Two frames of a scene, and the pieces that tie in it.
 struct Judge<'a> {
     tied: &'a TiedPieces<'a>,
     frames: [EngineFrame<'a>; 2],
 }
 
 impl Judge<'_> {
+    /// Judges a rectangle, by halves where it has too many tied pieces to be judged at once.
     fn judge(&self, rect: PixelRect) -> Band {
+        // A single pixel is judged, however many pieces tie there.
         let halves = halves(rect);
+        // A list that is too long is not made, and the halves are judged one after the other.
         let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
         match (self.tied.within(rect, most), halves) {
             (Some(tied), _) => self.judge_tied(tied),
@@ -242,18 +262,22 @@ impl Judge<'_> {
         }
     }
 
+    /// Judges samples by the pieces that tie there.
     fn judge_tied(&self, tied: Vec<TiedPiece>) -> Band {
+        // What may be the nearest by either rasterizer, with the colours that each would show.
         let mut candidates = self.candidates(tied);
         keep_rivals(&mut candidates);
         // By piece, to be shaded, and by sample again.
         candidates.sort_unstable_by_key(|c| (c.tied_piece.piece, c.tied_piece.sample));
         for group in candidates.chunk_by_mut(|a, b| a.tied_piece.piece == b.tied_piece.piece) {
-            (0..2).for_each(|who| self.shade(who, group));
+            self.shade(0, group);
+            self.shade(1, group);
         }
         candidates.sort_unstable_by_key(|c| c.tied_piece);
         let mut band = Band::default();
         for group in candidates.chunk_by(|a, b| a.tied_piece.sample == b.tied_piece.sample) {
             let sample = group[0].tied_piece.sample;
+            // Where all of them are of one colour, it does not matter which is nearest.
             let mut colours = group.iter().flat_map(|c| c.colours.as_flattened()).flatten();
             let first = colours.next();
             if colours.any(|colour| Some(colour) != first) {
@@ -283,11 +307,12 @@ impl Judge<'_> {
             let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
                 continue;
             };
-            candidates.extend(group.iter().map(|&tied_piece| {
+            for &tied_piece in group {
                 let depth = exact.at(tied_piece.sample.x_px, tied_piece.sample.y_px).0.to_f64();
                 let keys = bounds.map_array(|bound| keys(format, depth, bound, depths));
-                Candidate { tied_piece, keys, colours: [[None; SAMPLES.len()]; 2] }
-            }));
+                let colours = [[None; SAMPLES.len()]; 2];
+                candidates.push(Candidate { tied_piece, keys, colours });
+            }
         }
         candidates.sort_unstable_by_key(|c| c.tied_piece);
         candidates
@@ -295,32 +320,31 @@ impl Judge<'_> {
 
     /// Finds what one of the two rasterizers shows of a piece at its candidates.
     fn shade(&self, who: usize, group: &mut [Candidate]) {
+        // The piece is drawn once more by this engine, and its colours are noted at the candidates.
         let EngineFrame { engine, target } = self.frames[who];
         let piece = group[0].tied_piece.piece;
-        let samples = || group.iter().map(|c| c.tied_piece.sample);
-        let empty = PixelRect { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
-        let bounds = samples().fold(empty, |rect, Sample { x_px, y_px, .. }| PixelRect {
-            x0: rect.x0.min(x_px),
-            y0: rect.y0.min(y_px),
-            x1: rect.x1.max(x_px + 1),
-            y1: rect.y1.max(y_px + 1),
-        });
-        let find = |group: &[Candidate], plane, x_px, y_px| {
-            let wanted = Sample { plane, x_px, y_px };
-            group.binary_search_by_key(&wanted, |c| c.tied_piece.sample).ok()
-        };
+        // The piece is shaded in the rectangle around its candidates.
+        let mut bounds = PixelRect { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
+        for Candidate { tied_piece, .. } in group.iter() {
+            let Sample { x_px, y_px, .. } = tied_piece.sample;
+            bounds.x0 = bounds.x0.min(x_px);
+            bounds.y0 = bounds.y0.min(y_px);
+            bounds.x1 = bounds.x1.max(x_px + 1);
+            bounds.y1 = bounds.y1.max(y_px + 1);
+        }
         if target.antialias() != Antialias::Multisample4 {
             self.tied.show(&engine, piece, Some(0), bounds, &mut |x, y, colour| {
-                if let Some(at) = find(group, 0, x, y) {
+                if let Some(at) = find_sample(group, 0, x, y) {
                     group[at].colours[who][0] = Some(colour);
                 }
             });
             return;
         }
+        // Wherever a pixel may be shaded: at each of its samples, and below in the middle.
         for plane in 0..SAMPLES.len() {
             self.tied.show(&engine, piece, Some(plane), bounds, &mut |x, y, colour| {
                 for of in 0..SAMPLES.len() {
-                    if let Some(at) = find(group, of, x, y) {
+                    if let Some(at) = find_sample(group, of, x, y) {
                         group[at].colours[who][plane] = Some(colour);
                     }
                 }
@@ -328,7 +352,7 @@ impl Judge<'_> {
         }
         self.tied.show(&engine, piece, None, bounds, &mut |x, y, colour| {
             for of in 0..SAMPLES.len() {
-                if let Some(at) = find(group, of, x, y) {
+                if let Some(at) = find_sample(group, of, x, y) {
                     group[at].colours[who] = [Some(colour); SAMPLES.len()];
                 }
             }
@@ -352,6 +376,12 @@ impl Judge<'_> {
     }
 }
 
+/// The place of a sample in a list of candidates, which is sorted by samples.
+fn find_sample(group: &[Candidate], plane: usize, x_px: i32, y_px: i32) -> Option<usize> {
+    let wanted = Sample { plane, x_px, y_px };
+    group.binary_search_by_key(&wanted, |c| c.tied_piece.sample).ok()
+}
+
 /// The keys of all depths within a bound of the exact one, which was rounded once. The ends are
 /// rounded outwards.
 fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64, u64) {
@@ -363,14 +393,22 @@ fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64
 fn keep_rivals(candidates: &mut Vec<Candidate>) {
     let mut kept = Vec::new();
     for group in candidates.chunk_by(|a, b| a.tied_piece.sample == b.tied_piece.sample) {
-        let farthest = [0, 1].map_array(|who| {
-            let ends = group.iter().map(|c| (c.keys[who].1, c.tied_piece.piece));
-            ends.min().unwrap_or((u64::MAX, u32::MAX))
-        });
-        let may_win =
-            |c: &&Candidate| (0..2).any(|who| (c.keys[who].0, c.tied_piece.piece) <= farthest[who]);
+        // By each rasterizer, the farthest depth that the nearest surface may have, and its piece.
+        let mut farthest = [(u64::MAX, u32::MAX); 2];
+        for c in group {
+            for (farthest, (_, end)) in farthest.iter_mut().zip(c.keys) {
+                *farthest = (*farthest).min((end, c.tied_piece.piece));
+            }
+        }
         let before = kept.len();
-        kept.extend(group.iter().filter(may_win).copied());
+        for c in group {
+            let piece = c.tied_piece.piece;
+            // Whoever may be nearer than that may be the nearest.
+            if (c.keys[0].0, piece) <= farthest[0] || (c.keys[1].0, piece) <= farthest[1] {
+                kept.push(*c);
+            }
+        }
+        // One alone is no rival.
         if kept.len() == before + 1 {
             kept.truncate(before);
         }

@@ -20,6 +20,7 @@ pub struct TouchedPixels {
 impl TouchedPixels {
     /// Whether some line separates a pixel from a triangle. Of two convex shapes it runs along a side of one of them.
     fn is_apart(self, corners: &Corners, [x_px, y_px]: [i32; 2]) -> bool {
+        // The four corners of the pixel, in subpixels.
         let square = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[right, down]| {
             let [x, y] = [x_px + right, y_px + down].map(|px| i64::from(px) * i64::from(SUBPIXELS));
             [x, y]
@@ -27,17 +28,20 @@ impl TouchedPixels {
         // How far a shape lies beyond a line may be 0 where they touch.
         let least = i128::from(self.is_closed);
         let inside = twice_area(corners).signum();
-        let by_edge = edges(corners)
-            .iter()
-            .any(|&[a, b]| square.iter().all(|p| side([a, b], *p) * inside <= -least));
+        for edge in edges(corners) {
+            if square.iter().all(|p| side(edge, *p) * inside <= -least) {
+                return true;
+            }
+        }
         // Along the sides of the pixel.
-        let by_side = [0, 1].iter().any(|&axis| {
-            let of = corners.map(|p| i128::from([p.x, p.y][axis]));
-            let [low, high] = [of[0].min(of[1]).min(of[2]), of[0].max(of[1]).max(of[2])];
-            i128::from(square[2][axis]) - low <= -least
-                || high - i128::from(square[0][axis]) <= -least
-        });
-        by_edge || by_side
+        for axis in 0..2 {
+            let [a, b, c] = corners.map(|p| i128::from([p.x, p.y][axis]));
+            let [first, end] = [square[0][axis], square[2][axis]].map(i128::from);
+            if end - a.min(b).min(c) <= -least || a.max(b).max(c) - first <= -least {
+                return true;
+            }
+        }
+        false
     }
 }
 
@@ -53,11 +57,21 @@ impl Rasterize for TouchedPixels {
             return;
         }
         for y_px in bounds.y0..bounds.y1 {
-            let is_drawn = |x_px: &i32| !self.is_apart(&corners, [*x_px, y_px]);
             // The pixels of a row that meet a convex shape are one run.
-            let Some(x0_px) = (bounds.x0..bounds.x1).find(is_drawn) else { continue };
-            let after = (x0_px + 1..bounds.x1).find(|x_px| !is_drawn(x_px));
-            emit(Span { y_px, x0_px, x1_px: after.unwrap_or(bounds.x1) });
+            let mut run = bounds.x1..bounds.x1;
+            for x_px in bounds.x0..bounds.x1 {
+                match (self.is_apart(&corners, [x_px, y_px]), run.start < bounds.x1) {
+                    (false, false) => run.start = x_px,
+                    (true, true) => {
+                        run.end = x_px;
+                        break;
+                    }
+                    _ => {}
+                }
+            }
+            if !run.is_empty() {
+                emit(Span { y_px, x0_px: run.start, x1_px: run.end });
+            }
         }
     }
 }
@@ -71,6 +85,7 @@ pub struct WideLines {
 
 /// That a x + c is at most 0, of x in subpixels.
 struct HalfPlane {
+    /// Above 0 where the half plane ends at the right, below 0 where it ends at the left.
     a: i128,
     c: i128,
 }
@@ -93,6 +108,7 @@ impl HalfPlane {
 impl WideLines {
     /// The runs of a line in a window.
     pub fn cover(self, line: &WideLine, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        // Whole numbers from here on; a row is cut by four half planes.
         let [start, end] = line.ends.map(|p| [i128::from(p.x), i128::from(p.y)]);
         let [dx, dy] = [end[0] - start[0], end[1] - start[1]];
         if [dx, dy] == [0, 0] {
@@ -104,6 +120,7 @@ impl WideLines {
             WideForm::Parallelogram if dy.abs() > dx.abs() => [0, dy],
             WideForm::Parallelogram => [dx, 0],
         };
+        // Distances from the line are compared by their squares times that of the segment, so that no root is rounded.
         let squared = (cut[0] * cut[0] + cut[1] * cut[1]).unsigned_abs();
         let area = squared * u128::from(line.width.unsigned_abs()).pow(2);
         // Whole numbers are at most a root where they are at most the whole number below it.
@@ -152,10 +169,12 @@ impl SampleValues {
         bounds: PixelRect,
         emit: &mut dyn FnMut(u8, Fragment<DVec2>),
     ) -> Option<()> {
+        // Which samples are covered is decided by the edge function, as everywhere; the values are computed here.
         let masks = multisample::masks(&EdgeFunction, triangle.corners(), bounds)?;
         for (y_px, row) in masks.rows() {
             for (x_px, &mask) in (bounds.x0..).zip(row).filter(|(_, mask)| **mask != 0) {
                 let at = |place| values_at(triangle, [x_px, y_px], place);
+                // A pixel that is covered as a whole has one value, at its centre, unless each sample has its own.
                 let first = SAMPLES[mask.trailing_zeros() as usize];
                 match self.at {
                     ValuePlace::Centre => emit(mask, at((8, 8))),
@@ -185,6 +204,7 @@ fn values_at(
     let at = [(pixel[0], x), (pixel[1], y)].map(|(px, part)| {
         i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
     });
+    // Weights by areas, which are below 0 outside.
     let area = twice_area(&corners) as f64;
     let (mut depth, mut over_w, mut varying) = (0.0, 0.0, DVec2::ZERO);
     for (i, v) in triangle.vertices.iter().enumerate() {
@@ -215,6 +235,7 @@ impl AreaLevels {
         for y_px in bounds.y0..bounds.y1 {
             for x_px in bounds.x0..bounds.x1 {
                 let share = share_by_clipping(&corners, [f64::from(x_px), f64::from(y_px)]);
+                // Half of a step is rounded up.
                 // A share is at most 1.
                 let level = (share * f64::from(self.levels)).round() as u8;
                 if level > 0 {
@@ -227,6 +248,7 @@ impl AreaLevels {
 
 /// The area of a triangle within the pixel with this upper left corner.
 fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
+    // In pixels from its upper left corner, so that the borders are 0 and 1.
     let mut polygon = corners.map(|p| [p[0] - pixel[0], p[1] - pixel[1]]).to_vec();
     for (axis, limit, sign) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
         let inside = |p: &[f64; 2]| sign * (p[axis] - limit);
@@ -237,6 +259,7 @@ fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
             if here >= 0.0 {
                 kept.push(*from);
             }
+            // The edge crosses the border: the polygon gets a corner there.
             if (here < 0.0) != (there < 0.0) {
                 let part = here / (here - there);
                 kept.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * part));
@@ -244,6 +267,7 @@ fn share_by_clipping(corners: &[[f64; 2]; 3], pixel: [f64; 2]) -> f64 {
         }
         polygon = kept;
     }
+    // Twice the area of what is left.
     let mut twice = 0.0;
     for (i, p) in polygon.iter().enumerate() {
         let q = polygon[(i + 1) % polygon.len()];

@@ -29,8 +29,11 @@ const PAPER: Ink = [255, 255, 255];
 pub struct Drawing {
     /// What it shows, for those who cannot see it.
     title: String,
+    /// Width and height, in units of about a pixel.
     pub size: [f64; 2],
+    /// The colours that occur, each of which needs a class.
     inks: BTreeSet<Ink>,
+    /// The elements, in the order of drawing.
     body: String,
 }
 
@@ -71,6 +74,7 @@ impl Drawing {
         );
     }
 
+    /// A circle that is painted in this way.
     fn circle(&mut self, [x, y]: [f64; 2], radius: f64, paint: &str) {
         let _ = writeln!(self.body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {paint}/>");
     }
@@ -88,6 +92,7 @@ impl Drawing {
 
     /// A line of text: its left end, at its middle height.
     pub fn text(&mut self, [x, y]: [f64; 2], text: &str, ink: Ink) {
+        // The base line lies below the middle of the letters.
         let (fill, y, length) = (self.paint("fill", ink), y + 4.5, width(text));
         let _ = writeln!(
             self.body,
@@ -96,10 +101,12 @@ impl Drawing {
         );
     }
 
+    /// A line of text by its right end, as beside an axis.
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
     }
 
+    /// A line of text by its middle, as below a mark.
     pub fn text_about(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text) / 2.0, at[1]], text, ink);
     }
@@ -107,6 +114,7 @@ impl Drawing {
 
 /// The width of a text, in units of the drawing: between that in Helvetica and that in DejaVu Sans, which is wide.
 pub fn width(text: &str) -> f64 {
+    // By the kind of letter, since no font can be measured here.
     let letter = |c: char| match c {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 3.5,
         ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | '"' => 4.6,
@@ -118,23 +126,25 @@ pub fn width(text: &str) -> f64 {
     text.chars().map(letter).sum()
 }
 
+/// The drawing as a document, with its colours for dark pages.
 pub fn svg(drawing: &Drawing) -> String {
     let Drawing { title, size: [width, height], inks, body } = drawing;
-    let dark = inks.iter().map(|ink| {
+    let mut classes = String::new();
+    for ink in inks {
         let (name, dark) = (hex(*ink), hex(dark(*ink)));
-        format!(".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}")
-    });
-    let dark: String = dark.collect();
+        let _ = write!(classes, ".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}");
+    }
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n<title>{title}</title>\n\
-         <style>@media (prefers-color-scheme: dark){{{dark}}}</style>\n\
+         <style>@media (prefers-color-scheme: dark){{{classes}}}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\" class=\"fffffff\"/>\n{body}</svg>\n"
     )
 }
 
 /// The same drawing for wide pages, for files and for narrow pages, as a figure.
 pub fn figure(caption: &str, [wide, usual, narrow]: [Drawing; 3]) -> Figure {
+    // The browser takes the first version whose condition holds.
     let others = [("(min-width: 78rem)", svg(&wide)), ("(max-width: 40rem)", svg(&narrow))];
     Figure { caption: caption.to_owned(), svg: svg(&usual), others: others.into() }
 }
@@ -145,6 +155,7 @@ fn hex([r, g, b]: Ink) -> String {
 
 /// What a colour is on a dark page: light ones become dark, dark ones light, of the same hue.
 fn dark([r, g, b]: Ink) -> Ink {
+    // The hue stays where all three are mirrored at the same place.
     let (low, high) = (r.min(g).min(b), r.max(g).max(b));
     let mirror = |v: u8| {
         // The lightness is mirrored, and black text does not become pure white.

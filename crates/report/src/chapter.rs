@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+/// A page of the docs that explains something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Chapter {
     /// In words; nothing where there is no such place.
@@ -12,6 +13,7 @@ pub struct Chapter {
 
 /// The page of the docs about the source of a published algorithm, such as `book 3.2`.
 pub fn chapter_of_source(source: &str) -> Chapter {
+    /// The pages of sources, by how their names begin.
     const PAGES: [(&str, &str, &str); 12] = [
         ("book 2", "chapter 2", "ch02.md"),
         ("book 3", "chapter 3", "ch03.md"),
@@ -26,6 +28,7 @@ pub fn chapter_of_source(source: &str) -> Chapter {
         ("GAMES101", "GAMES101 homework 2", "games101.md"),
         ("SYSU", "SYSU assignment 2", "sysu.md"),
     ];
+    // A source that no page is about leads to none.
     let page = PAGES.iter().find(|(from, ..)| source.starts_with(from));
     page.map_or(Chapter::default(), |&(_, title, path)| Chapter { title, path })
 }

@@ -13,14 +13,17 @@ use super::{html, json as json_text, text};
 use json_text::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
 
+/// The formats in which a verdict can be printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Text,
+    /// Everything that was found, by names that are documented in `docs/`.
     Json,
     /// JUnit XML, for build servers.
     Junit,
     /// Test Anything Protocol, version 14.
     Tap,
+    /// The results.json of Gradescope, with a score for each property.
     Gradescope,
     /// The result of an autograding step of GitHub Classroom.
     GithubClassroom,
@@ -67,6 +70,7 @@ pub fn write(
 /// Why it fails, where that is known, what was found, and the cases that a terminal shows of it.
 fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let cause = cause(verdict, property, "\n");
+    // The property, what was found of it, and its cases.
     let shown = excerpts(verdict, repeat, Some(property.name));
     let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
     format!("{cause}{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
@@ -74,6 +78,7 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
 
 /// Why a property fails, where that is known, and then `end`.
 fn cause(verdict: &Verdict, property: &Property, end: &str) -> String {
+    // An expected failure has its reason, too.
     let is_wrong = property.outcome != Outcome::Pass;
     let why = is_wrong.then(|| why(verdict, property.name)).flatten();
     why.map_or_else(String::new, |why| why + end)
@@ -84,14 +89,18 @@ fn xml(text: &str) -> String {
     html::escape(text).replace('\n', "&#10;")
 }
 
+/// The verdict as JUnit's XML: a property is a test.
 fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
-    let count = |wanted: &dyn Fn(Outcome) -> bool| {
-        verdict.more.properties.iter().filter(|p| wanted(p.outcome)).count()
-    };
-    let (tests, failures) = (verdict.more.properties.len(), count(&|o| !o.is_good()));
-    let skipped = count(&|o| o == Outcome::ExpectedFailure);
+    let (mut failures, mut skipped) = (0, 0);
+    for p in &verdict.more.properties {
+        failures += u64::from(!p.outcome.is_good());
+        skipped += u64::from(p.outcome == Outcome::ExpectedFailure);
+    }
+    // Every property is a test, also one that was expected to fail.
+    let tests = verdict.more.properties.len();
     let name = xml(&verdict.more.declared.name);
     let seconds = verdict.more.found.seconds;
+    // The counts stand twice: of the suite, and of all suites, of which there is one.
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let counts = format!(
         "tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"{skipped}\" time=\"{seconds:.3}\""
@@ -100,8 +109,10 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
     for p in &verdict.more.properties {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
+        // The text has everything, the attribute the reason in short.
         let text = xml(&message(verdict, p, repeat));
         let about = xml(&(cause(verdict, p, "; ") + &p.detail));
+        // What holds needs no words.
         let kind = match p.outcome {
             Outcome::Pass => {
                 let _ = writeln!(out, "    {case}/>");
@@ -127,9 +138,11 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     out + "  </testsuite>\n</testsuites>\n"
 }
 
+/// The verdict by the Test Anything Protocol: a line for each property.
 fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let mut out = format!("TAP version 14\n1..{}\n", verdict.more.properties.len());
     for (p, number) in verdict.more.properties.iter().zip(1..) {
+        // An expected failure is one that is to be mended, by the protocol's own word.
         let (word, mark) = match p.outcome {
             Outcome::Pass => ("ok", ""),
             Outcome::ExpectedFailure => ("not ok", " # TODO known failure"),
@@ -149,21 +162,25 @@ fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
 
 /// Gradescope's results.json: each test with its name, whether it passed, and its output; and what they come to.
 pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> Value {
-    let test = |((name, passed, output), number): (&(&str, bool, String), usize)| {
-        json!({
+    let (mut passed_tests, mut shown) = (0, Vec::new());
+    for ((name, passed, output), number) in tests.iter().zip(1..) {
+        let number: usize = number;
+        passed_tests += usize::from(*passed);
+        shown.push(json!({
             "name": name, "number": number.to_string(), "score": i32::from(*passed), "max_score": 1,
             "status": if *passed { "passed" } else { "failed" }, "output": output,
             "output_format": "text", "visibility": "visible",
-        })
-    };
-    let passed = tests.iter().filter(|(_, passed, _)| *passed).count();
+        }));
+    }
     json!({
-        "score": passed, "visibility": "visible", "stdout_visibility": "visible",
-        "execution_time": seconds.ceil() as u64, "output": format!("{passed} of {} {about}", tests.len()),
-        "tests": tests.iter().zip(1..).map(test).collect::<Vec<_>>(),
+        "score": passed_tests, "visibility": "visible", "stdout_visibility": "visible",
+        "execution_time": seconds.ceil() as u64,
+        "output": format!("{passed_tests} of {} {about}", tests.len()),
+        "tests": shown,
     })
 }
 
+/// The verdict for GitHub Classroom: a property is a test with a point.
 fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let tests = verdict.more.properties.iter().map(|p| {
         let good = p.outcome.is_good();

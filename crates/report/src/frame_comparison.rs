@@ -37,6 +37,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Whether nothing differs that may not.
     pub fn agrees(&self) -> bool {
         self.wrong_pixels == 0 && self.wrong_depths == 0
     }
@@ -44,6 +45,7 @@ impl Comparison {
 
 const RED: Colour = [255, 40, 40, 255];
 const BROWN: Colour = [120, 84, 0, 255];
+/// Marks what is undecided and differs.
 const YELLOW: Colour = [255, 200, 0, 255];
 
 /// What the colours of [`Comparison::picture`] mark.
@@ -67,6 +69,7 @@ pub fn compare(
     ties: Option<&Ties>,
 ) -> Comparison {
     let bounds = a.0.bounds();
+    // Depths are compared sample by sample, colours pixel by pixel.
     let (depths, wrong) = compare_depths(a.1, b.1, ties);
     let mut found = Comparison {
         pixels: u64::from(bounds.width()) * u64::from(bounds.height()),
@@ -79,14 +82,17 @@ pub fn compare(
         picture: Frame::new(bounds, [0; 4]),
     };
     for y_px in bounds.y0..bounds.y1 {
+        // Both pictures row by row, with what is known of ties at each pixel.
         let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
         for (x_px, (pixel, (first, second))) in
             (bounds.x0..).zip(found.picture.row_mut(y_px).iter_mut().zip(rows))
         {
             let ties = ties.filter(|ties| ties.is_undecided(x_px, y_px));
             let differs = first != second;
+            // A difference is excused by ties alone, sample by sample.
             let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
             found.wrong_pixels += u64::from(differs && !is_excused);
+            // Of what is excused, ties of depth and far textures are counted apart.
             let is_far = is_excused && ties.is_some_and(|t| t.is_far_texture(x_px, y_px));
             found.undecided_differ += u64::from(is_excused && !is_far);
             found.far_texture += u64::from(is_far);
@@ -98,6 +104,7 @@ pub fn compare(
             };
         }
     }
+    // Several samples may belong to a pixel.
     let scale = a.1.antialias().scale() as i32;
     for (x_px, y_px) in wrong {
         found.picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
@@ -108,6 +115,7 @@ pub fn compare(
 /// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.
 fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
     let scale = a.antialias().scale() as i32;
+    // Every sample of the pixel has to be excused, if it differs.
     let mut excused = 0;
     for (plane, (first, second)) in a.planes.iter().zip(&b.planes).enumerate() {
         for y in y_px * scale..(y_px + 1) * scale {
@@ -124,15 +132,23 @@ fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
     excused > 0
 }
 
+/// How many pixels of two pictures differ.
 pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
-    let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
-    pixels.filter(|(a, b)| a != b).count() as u64
+    let mut count = 0;
+    for ((_, a), (_, b)) in a.rows().zip(b.rows()) {
+        for (a, b) in a.iter().zip(b) {
+            count += u64::from(a != b);
+        }
+    }
+    count
 }
 
 /// How many depths were compared, and the samples where they differ.
 fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32, i32)>) {
+    // Each engine may be off by its own bound.
     let error =
         tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
+    // In steps of the format in which depths are stored.
     let tolerance = a.format.tolerance(error);
     let mut wrong = Vec::new();
     let mut count = 0;
@@ -145,6 +161,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
                 continue;
             }
             for (x_px, (&key_a, &key_b)) in (x0..).zip(row_a.iter().zip(row_b)) {
+                // Where one of them drew nothing, depths are not near.
                 let near = key_a != CLEAR
                     && key_b != CLEAR
                     && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
@@ -163,9 +180,15 @@ pub fn mapped() -> impl Iterator<Item = Effect> {
     Effect::ALL.into_iter().filter(|effect| effect.map_colour().is_some())
 }
 
+/// How many pixels pay for an effect.
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
-    let pays = |paid: &&u32| **paid & (1 << effect as u32) != 0;
-    map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
+    let mut count = 0;
+    for (_, row) in map.rows() {
+        for paid in row {
+            count += u64::from(paid & (1 << effect as u32) != 0);
+        }
+    }
+    count
 }
 
 /// Panels in a row of a map, and the widest such row.
@@ -183,6 +206,7 @@ pub struct Amount {
 }
 
 impl Amount {
+    /// Goes through a frame of counts once; of equal pixels the first one is named.
     pub fn of(counts: &Frame<u32>) -> Self {
         let x0 = counts.bounds().x0;
         let mut amount = Self { mean: 0.0, most: 0, at: [0; 2], pixels: 0 };
@@ -214,6 +238,7 @@ fn heat(count: f64, most: u32) -> [u8; 3] {
         return [40; 3];
     }
     let share = (count - 1.0).max(0.0) / f64::from(most.saturating_sub(1).max(1));
+    // Between two of the stops.
     let at = share.min(1.0) * (STOPS.len() - 1) as f64;
     let low = (at as usize).min(STOPS.len() - 2);
     let part = at - low as f64;
@@ -226,29 +251,37 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
     let map = &paid_map.effects;
     let bounds = map.bounds();
     let (width, height) = (bounds.width(), bounds.height());
+    // Large frames are made smaller, so that a row of panels fits.
     let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
         let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
+        // Painted in full size, then made smaller as a whole.
         let whole = picture::painted(width, height, colour);
         let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
         let name = (name.to_owned(), Size::Heading, Rgb(ink));
         let words = [name, (words, Size::Small, panels::FAINT)];
         panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0])
     };
-    let amounts =
-        [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
-    let amounts = amounts.map(|(name, counts)| {
+    let mut cells = Vec::new();
+    for (name, counts) in
+        [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)]
+    {
         let Amount { mean, most, .. } = Amount::of(counts);
-        cell(name, panels::INK.0, format!("mean {mean:.2}, at most {most}"), &|x, y| {
+        let words = format!("mean {mean:.2}, at most {most}");
+        cells.push(cell(name, panels::INK.0, words, &|x, y| {
             heat(counts.get(x, y).unwrap_or(0).into(), most)
-        })
-    });
+        }));
+    }
     let pixels = u64::from(width) * u64::from(height);
-    let effects = mapped().filter(|effect| paid(map, *effect) > 0).filter_map(|effect| {
-        let (count, paint) = (paid(map, effect), effect.map_colour()?);
+    for effect in Effect::ALL {
+        let (count, Some(paint)) = (paid(map, effect), effect.map_colour()) else { continue };
+        if count == 0 {
+            continue;
+        }
         let words = format!("{count} px, {:.1}%", 100.0 * count as f64 / pixels.max(1) as f64);
-        Some(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
+        cells.push(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
             let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
+            // The lightness of the frame, in which green counts most.
             let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
             // The frame shows through.
             let lit = |c: u8| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8;
@@ -256,9 +289,9 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
                 0 => [(40 + grey / 5) as u8; 3],
                 _ => paint.map_array(lit),
             }
-        }))
-    });
-    let cells = amounts.into_iter().chain(effects).collect();
+        }));
+    }
+    // What the colours of counts mean.
     let scale = (1..=9).map(|count| Rgb(heat(count.into(), 9))).collect();
     let entries = [
         (vec![Rgb(heat(0.0, 1))], "none".to_owned()),

@@ -6,7 +6,6 @@
 //! standard error, and the exit status is that of `judge`. A module's host is called for every read, so it needs no `unsafe`.
 
 use std::io::{self, BufRead as _, Write as _};
-use std::iter;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -36,30 +35,40 @@ impl Subject for Host {
         }
         // Who reads all of it before it answers never waits for a pipe that is full.
         requests.push(b'\n');
+        // Locked before anything is sent, so that the answers are read by whoever asked.
         let heard = io::stdin().lock();
         let sent = io::stdout().write_all(&requests).and_then(|()| io::stdout().flush());
-        let lines: Vec<_> = heard.lines().take(questions.len()).map_while(Result::ok).collect();
-        let lines = lines.iter().map(String::as_bytes).chain(iter::repeat(&b""[..]));
-        let answer = |(question, line): (&Question, _)| {
-            let mut words = Words(line);
-            let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
-            words.word();
-            let read = question.read(letter, &mut words);
-            read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
-        };
+        let mut lines = heard.lines().map_while(Result::ok).fuse();
+        let mut answers = Vec::with_capacity(questions.len());
+        for question in questions {
+            // A line that is not there is an answer that cannot be read.
+            answers.push(answer(question, lines.next().unwrap_or_default().as_bytes()));
+        }
         match sent {
-            Ok(()) => questions.iter().zip(lines).map(answer).collect(),
+            Ok(()) => answers,
             Err(error) => vec![Answer::Died(Breach::Exits.by(error.to_string()))],
         }
     }
 }
 
+/// The answer in a line: a letter and a number, which the judge does not need, then what was drawn.
+fn answer(question: &Question, line: &[u8]) -> Answer {
+    let mut words = Words(line);
+    let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
+    words.word();
+    let read = question.read(letter, &mut words);
+    read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
+}
+
+/// What is to be judged, as the options say it.
 #[derive(Default)]
 struct Job {
     options: Options,
     /// The function of the package and the name of what is judged, as in `assertRasterizer(draw`.
     call: String,
+    /// Whether arguments are written as Python writes them.
     is_python: bool,
+    /// Words of a convention, as `HELLO` has them.
     declare: String,
     /// The caller says that numbers of masks are hits.
     hits: bool,
@@ -68,22 +77,28 @@ struct Job {
 }
 
 impl Job {
+    /// Reads options up to the line HELLO.
     fn read() -> Result<(Self, Declared), String> {
+        // Options come in any order, and the line HELLO ends them.
         let mut job = Self::default();
         for line in io::stdin().lines().map_while(Result::ok) {
+            // The line HELLO ends the options.
             let line = line.trim_end();
             if let Some(mut declared) = Declared::parse(line) {
                 declared.declare(&job.declare).map_err(|why| format!("declare: {why}"))?;
                 return Ok((job, declared));
             }
+            // An option is a word, and all that follows a space is its value.
             let (option, value) = line.split_once(' ').unwrap_or((line, ""));
             job.hear(option, value)?;
         }
         Err("no line with HELLO was read".to_owned())
     }
 
+    /// Takes an option of the host; an error says what would have been one.
     fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
         let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
+        // Whole numbers, from the least that makes sense.
         let number = |least: u64| {
             let number = value.parse().ok().filter(|number| *number >= least);
             number.ok_or_else(|| is_not(&format!("a whole number from {least} to {}", u64::MAX)))
@@ -136,16 +151,21 @@ impl Job {
         if self.hits {
             all.push(("hits", if self.is_python { "True" } else { "true" }.to_owned()));
         }
-        let all: Vec<_> =
-            all.iter().map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
+        let mut arguments = Vec::new();
+        for (name, value) in all {
+            arguments.push(format!("{name}{}{value}", self.is()));
+        }
+        // JavaScript has the options in an object, and Python has them by name.
         let [open, close] = if self.is_python { ["", ""] } else { ["{ ", " }"] };
-        format!("{}, {open}{}{close})", self.call, all.join(", "))
+        format!("{}, {open}{}{close})", self.call, arguments.join(", "))
     }
 
+    /// Whether all is right, and the report; an error where nothing could be judged.
     fn judge(self, declared: Declared) -> Result<(bool, String), String> {
         let one = |family: &str, index: u64| {
             self.line(&[("family", format!("'{family}'")), ("case", index.to_string())])
         };
+        // The call that judges everything again, and the one for a single case.
         let mut all = vec![("cases", self.options.cases.to_string())];
         if !self.options.families.is_empty() {
             let names = self.options.families.join("', '");
@@ -157,27 +177,31 @@ impl Job {
                 if declared.partition { polygons::polygon_that_asks } else { case_that_asks };
             let found = find(&self.locate, &self.options, &declared);
             let seed = self.options.seed;
-            let said = found.map(|(family, index)| {
-                format!(
+            let said = match found {
+                Some((family, index)) => format!(
                     "family {family}, case {index}, seed {seed}\nrepeat with: {}",
                     one(family, index)
-                )
-            });
-            let of_none = format!(
-                "a request of the judge that is no generated case; seed {seed}\nrepeat with: {all}"
-            );
-            return Ok((true, said.unwrap_or(of_none)));
+                ),
+                None => format!(
+                    "a request of the judge that is no generated case; seed {seed}\nrepeat with: {all}"
+                ),
+            };
+            return Ok((true, said));
         }
         if declared.partition {
+            // A tessellator is judged by areas, and its verdict is written in another way.
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
             let said = judge_text::of_polygons(&declared, &report, &all, &one);
             return Ok((report.sum().wrong == 0, cause_first(&said)));
         }
+        // Pictures of triangles and lines are judged as programs are.
         let scope = Scope::of(&self.options);
         // A module has one thread.
         let hosts = if cfg!(target_family = "wasm") { 1 } else { 2 };
-        let host = |_| Box::new(Host(declared.clone())) as Box<dyn Subject>;
-        let mut askers: Vec<_> = (0..hosts).map(host).collect();
+        let mut askers: Vec<Box<dyn Subject>> = Vec::new();
+        for _ in 0..hosts {
+            askers.push(Box::new(Host(declared.clone())));
+        }
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
         if let Some(why) = verdict.judged_nothing() {
             return Err(why);
@@ -193,6 +217,7 @@ fn cause_first(report: &Report) -> String {
     let whole = text::text(report, false, false, text::WIDTH);
     match &report.outcome {
         Some(outcome) if !outcome.good => {
+            // The cause, or what was counted where none is known.
             let why = outcome.answer.split_once(" is not right").map_or("", |(_, why)| why);
             let why = why.trim_start_matches([':', '.', ' ']);
             let first = if why.is_empty() { &outcome.sentence } else { why };
@@ -202,6 +227,7 @@ fn cause_first(report: &Report) -> String {
     }
 }
 
+/// Judges once, and ends with the status of `judge`.
 pub fn main() -> ExitCode {
     let judged = Job::read().and_then(|(job, declared)| job.judge(declared));
     let (status, said) = match judged {

@@ -23,14 +23,18 @@ use super::picture;
 use super::table::{Mark, Table};
 use super::words::{grouped, same, serialize_grouped, word};
 
+/// Lines of a text that are shown around what differs.
 const CONTEXT: usize = 3;
+/// Names of what is left out that a page lists.
 const MOST_LEFT_OUT_NAMES: usize = 20;
 /// Of a table with more rows than these a page shows the wrong ones and six others, and all once the reader asks for them.
 const MOST_ROWS: usize = 8;
 /// Below a table with more notes than these, they are folded: a list of them is longer than the table.
 const MOST_NOTES: usize = 4;
+/// A table beyond this size ends with the number of rows that are left out.
 const MOST_TABLE_BYTES: usize = 500_000;
 
+/// The frame of all pages around that of reports.
 static TEMPLATE: LazyLock<String> = LazyLock::new(|| {
     rasterproof_view::FRAME.replacen("{{body}}", include_str!("page/page.html"), 1)
 });
@@ -55,6 +59,7 @@ static SCRIPT: LazyLock<String> = LazyLock::new(|| {
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Report {
+    /// What stands at the top, and with the command in the head.
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
@@ -70,6 +75,7 @@ pub struct Report {
     pub command: String,
     /// The command that repeats it without pages, where that is another one.
     pub repeat: String,
+    /// Sentences in the last section of the page.
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
@@ -77,6 +83,7 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     /// The cases that a terminal shows, above the tables.
     pub excerpts: Vec<Excerpt>,
+    /// Rendered pictures, shown in the same viewer as cases.
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
     /// The same for machines, where it is made of this value.
@@ -113,6 +120,7 @@ pub struct Excerpt {
     pub exchanges: Vec<(&'static str, String)>,
     /// Pixels as characters; its lines are not broken.
     pub grid: String,
+    /// What is said of it, a paragraph each.
     pub notes: Vec<String>,
     /// Commands and pages, each with what it is for.
     pub places: Vec<(&'static str, String)>,
@@ -122,6 +130,7 @@ pub struct Excerpt {
 pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
+    /// The verdict in capitals, as `AGREES`.
     pub word: String,
     /// The verdict in a sentence, with the cause where one is known; nothing where `sentence` says it.
     pub answer: String,
@@ -161,6 +170,7 @@ impl Outcome {
     }
 }
 
+/// A plot with its caption, in one version or in several.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -172,9 +182,11 @@ pub struct Figure {
     pub others: Vec<(&'static str, String)>,
 }
 
+/// Two versions of a text, of which the page shows the lines that differ.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
+    /// What is said of it below its name.
     pub about: String,
     /// A command that belongs to it, or nothing.
     pub command: String,
@@ -192,10 +204,12 @@ pub struct PictureView {
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,
+    /// The page of the docs about what it shows.
     pub chapter: Chapter,
     pub layers: Vec<PictureLayer>,
 }
 
+/// One of the pictures that can be compared.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
     pub name: String,
@@ -215,6 +229,7 @@ impl PictureLayer {
         Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
     }
 
+    /// A picture that is a file already.
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
         Self {
             name: name.to_owned(),
@@ -226,14 +241,15 @@ impl PictureLayer {
 
     /// A picture whose colours mark pixels of another layer, and what each of them marks.
     pub fn map(name: &str, image: &RgbImage, marks: &[(Rgb<u8>, &'static str)]) -> Self {
-        let named = |(Rgb([r, g, b]), what): &(Rgb<u8>, &'static str)| {
-            (format!("#{r:02x}{g:02x}{b:02x}"), *what)
-        };
-        let legend = marks.iter().map(named).collect();
+        let mut legend = Vec::new();
+        for (Rgb([r, g, b]), what) in marks {
+            legend.push((format!("#{r:02x}{g:02x}{b:02x}"), *what));
+        }
         Self { is_map: true, legend, ..Self::new(name, image) }
     }
 }
 
+/// Bytes as an address that contains them.
 fn data_address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }
@@ -267,6 +283,7 @@ pub fn page(report: &Report) -> String {
     let mut room =
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
+    // The head and the tables are always there; what comes after them may take the bytes that are left.
     let head = head(report);
     // A page begins with one picture or one table; all other rows are folded.
     let is_folded = report.pictured.is_some();
@@ -276,6 +293,7 @@ pub fn page(report: &Report) -> String {
         has_rows |= !one.rows.is_empty();
     }
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
+    // Takes a part of the page if it fits, and otherwise keeps its name for a note.
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
             room -= text.len() + 1;
@@ -285,33 +303,47 @@ pub fn page(report: &Report) -> String {
             None
         }
     };
+    // Comparing texts may take long, so each of them and all together have a time limit.
     let last = Instant::now() + limits::ALL_DIFFS_TIME;
-    let diff = |diff: &TextDiff| {
-        kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
-    };
-    let diffs: String = report.diffs.iter().filter_map(diff).collect();
-    let figures = report.figures.iter().filter_map(|one| {
+    let (mut diffs, mut figures) = (String::new(), String::new());
+    for diff in &report.diffs {
+        let text = text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME));
+        diffs.extend(kept(&diff.name, text));
+    }
+    for one in &report.figures {
         let figure = figure(one);
-        kept(&one.caption, if is_folded { folded(&one.caption, &figure) } else { figure })
-    });
-    let figures: String = figures.collect();
-    let cases = report.cases.iter().filter_map(|case| kept(&case.name, json(case)));
-    let cases = cases.collect::<Vec<_>>().join(",");
-    let frames = report.frames.iter().filter_map(|view| kept(&view.name, json(view)));
-    let frames = frames.collect::<Vec<_>>().join(",");
+        let figure = if is_folded { folded(&one.caption, &figure) } else { figure };
+        figures.extend(kept(&one.caption, figure));
+    }
+    let (mut cases, mut frames) = (Vec::new(), Vec::new());
+    for case in &report.cases {
+        cases.extend(kept(&case.name, json(case)));
+    }
+    for view in &report.frames {
+        frames.extend(kept(&view.name, json(view)));
+    }
+    let (cases, frames) = (cases.join(","), frames.join(","));
     let docs = json(&report.docs);
     let playground = report.has_playground;
+    // What the script reads: the viewer shows cases and pictures.
     let data = format!(
         "{{\"docs\":{docs},\"playground\":{playground},\"cases\":[{cases}],\"frames\":[{frames}]}}"
     );
+    // How to repeat it stands last, with everything that did not fit.
     let run = command(&report.command) + &notes(&report.notes, &left_out);
     let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
+    // Links at the top, to the sections that are not empty.
     let has_cases = !cases.is_empty() || !frames.is_empty();
-    let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
-    let first = has_cases.then(|| ("cases".to_owned(), cases_title));
-    let others = titles.map(|title| (title.to_ascii_lowercase(), title));
-    let links: Vec<_> = first.into_iter().chain(others).collect();
+    let mut links = Vec::new();
+    if has_cases {
+        links.push(("cases".to_owned(), cases_title));
+    }
+    for (title, inside) in &sections {
+        if !inside.is_empty() {
+            links.push((title.to_ascii_lowercase(), *title));
+        }
+    }
     let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&title(report)),
@@ -336,11 +368,13 @@ fn title(report: &Report) -> String {
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.
 fn fill(part: impl Fn(&str) -> String) -> String {
     let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((&TEMPLATE, ""));
-    let pieces = pieces.split("{{").map(|piece| {
+    let mut page = first.to_owned();
+    for piece in pieces.split("{{") {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        part(name) + rest
-    });
-    first.to_owned() + &pieces.collect::<String>()
+        page += &part(name);
+        page += rest;
+    }
+    page
 }
 
 /// JSON that cannot end the script element it stands in.
@@ -354,11 +388,15 @@ fn jump(sections: &[(String, &str)]) -> String {
     if sections.len() < 2 {
         return String::new();
     }
-    let links = sections.iter().map(|(id, title)| format!("<a href=\"#{id}\">{title}</a>"));
-    let links = links.collect::<Vec<_>>().join(" ");
+    let mut links = Vec::new();
+    for (id, title) in sections {
+        links.push(format!("<a href=\"#{id}\">{title}</a>"));
+    }
+    let links = links.join(" ");
     format!("<nav class=\"jump\" aria-label=\"on this page\">{links}</nav>\n")
 }
 
+/// A section with its title; nothing where it is empty.
 fn section(title: &str, inside: &str) -> String {
     if inside.is_empty() {
         return String::new();
@@ -369,7 +407,9 @@ fn section(title: &str, inside: &str) -> String {
     )
 }
 
+/// What stands above the cases: the verdict, the answers, and what it is about.
 fn head(report: &Report) -> String {
+    // The verdict comes first, then its picture, then what was judged, then the answers.
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
     if let Some(outcome) = &report.outcome {
         let class = if outcome.good { "good" } else { "bad" };
@@ -389,6 +429,7 @@ fn head(report: &Report) -> String {
     for line in report.about.lines() {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
     }
+    // The answers in words, but for what stands there already.
     let said = report.pictured.as_ref().map_or("", |pictured| &pictured.sentence);
     for Statement { about, sentence, command: more } in &report.answers {
         // What stands above the picture is not said again.
@@ -403,6 +444,7 @@ fn head(report: &Report) -> String {
 /// What an index says of a page stands in its head.
 const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
 
+/// The line of the head by which an index describes the page.
 fn about(report: &Report) -> String {
     let outcome = report.outcome.as_ref();
     let said = outcome.map(|o| format!("{}: {}", o.word, o.first()));
@@ -419,18 +461,19 @@ pub fn is_index(page: &str) -> bool {
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of
 /// what is no page of this program.
 pub fn index(pages: &[(String, String)]) -> String {
-    let row = |(name, text): &(String, String)| {
-        let between = |from: &str, to: &str| {
-            let (_, rest) = text.split_once(from)?;
-            rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
+    let mut rows = String::new();
+    for (name, text) in pages {
+        let said = between(text, ABOUT, "\">");
+        let (Some(said), Some(title)) = (said, between(text, "<title>", "</title>")) else {
+            continue;
         };
-        let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
         let name = escape(name);
-        Some(format!(
-            "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
-        ))
-    };
-    let rows: String = pages.iter().filter_map(row).collect();
+        let _ = writeln!(
+            rows,
+            "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>"
+        );
+    }
+    // The index needs no script and loads nothing.
     let style = &*STYLE;
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -443,6 +486,14 @@ pub fn index(pages: &[(String, String)]) -> String {
     )
 }
 
+/// What stands between two texts, unless it contains an element.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {
+    let (_, rest) = text.split_once(from)?;
+    let (inside, _) = rest.split_once(to)?;
+    (!inside.contains('<')).then_some(inside)
+}
+
+/// A command with a button that copies it; nothing where there is no command.
 fn command(text: &str) -> String {
     if text.is_empty() {
         return String::new();
@@ -453,9 +504,14 @@ fn command(text: &str) -> String {
     )
 }
 
+/// What is said below everything else, and what was left out.
 fn notes(notes: &[String], left_out: &[String]) -> String {
-    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", prose(note))).collect();
+    let mut out = String::new();
+    for note in notes {
+        let _ = writeln!(out, "<p>{}</p>", prose(note));
+    }
     if !left_out.is_empty() {
+        // The page says what it lacks, but no list of hundreds.
         let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
         if left_out.len() > names.len() {
             names.push(format!("and {} more", left_out.len() - names.len()));
@@ -490,6 +546,7 @@ fn with_links(html: &str, docs: &str) -> String {
     out
 }
 
+/// A table with its notes, folded or not.
 fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     let mut out = String::new();
     if !table.rows.is_empty() {
@@ -499,6 +556,7 @@ fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     for note in &table.notes {
         let _ = writeln!(notes, "<p class=\"quiet\">{}</p>", with_links(&prose(note), docs));
     }
+    // Many notes are folded, since they would be longer than the table.
     let is_long = !is_folded && table.notes.len() > MOST_NOTES && !table.rows.is_empty();
     out += &if is_long { folded(&format!("{} notes", table.notes.len()), &notes) } else { notes };
     match is_folded {
@@ -509,6 +567,7 @@ fn table(table: &Table, is_folded: bool, docs: &str) -> String {
     }
 }
 
+/// The rows of a table; where there are many, some are hidden until the reader opens them.
 fn rows(table: &Table, is_folded: bool) -> String {
     // A table without a caption belongs to the one above it, and has the name of its rows.
     let name = match (&*table.caption, table.columns.first()) {
@@ -521,6 +580,7 @@ fn rows(table: &Table, is_folded: bool) -> String {
         escape(name)
     );
     for column in &table.columns {
+        // A head says what it counts, in a few words more when it is pointed at.
         let class = if column.is_number { " class=\"number\"" } else { "" };
         let about = match column.about.as_str() {
             "" => String::new(),
@@ -529,8 +589,10 @@ fn rows(table: &Table, is_folded: bool) -> String {
         let _ = write!(out, "<th scope=\"col\"{class}{about}>{}</th>", escape(&column.label));
     }
     out.push_str("</tr></thead>\n<tbody>\n");
+    // Sums first; where the table becomes too long, the last rows are left out.
     let mut left_out = table.rows.len();
     let most_wrong = table.rows.iter().map(|row| row.wrong).max().unwrap_or(0);
+    // The sum of all rows stands above them, where it is seen first.
     let others = table.rows.iter().filter(|row| row.mark != Mark::Sum);
     for row in table.rows.iter().filter(|row| row.mark == Mark::Sum).chain(others) {
         if out.len() > MOST_TABLE_BYTES {
@@ -543,9 +605,11 @@ fn rows(table: &Table, is_folded: bool) -> String {
             Mark::Sum => " class=\"sum\"",
         };
         let _ = write!(out, "<tr{class}>");
+        // A last cell without a column of its own takes the rest of the row.
         let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
             let text = if column.is_number { prose(cell) } else { escape(cell) };
+            // A cell that takes the rest of the row is text, whatever its column is.
             let number = match column.is_number {
                 _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
                 true => " class=\"number\"".to_owned(),
@@ -585,9 +649,11 @@ fn rows(table: &Table, is_folded: bool) -> String {
     out
 }
 
+/// A plot with its caption, in the version for the width of the page.
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
     let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
+    // The page chooses by its width.
     let others = figure
         .others
         .iter()
@@ -610,8 +676,10 @@ fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
         escape(&diff.about),
         command(&diff.command)
     );
+    // The search for the fewest changes stops at the deadline.
     let lines = Lines::configure().deadline(deadline).diff_lines(old, &diff.new);
     if Instant::now() > deadline {
+        // Without the changes, at least how long the texts are.
         let [before, after] = [old, &diff.new].map(|text| text.lines().count());
         let _ = writeln!(
             out,

@@ -11,6 +11,7 @@ use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
 pub fn text(data: &Value) -> String {
+    /// The longest file that is read back.
     const MOST_READ_BYTES: usize = 1 << 16;
     let line = data.to_string();
     if line.len() > MOST_READ_BYTES { line + "\n" } else { pretty(data) }
@@ -27,6 +28,7 @@ pub fn pretty(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
+/// A value as JSON; nothing that is written here can fail.
 pub fn value(of: &impl Serialize) -> Value {
     // Numbers and strings only: this cannot fail.
     serde_json::to_value(of).unwrap_or_default()
@@ -63,6 +65,7 @@ pub fn judgement(
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Value {
+    // Lists are made first, since the macro takes values.
     let d = &verdict.more.declared;
     let failures = verdict.failures.iter().map(|f| {
         json!({
@@ -72,6 +75,7 @@ pub fn judgement(
         })
     });
     let incidents = verdict.more.found.incidents.iter().map(|i| {
+        // What happened before the families cannot be repeated by one of them.
         let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
             "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
@@ -79,10 +83,12 @@ pub fn judgement(
         })
     });
     let left_out = verdict.more.left_out;
+    // What else was counted than pixels.
     let counts = verdict.counts().into_iter().map(|count| {
         let Score { wrong, pixels, .. } = count.score;
         json!({ "what": count.what.name(), "wrong": wrong, "of": pixels })
     });
+    // Names of members are part of the format, and stay.
     let mut all = json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,

@@ -1,5 +1,7 @@
 //! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
+use std::fmt::Display;
+
 use super::html::{Chapter, Excerpt, Outcome, Report, Statement};
 use super::json;
 use super::table::{Row, Table};
@@ -23,7 +25,9 @@ use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::judge::ascii;
 use rasterproof_verify::partition::{self, Polygon};
 
+/// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
+/// Times that one kind of misbehaviour is shown.
 const MOST_INCIDENTS: usize = 2;
 
 /// The verdict as a terminal shows it: the answer, what each program says of itself, the smallest failing cases, why it is wrong, a row for each
@@ -36,6 +40,7 @@ pub fn report(
 ) -> Report {
     let (d, agrees) = (&verdict.more.declared, verdict.agrees());
     let names = names(verdict);
+    // Who judged, and what each program says of itself.
     let mut about = vec![by(verdict.options.seed)];
     if let (Some([first, second]), Some(other)) = (&names, &verdict.more.against) {
         about.extend([speaks(first, d), speaks(second, other)]);
@@ -43,13 +48,18 @@ pub fn report(
     } else {
         about.push(speaks(&d.name, d));
     }
-    about.extend(verdict.more.reach.map(|reach| {
+    if let Some(reach) = verdict.more.reach {
         let most = thousands(reach.unsigned_abs().into());
-        format!("it walks along its lines, so lines of at most {most} steps are asked for")
-    }));
+        about.push(format!(
+            "it walks along its lines, so lines of at most {most} steps are asked for"
+        ));
+    }
+    // What is left out, why it is wrong, and what follows from that, in the order in which it is read.
+    let mut first_screen: Vec<Table> = Vec::new();
     let left_out = verdict.more.left_out.to_string();
-    let mut first_screen: Vec<Table> =
-        Vec::from_iter((!left_out.is_empty()).then(|| Table::of_notes("", vec![left_out])));
+    if !left_out.is_empty() {
+        first_screen.push(Table::of_notes("", vec![left_out]));
+    }
     first_screen.extend(verdict.cause.iter().map(cause));
     match &names {
         Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),
@@ -63,11 +73,13 @@ pub fn report(
         }
     }
     first_screen.extend(summary::asked(&verdict.more.asked));
+    // What a baseline knows is counted, and not shown.
     if verdict.more.known > 0 {
         let known = thousands(verdict.more.known);
         let note = format!("not shown: {known} failing cases that the baseline knows");
         first_screen.push(Table::of_notes("", vec![note]));
     }
+    // The report is put together from what was made above.
     let title = match &names {
         Some([first, second]) => format!("{first} against {second}"),
         None => format!("Verdict on {}", d.name),
@@ -125,12 +137,16 @@ pub fn watched(
                 (still_wrong, "still fail"),
                 (wrong_now, "that were right fail"),
             ];
-            let counts = counts.into_iter().filter(|(count, _)| **count > 0);
-            let counts: Vec<String> =
-                counts.map(|(count, what)| format!("{} {what}", thousands(*count))).collect();
-            say("cases:", &counts);
+            let mut said = Vec::new();
+            for (count, what) in counts {
+                if *count > 0 {
+                    said.push(format!("{} {what}", thousands(*count)));
+                }
+            }
+            say("cases:", &said);
         }
     }
+    // One case is enough to go on with.
     let mut excerpts = excerpts(verdict, repeat, None);
     let more = excerpts.len().saturating_sub(1);
     excerpts.truncate(1);
@@ -158,6 +174,7 @@ fn by(seed: u64) -> String {
     format!("rasterproof {}, seed {seed}", env!("CARGO_PKG_VERSION"))
 }
 
+/// The verdict in a word and in a sentence, of one program or of two that are compared.
 fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
     let (good, name) = (verdict.agrees(), &verdict.more.declared.name);
     if let Some(names) = names {
@@ -187,6 +204,7 @@ fn why_in_short(verdict: &Verdict) -> String {
         (Some(found), _) => format!(". {}", found.sentences.join(" ")),
         (None, Some(does)) => format!(": mostly, it {does}"),
         (None, None) => {
+            // Not wrong pixels but broken rules of the protocol are what is left.
             let incidents = verdict.more.found.incidents.iter().map(|incident| &incident.what);
             let first = incidents.chain(&verdict.more.found.strays).next();
             first.map(|what| format!(": it {}", what.breach.name())).unwrap_or_default()
@@ -199,12 +217,14 @@ pub(super) fn why(verdict: &Verdict, property: &str) -> Option<String> {
     if verdict.failures.iter().any(|f| f.evidence.changes && f.evidence.shows(property)) {
         return Some("its answers change from one time to the next".to_owned());
     }
+    // Else the cause of the check that the property belongs to.
     let row = verdict.families.iter().find(|row| row.name == property)?;
     let check = row.check?.of_its_cause();
-    let of_it = verdict.cause.iter().filter(|why| why.check == check);
-    if let Some((of, does)) = of_it.filter_map(|of| Some((of, of.why.does()?))).next() {
-        let who = if of.by.is_empty() { "it" } else { &of.by };
-        return Some(format!("{who} {does}"));
+    for of in &verdict.cause {
+        if let (true, Some(does)) = (of.check == check, of.why.does()) {
+            let who = if of.by.is_empty() { "it" } else { &of.by };
+            return Some(format!("{who} {does}"));
+        }
     }
     let is_explained = row.recognised_pixels > 0 && row.recognised.total() == 0;
     let convention = verdict.more.recognised.as_ref().filter(|_| is_explained);
@@ -222,12 +242,14 @@ pub fn of_polygons(
     let agrees = sum.wrong == 0;
     let answer = format!("{name} is {}", if agrees { "right" } else { "not right" });
     let about = [by(report.options.seed), speaks(name, declared)].join("\n");
+    // The smallest polygons that are wrong, in a terminal's words.
     let mut grid = String::new();
     if !agrees {
         // As most languages write lists.
         let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
         let _ = report.write(&mut grid, &show, repeat);
     }
+    // How far it came, and what was found.
     let until = match polygons::is_out_of_time(report) {
         true => format!(", of {} when the time was up", thousands(polygons::of_polygons(report))),
         false => String::new(),
@@ -237,9 +259,10 @@ pub fn of_polygons(
         false => sum.describe(""),
     };
     // What was asked is said where all of it was.
+    // How many polygons there were, and how many of them the tessellator took.
     let is_whole = !polygons::is_out_of_time(report) && report.options.only.is_none();
     let has_design = report.families.iter().any(|of| of.family == partition::Family::Design);
-    let asked = Vec::from_iter((is_whole && has_design).then(|| polygons::asked(report)));
+    let asked = if is_whole && has_design { vec![polygons::asked(report)] } else { Vec::new() };
     let [polygons, triangles, left_out] =
         [sum.polygons, sum.triangles, sum.left_out].map(thousands);
     let sentence = format!(
@@ -274,6 +297,7 @@ fn complaints(verdict: &Verdict) -> Option<Excerpt> {
     };
     let mut grid = String::new();
     for line in shown {
+        // A long line is broken, and goes on below itself.
         let parts = match ascii::columns(line) <= SCREEN - 4 {
             true => vec![line.clone()],
             false => ascii::lines(line, SCREEN - 6, ascii::columns),
@@ -289,13 +313,16 @@ fn dangers(verdict: &Verdict) -> Table {
         |name: &str| verdict.more.properties.iter().all(|p| p.name != name || p.outcome.is_good());
     let mut out = Vec::new();
     let winding = verdict.more.declared.convention.winding.word();
-    for p in verdict.more.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
+    // These two are of all answers, and of no family.
+    for p in &verdict.more.properties {
         let what = match (p.name, p.outcome.is_good()) {
             ("winding", true) => &format!("{winding}, as it declares"),
-            _ => &p.detail,
+            ("winding" | "protocol", _) => &p.detail,
+            _ => continue,
         };
         out.push(summary::row(p.outcome.is_good(), p.name, what));
     }
+    // Families that threaten the same thing are one row.
     let rows = &verdict.families;
     for danger in summary::DANGERS {
         let (mut sum, mut is_right, mut is_judged) = (summary::Sum::default(), true, false);
@@ -309,8 +336,11 @@ fn dangers(verdict: &Verdict) -> Table {
             out.push(summary::row(is_right, danger.name, &sum.describe()));
         }
     }
-    let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
-    for row in rows.iter().filter(|row| !in_a_danger(row.name)) {
+    for row in rows {
+        if summary::DANGERS.iter().any(|danger| danger.families.contains(&row.name)) {
+            continue;
+        }
+        // What is right needs no details.
         let what = match row.wrong_cases {
             0 => format!("{} cases, all right", thousands(row.cases)),
             _ => verdict::sentence(row),
@@ -328,6 +358,7 @@ fn score(what: Counted, of: Score) -> String {
 
 /// The score by a convention, with the wrong pixels of the shapes that it leaves out.
 fn score_by_convention(of: Score, left_out_wrong: u64) -> String {
+    // What a convention leaves open cannot be wrong by it.
     let unscored = match of.unscored {
         0 => String::new(),
         n => format!(
@@ -345,6 +376,7 @@ fn as_declared(verdict: &Verdict) -> Vec<Count> {
     counts.into_iter().filter(|count| is_shown(count, draws)).collect()
 }
 
+/// Whether a count is one of those that are wrong as declared.
 fn is_shown(count: &Count, draws: bool) -> bool {
     match count.what {
         Counted::Pixels => true,
@@ -353,6 +385,7 @@ fn is_shown(count: &Count, draws: bool) -> bool {
     }
 }
 
+/// The score as declared and that by the convention that was recognised, with what that convention is.
 fn scores(verdict: &Verdict) -> Table {
     let found = match (&verdict.more.recognised, verdict.by_convention()) {
         (None, _) => "the same: no other one was recognised".to_owned(),
@@ -360,9 +393,11 @@ fn scores(verdict: &Verdict) -> Table {
         (Some(_), None) => "unexplained, so there is no score".to_owned(),
     };
     let mut notes = Vec::new();
+    // The convention in sentences, and the option by which the program would be judged by it.
     if let Some(recognised) = &verdict.more.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
+            // A convention is named in the directions of the program, which may have y up.
             let turned =
                 if verdict.more.declared.convention.y_up { " (in its words, y up)" } else { "" };
             let declare = &recognised.declare;
@@ -371,11 +406,11 @@ fn scores(verdict: &Verdict) -> Table {
     }
     let counts = as_declared(verdict);
     let draws = counts.iter().any(|count| count.what == Counted::Pixels);
-    let titles = ["as declared:"].into_iter().chain(std::iter::repeat(""));
-    let mut rows: Vec<Row> = titles
-        .zip(counts)
-        .map(|(title, Count { what, score: of })| Row::of(&[&title, &score(what, of)]))
-        .collect();
+    let mut rows: Vec<Row> = Vec::new();
+    for Count { what, score: of } in counts {
+        let title = if rows.is_empty() { "as declared:" } else { "" };
+        rows.push(Row::of(&[&title, &score(what, of)]));
+    }
     // A convention is one of pixels.
     if draws || verdict.more.recognised.is_some() {
         rows.push(Row::of(&[&"by its convention:", &found]));
@@ -393,27 +428,35 @@ fn cause(why: &Why) -> Table {
 fn families(verdict: &Verdict) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
-    let row = |row: &FamilyRow| {
+    let mut rows = Vec::new();
+    for row in by_share(verdict) {
         let FamilyRow { name, cases, shapes, pixels, refused, tally, .. } = row;
         let Tally { missing, extra, twice, order, .. } = tally;
         let share = format!("{:.2}%", 100.0 * row.share());
-        Row::of(&[name, cases, shapes, pixels, missing, extra, twice, order, refused, &share])
-    };
+        let cells: [&dyn Display; 10] =
+            [name, cases, shapes, pixels, missing, extra, twice, order, refused, &share];
+        rows.push(Row::of(&cells));
+    }
+    // Below the table, what its columns count where that is not obvious.
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
-    let judged =
-        |what| verdict.families.iter().any(|r| r.check.is_some_and(|c| c.counted() == what));
-    let others = [
+    // What other things than pixels are counted, of the checks that were made.
+    let mut others = Vec::new();
+    for (what, note) in [
         (Counted::Samples, "of four samples, samples are counted"),
         (Counted::Corners, "of the near plane, corners; order are polygons that run the other way"),
         (Counted::Seen, "of depth, order are pixels that show what lies behind"),
-    ];
-    let others: Vec<&str> =
-        others.into_iter().filter_map(|(what, note)| judged(what).then_some(note)).collect();
+    ] {
+        let mut checks = verdict.families.iter().filter_map(|row| row.check);
+        if checks.any(|check| check.counted() == what) {
+            others.push(note);
+        }
+    }
     if !others.is_empty() {
         notes.push(others.join("; "));
     }
+    // How far values were from the exact ones, and who was given up.
     let tolerance = verdict.more.declared.tolerance;
     for FamilyRow { name, values, worst, .. } in verdict.families.iter().filter(|r| r.values > 0) {
         let worst = of_bound(*worst).replace("bound", "tolerance");
@@ -422,13 +465,14 @@ fn families(verdict: &Verdict) -> Table {
     for FamilyRow { name, .. } in verdict.families.iter().filter(|row| row.stopped) {
         notes.push(format!("{name}: given up after {MOST_DEATHS} times without an answer"));
     }
+    // Why the rest was not asked.
     if verdict.more.found.gave_up {
         notes.push(format!(
             "given up for good: {MOST_DEATHS_IN_ALL} times without an answer, {MOST_HANGS_IN_ALL} answers that were \
              waited for, or no answer at all"
         ));
     }
-    Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
+    Table::new("", columns, rows).noted(notes)
 }
 
 /// What broke the protocol and the cases that fail: of one property, or of all.
@@ -437,17 +481,22 @@ pub(super) fn excerpts(
     repeat: &dyn Fn(&str, u64) -> String,
     property: Option<&str>,
 ) -> Vec<Excerpt> {
-    let is_asked = |name: &str| property.is_none_or(|one| one == name);
     let names = names(verdict);
-    let drawn_by =
-        names.as_ref().map_or(vec!["judged"], |names| names.each_ref().map(|name| &**name).into());
-    let broken = if is_asked("protocol") { incidents(verdict, repeat) } else { Vec::new() };
-    let failures = verdict
-        .failures
-        .iter()
-        .filter(|f| property.is_none_or(|property| f.evidence.shows(property)));
-    let failures = failures.map(|f| excerpt(f, &drawn_by, repeat(f.family, f.index)));
-    broken.into_iter().chain(failures).collect()
+    // The grids of a case are named after whoever drew them.
+    let drawn_by = match &names {
+        Some([first, second]) => vec![first.as_str(), second],
+        None => vec!["judged"],
+    };
+    let mut excerpts = match property {
+        None | Some("protocol") => incidents(verdict, repeat),
+        Some(_) => Vec::new(),
+    };
+    for f in &verdict.failures {
+        if property.is_none_or(|property| f.evidence.shows(property)) {
+            excerpts.push(excerpt(f, &drawn_by, repeat(f.family, f.index)));
+        }
+    }
+    excerpts
 }
 
 /// What broke the protocol: the first of each kind.
@@ -455,6 +504,7 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     for incident in &verdict.more.found.incidents {
+        // The same misbehaviour again and again would hide the others.
         let word = incident.what.breach.name();
         if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
             continue;
@@ -472,6 +522,7 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
             ..Excerpt::default()
         });
     }
+    // Ends of the program that no single request caused.
     for stray in &verdict.more.found.strays {
         let title = match stray.breach {
             Breach::FailsAtEnd => format!("it {stray}"),
@@ -489,6 +540,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let (property, what) = (failure.evidence.property, &failure.what);
     let changes = failure.evidence.changes;
     let drawn_by = if changes { &["first", "again"] } else { drawn_by };
+    // Answers that change are shown twice, in the place of a second program's.
     let second = if changes { "again" } else { "other" };
     let mut exchanges = Vec::new();
     for exchange in failure.evidence.exchanges.iter().take(MOST_EXCHANGES) {
@@ -501,6 +553,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
             }
         }
     }
+    // What stands below the case: how much is not shown, and where else it shows.
     let more = failure.evidence.exchanges.len().saturating_sub(MOST_EXCHANGES);
     let mut notes = Vec::new();
     if more > 0 {
@@ -542,11 +595,14 @@ pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
 
 /// Whether both of two compared programs answer the same.
 fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
-    let rows = &verdict.families;
-    let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
-    let cases = thousands(sum(|row| row.cases));
+    let (mut cases, mut wrong_cases) = (0, 0);
+    for row in &verdict.families {
+        cases += row.cases;
+        wrong_cases += row.wrong_cases;
+    }
+    let cases = thousands(cases);
     let until = if verdict.more.found.out_of_time { " until the time was up" } else { "" };
-    match sum(|row| row.wrong_cases) {
+    match wrong_cases {
         0 => format!("{first} and {second} answer the same in {cases} cases{until}"),
         n => format!("{first} and {second} differ in {} of {cases} cases{until}", thousands(n)),
     }
@@ -554,15 +610,18 @@ fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
 
 /// Which of two programs is right where they differ.
 fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
-    let lines = [
+    let mut rows = Vec::new();
+    for (cases, what) in [
         (sides.first, format!("cases: {first} is right and {second} is not")),
         (sides.second, format!("cases: {second} is right and {first} is not")),
         (sides.neither, "cases: neither is right".to_owned()),
         (sides.both, "cases: both are right as they declare".to_owned()),
         (sides.same_but_wrong, "cases: they answer the same, and it is wrong".to_owned()),
-    ];
-    let row = |(n, what)| Row::of(&[&thousands(n), &what]);
-    let rows = lines.into_iter().filter(|(n, _)| *n > 0).map(row).collect();
+    ] {
+        if cases > 0 {
+            rows.push(Row::of(&[&thousands(cases), &what]));
+        }
+    }
     Table::new("", ">~cases 9 | ~who is right 1", rows)
 }
 
@@ -570,11 +629,14 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
 fn sides(verdict: &Verdict) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
-    let row = |row: &FamilyRow| {
+    let mut rows = Vec::new();
+    for row in by_share(verdict) {
         let Sides { first, second, neither, both, .. } = row.sides.unwrap_or_default();
-        Row::of(&[&row.name, &row.cases, &row.wrong_cases, &first, &second, &neither, &both])
-    };
-    Table::new("", columns, by_share(verdict).into_iter().map(row).collect())
+        let cells: [&dyn Display; 7] =
+            [&row.name, &row.cases, &row.wrong_cases, &first, &second, &neither, &both];
+        rows.push(Row::of(&cells));
+    }
+    Table::new("", columns, rows)
 }
 
 /// The families, those with the largest share of wrong cases first.
@@ -587,38 +649,53 @@ fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
 /// What is wrong, in counts, behind a comma; that nothing is, is said where all properties hold.
 fn wrong(verdict: &Verdict) -> String {
     let counts = verdict.counts();
+    // Of a clean picture that is not right, the other counts say why.
     let of_pictures = as_declared(verdict);
     let (is_right, is_clean) =
         (verdict.agrees(), of_pictures.iter().all(|count| count.score.wrong == 0));
     let counts = if is_clean && !is_right { counts } else { of_pictures };
-    let mut said: Vec<String> = counts
-        .iter()
-        .filter(|count| count.score.wrong > 0 || is_right && is_clean)
-        .map(|count| format!(", {} {}", count.score.wrong, count.what.name()))
-        .collect();
-    let sum = |of: fn(&FamilyRow) -> u64| verdict.families.iter().map(of).sum::<u64>();
-    let unanswered = [(sum(|r| r.refused), "refused"), (sum(|r| r.deaths), "without an answer")];
-    let unanswered = unanswered.iter().filter(|(n, _)| *n > 0);
-    said.extend(unanswered.map(|(n, what)| format!(", {n} requests {what}")));
-    said.concat()
+    let mut said = String::new();
+    for count in &counts {
+        if count.score.wrong > 0 || is_right && is_clean {
+            said += &format!(", {} {}", count.score.wrong, count.what.name());
+        }
+    }
+    // Requests that came to no answer are none of these counts.
+    let (mut refused, mut deaths) = (0, 0);
+    for row in &verdict.families {
+        refused += row.refused;
+        deaths += row.deaths;
+    }
+    for (requests, what) in [(refused, "refused"), (deaths, "without an answer")] {
+        if requests > 0 {
+            said += &format!(", {requests} requests {what}");
+        }
+    }
+    said
 }
 
+/// The verdict in a sentence: what was judged, what is wrong in it, and which properties fail.
 fn closing(verdict: &Verdict) -> String {
-    let failing: Vec<_> =
-        verdict.more.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+    let (mut failing, mut expected) = (Vec::new(), 0);
+    for p in &verdict.more.properties {
+        if !p.outcome.is_good() {
+            failing.push(p.name);
+        }
+        expected += u64::from(p.outcome == verdict::Outcome::ExpectedFailure);
+    }
     let RunFindings { cases, of_cases, out_of_time, .. } = verdict.more.found;
+    // A run that ended early says how far it came.
     let until = match out_of_time {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),
     };
     let wrong = wrong(verdict);
     let what = format!("{}{wrong}{until}", verdict.judged_shapes());
-    let known =
-        verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
-    let known = match known.count() {
+    let known = match expected {
         0 => String::new(),
         n => format!(", {n} properties fail as the baseline says"),
     };
+    // The properties that fail, by name.
     let (count, all) = (failing.len(), verdict.more.properties.len());
     match count {
         0 => format!("{what}{known}"),
@@ -633,10 +710,14 @@ fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_ca
         Some([first, second]) => vec![first.as_str(), second],
         None => vec![verdict.more.declared.name.as_str()],
     };
-    let view = |failure: &Failure| view(failure, &programs, repeat(failure.family, failure.index));
-    verdict.failures.iter().map(view).collect()
+    let mut views = Vec::new();
+    for failure in &verdict.failures {
+        views.push(view(failure, &programs, repeat(failure.family, failure.index)));
+    }
+    views
 }
 
+/// A failing case as the page shows it, with the page of the docs that explains its check.
 fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::CaseView {
     let Failure { family, index, evidence, .. } = failure;
     let Exchanged { property, shrunk, picture, check, .. } = evidence;
@@ -646,6 +727,7 @@ fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::Ca
     let mut view = page_cases::of_program(name, about, &failure.case, programs, picture.as_ref());
     view.found.clone_from(&failure.what);
     view.command = command;
+    // The chapters of edges and of lines are named by what the case draws.
     let chapter = match check {
         Check::Depth => Some(("chapter 6, depth", "ch06.md")),
         Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
@@ -658,17 +740,18 @@ fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::Ca
     view
 }
 
+/// Every property with what was found, those that fail first and with a link to their cases.
 fn properties(verdict: &Verdict) -> Table {
-    let row = |p: &verdict::Property| {
+    let (mut rows, mut good) = (Vec::new(), Vec::new());
+    for p in &verdict.more.properties {
         let is_good = p.outcome.is_good();
         let word = if is_good { "holds" } else { "fails" };
         let has_case = verdict.failures.iter().any(|f| f.evidence.shows(p.name));
-        let row = Row::of(&[&p.name, &word, &p.about, &p.detail]).marked(is_good);
-        Row { search: has_case.then(|| p.name.to_owned()), ..row }
-    };
-    let (bad, good): (Vec<_>, Vec<_>) =
-        verdict.more.properties.iter().partition(|p| !p.outcome.is_good());
+        let mut row = Row::of(&[&p.name, &word, &p.about, &p.detail]).marked(is_good);
+        row.search = has_case.then(|| p.name.to_owned());
+        if is_good { good.push(row) } else { rows.push(row) }
+    }
+    rows.extend(good);
     let columns = "property 18 | holds 6 | what it says | found";
-    let rows = bad.into_iter().chain(good).map(row).collect();
     Table::new("Properties, those that fail first", columns, rows)
 }

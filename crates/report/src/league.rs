@@ -10,6 +10,7 @@ use rasterproof_judge::verdict::{Score, per_million};
 /// What stands around the numbers.
 struct Words {
     header: &'static str,
+    /// What stands for the score of a convention that is the declared one.
     as_declared: &'static str,
     unexplained: &'static str,
     /// No convention explains it, and a mistake does.
@@ -22,9 +23,11 @@ struct Words {
     marks: [&'static str; 2],
     /// A sentence, or how a call is made, which are English in the data.
     say: fn(&str) -> String,
+    /// The line above the table: by which version, with how many cases, and when.
     made: fn(&League) -> String,
 }
 
+/// The words of both languages, in the same order.
 const ENGLISH: Words = Words {
     header: "| library | as is | by its convention | holes | doubles | order | lines as is | lines by theirs | from either \
              end |",
@@ -70,29 +73,36 @@ const CHINESE: Words = Words {
     },
 };
 
+/// The league: a table of numbers, then what each library does.
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
     let mut out = format!("{}\n\n{}\n|---|", (words.made)(league), words.header);
     out += &"---:|".repeat(8);
     out.push('\n');
     for row in &league.rows {
+        // Triangles, then lines: as declared, and by the convention that explains them.
         let [as_is, found] = scores(row.triangles.as_ref(), words);
         let [lines, lines_found] = scores(row.lines.as_ref(), words);
         let [meshes, holes, doubles] = row.meshes;
-        let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
+        // Without meshes there is nothing that could have a hole.
+        let [holes, doubles] = [holes, doubles].map(|pixels| match meshes {
+            0 => "-".to_owned(),
+            _ => pixels.to_string(),
+        });
         let _ = writeln!(
             out,
-            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
+            "| {} | {as_is} | {found} | {holes} | {doubles} | {} | {lines} | {lines_found} | {} |",
             row.name,
-            of(holes, meshes),
-            of(doubles, meshes),
             percent(row.orders),
             percent(row.directions)
         );
     }
     out.push('\n');
+    // What each library does, below the table; the same sentence is said once.
     let mut said = BTreeMap::new();
-    league.rows.iter().for_each(|row| one(&mut out, row, words, &mut said));
+    for row in &league.rows {
+        one(&mut out, row, words, &mut said);
+    }
     out
 }
 
@@ -100,10 +110,12 @@ pub fn tables(league: &League, chinese: bool) -> String {
 fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let [colon, stop] = words.marks;
     let call = (words.say)(&row.call);
+    // The name is said before it.
     let version = row.version.strip_prefix(&format!("{}-", row.name)).unwrap_or(&row.version);
     let _ = writeln!(out, "- **{}**, {version}{colon}{call}{stop}", row.name);
-    let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
-    for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+    for (about, kind) in words.kinds.iter().zip([&row.triangles, &row.lines]) {
+        let Some(kind) = kind else { continue };
+        // What is left of the convention once the table has said its part.
         let does = match &kind.mistake {
             // A mistake that is known explains more than a convention beside it.
             Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
@@ -112,6 +124,7 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
         if does.is_empty() {
             continue;
         }
+        // Libraries often do the same, and then the name of the first one is shorter.
         let line = format!("{about}{colon}{does}");
         let _ = match said.get(&line) {
             Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
@@ -135,27 +148,32 @@ const IN_THE_DATA: [&str; 8] = [
 
 /// A convention without what the table or the data says better.
 fn beyond_the_table(sentence: &str) -> String {
-    let is_kept = |one: &&str| {
-        !one.contains("of its lines are the same from either end.")
+    let mut kept = String::new();
+    for one in sentence.split_inclusive(". ") {
+        if !one.contains("of its lines are the same from either end.")
             && !IN_THE_DATA.iter().any(|begin| one.starts_with(begin))
-    };
-    let kept: String = sentence.split_inclusive(". ").filter(is_kept).collect();
+        {
+            kept += one;
+        }
+    }
     kept.trim_end().to_owned()
 }
 
 /// A sentence without the shares of each direction of an edge, from north on, which the data has.
 fn without_shares(sentence: &str) -> String {
-    let shares = sentence.split_once(" (N ").and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(')')?;
-        Some(format!("{before}{after}"))
-    });
-    shares.unwrap_or_else(|| sentence.to_owned())
+    if let Some((before, rest)) = sentence.split_once(" (N ")
+        && let Some((_, after)) = rest.split_once(')')
+    {
+        return format!("{before}{after}");
+    }
+    sentence.to_owned()
 }
 
 /// Wrong pixels in a million, as declared and by the convention.
 fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     let Some(kind) = kind else { return ["-".to_owned(), "-".to_owned()] };
     let share = |s: Score| format!("{:.0}", per_million(s.wrong, s.pixels));
+    // A score needs a convention that explains what was drawn.
     let found = match kind.by_convention {
         Some(score) => share(score),
         None if kind.sentence.is_empty() => words.as_declared.to_owned(),

@@ -24,6 +24,7 @@ impl Size {
         }
     }
 
+    /// The bitmap of a character, or that of a question mark.
     fn glyph(self, character: char) -> Option<RasterizedChar> {
         let raster = |drawn| match self {
             Self::Small => get_raster(drawn, FontWeight::Regular, RasterHeight::Size16),
@@ -48,14 +49,17 @@ pub fn write(image: &mut RgbImage, left_top: (i64, i64), text: &str, size: Size,
         if left >= i64::from(image.width()) {
             break;
         }
+        // How dark each pixel of the letter is, in few shades.
         let glyph = size.glyph(character);
         let share = |x: u32, y: u32| {
             let ink = glyph.as_ref().and_then(|glyph| glyph.pixel(x as usize, y as usize));
             (u32::from(ink.unwrap_or(0)) * SHADES + 127) / 255
         };
-        for (y, x) in (0..cell_height).flat_map(|y| (0..cell_width).map(move |x| (y, x))) {
+        for place in 0..cell_width * cell_height {
+            let (x, y) = (place % cell_width, place / cell_width);
             let at = [left.saturating_add(x.into()), top.saturating_add(y.into())];
             let [Ok(at_x), Ok(at_y)] = at.map(u32::try_from) else { continue };
+            // Letters may begin or end outside of the picture.
             let Some(pixel) = image.get_pixel_mut_checked(at_x, at_y) else { continue };
             let share = share(x, y);
             for (held, ink) in pixel.0.iter_mut().zip(ink.0) {

@@ -12,8 +12,8 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted;
+use rasterproof_faults::published::RealVertex;
 use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
-use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_registry::comparison::{EnginesToJudge, Hits};
 use rasterproof_registry::engines::SPECIMENS;
@@ -23,10 +23,12 @@ use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::cases::{self, Case, Family, Shape};
 use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 
+/// A case of the page: positions, and what is drawn there, as the script reads it.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
     pub name: String,
+    /// Where the case is from, in a sentence.
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub about: String,
     pub kind: Kind,
@@ -34,12 +36,15 @@ pub struct CaseView {
     #[serde(serialize_with = "crate::words::serialize_grouped")]
     pub found: String,
     pub command: String,
+    /// The page of the docs that explains what decides it.
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
     pictured: String,
     window: PixelRect,
     shape: ShapeView,
+    /// What each of them draws, the engines first.
     layers: Vec<Layer>,
+    /// The two layers that are compared first.
     start: [usize; 2],
 }
 
@@ -47,11 +52,13 @@ pub struct CaseView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
+    /// It was found to be wrong, and made small.
     Failing,
     /// Its values came closest to a bound.
     Closest,
     /// The first of a family off the lattice.
     OffGrid,
+    /// It has a name in the catalogue of hard cases.
     Named,
     /// It exposes a published fault.
     Specimen,
@@ -63,32 +70,40 @@ pub enum Kind {
 enum ShapeView {
     Triangles(Vec<[[i32; 2]; 3]>),
     Lines(Vec<[[i32; 2]; 2]>),
+    /// In pixels, off the lattice; empty where there is no shape to show.
     Free(Vec<[[f64; 2]; 3]>),
 }
 
+/// What one of them draws, or several of them who draw alike.
 #[derive(Clone, Debug, Serialize)]
 struct Layer {
+    /// Several where specimens draw alike.
     names: Vec<String>,
     role: Role,
     /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
     runs: Vec<u32>,
     covered: u64,
+    /// Pixels that differ from the oracle's, or from what is expected.
     tally: Tally,
     /// Why nothing is drawn, or nothing.
     refused: String,
 }
 
+/// Who draws a layer, by which the page colours its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Role {
     Engine,
+    /// An engine with a planted fault.
     Planted,
     Oracle,
     /// Of a program that declares another convention than this project's.
     Expected,
+    /// A published algorithm with its faults.
     Specimen,
 }
 
+/// Who draws, as what, and what it is.
 type EngineHits = (String, Role, Hits);
 
 /// The failing cases of a run, then for each family the one that came closest to a bound, then
@@ -100,6 +115,7 @@ pub fn of_verdict(
 ) -> Vec<CaseView> {
     let mut views = Vec::new();
     for f in &verdict.failures {
+        // A failing case begins with the two that disagree about it.
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
         let found = format!("{} against {}: {}", f.evidence.pair[0], f.evidence.pair[1], f.what);
@@ -107,6 +123,7 @@ pub fn of_verdict(
         view.start = [view.place(&f.evidence.pair[0], 0), view.place(&f.evidence.pair[1], 1)];
         views.push(CaseView { found, command: repeat(f.family, f.index), ..view });
     }
+    // Right cases follow, for readers who want to see what was judged.
     views.extend(closest(verdict, judged));
     views.extend(unsnapped_samples(verdict, judged));
     views.extend(every_named(judged));
@@ -117,25 +134,28 @@ pub fn of_verdict(
 /// For each family the case whose values came closest to their bound, the closest family first.
 fn closest(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView> {
     let seed = verdict.options.seed;
-    let closest = verdict.families.iter().filter_map(|f| {
+    let mut worst = Vec::new();
+    for f in &verdict.families {
         let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
-        let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
-        (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
-    });
-    let mut worst: Vec<_> = closest.collect();
+        let Some(pair) = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst())) else { continue };
+        if pair.worst() > 0.0 && pair.worst() <= 1.0 {
+            worst.push((f, pair));
+        }
+    }
+    // The closest first, since it is the most interesting.
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
-    let views = worst.into_iter().filter_map(|(report, pair)| {
-        let family = cases::families().find(|f| f.name == report.family)?;
+    let mut views = Vec::new();
+    for (report, pair) in worst {
+        let Some(family) = cases::families().find(|f| f.name == report.family) else { continue };
         let view = of_family(family, seed, pair.worst_case, Kind::Closest, judged);
         // Wrong pixels are the news of such a case, and stand among the failing ones.
         let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
-        if view.layers.iter().any(is_wrong) {
-            return None;
+        if !view.layers.iter().any(is_wrong) {
+            let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
+            views.push(CaseView { found, ..view });
         }
-        let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
-        Some(CaseView { found, ..view })
-    });
-    views.collect()
+    }
+    views
 }
 
 /// The first case of each family that is not snapped: they have no bounds to come close to.
@@ -146,6 +166,7 @@ fn unsnapped_samples(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView
     families.map(|family| of_family(family, seed, 0, Kind::OffGrid, judged)).collect()
 }
 
+/// A case of a family as it is generated, with the command that shows it.
 fn of_family(
     family: &Family,
     seed: u64,
@@ -153,45 +174,53 @@ fn of_family(
     kind: Kind,
     judged: &EnginesToJudge,
 ) -> CaseView {
+    // The same name that the command takes.
     let name = format!("{}#{index}", family.name);
     let command = format!("rasterproof inspect {name} --seed {seed}");
     let view = of_case(name, family.about.to_owned(), kind, &family.case(seed, index), judged);
     CaseView { command, ..view }
 }
 
+/// Every case of the catalogue but those that are refused.
 fn every_named(judged: &EnginesToJudge) -> Vec<CaseView> {
-    let views = named::named().into_iter().filter_map(|named| {
-        let Input::Drawn { case, .. } = named.input else { return None };
+    let mut views = Vec::new();
+    for named in named::named() {
+        let Input::Drawn { case, .. } = named.input else { continue };
         let (name, about) = (named.name.to_owned(), named.about.to_owned());
         let view = of_case(name, about, Kind::Named, &case, judged);
-        Some(CaseView { command: format!("rasterproof inspect {}", named.name), ..view })
-    });
-    views.collect()
+        views.push(CaseView { command: format!("rasterproof inspect {}", named.name), ..view });
+    }
+    views
 }
 
 /// The case that exposes each specimen that draws triangles or lines.
 pub fn of_specimens() -> Vec<CaseView> {
     let judged = EnginesToJudge::all();
-    let views = CARDS.iter().filter_map(|card| {
+    let mut views = Vec::new();
+    for card in CARDS {
         let (case, shown) = match &card.exhibit {
-            Exhibit::Triangles([case, _]) => (snapped(case)?, case.name),
+            Exhibit::Triangles([case, _]) => match snapped(case) {
+                Some(snapped) => (snapped, case.name),
+                None => continue,
+            },
             Exhibit::Lines([case, _]) => (line_case(case), case.name),
-            Exhibit::Scene(..) => return None,
+            Exhibit::Scene(..) => continue,
         };
         let about = format!("{}: {shown}", card.source);
         let mut view = of_case(card.name.to_owned(), about, Kind::Specimen, &case, &judged);
+        // The published code is compared with the oracle.
         let place = view.place(card.name, 0);
         // A fault of the values alone is for the pictures to show.
         if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
-            return None;
+            continue;
         }
         view.start = [place, view.place("oracle", 1)];
         let found = format!("{}; cure: {}", card.fault, card.cure);
         let command = format!("rasterproof specimens --specimen {}", card.name);
         let chapter = chapter_of_source(card.source);
-        Some(CaseView { found, command, chapter, ..view })
-    });
-    views.collect()
+        views.push(CaseView { found, command, chapter, ..view });
+    }
+    views
 }
 
 /// The case on the lattice: the page shows whole subpixels.
@@ -200,10 +229,10 @@ fn snapped(case: &TriangleCase) -> Option<Case> {
         let (x, y) = (v.position_px.x, v.position_px.y);
         ScreenVertex::new(x, y, v.depth, v.w, v.varying).ok()
     };
-    let triangle = |[a, b, c]: &RealTriangle| {
-        Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
-    };
-    let list = real_triangles(case).iter().map(triangle).collect::<Option<Vec<_>>>()?;
+    let mut list = Vec::new();
+    for [a, b, c] in &real_triangles(case) {
+        list.push(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] });
+    }
     let window = PixelRect::window(case.side_px, case.side_px);
     Some(Case { window, shape: Shape::Triangles { list, disjoint: false } })
 }
@@ -219,7 +248,9 @@ pub fn of_program(
     picture: Option<&Pictured>,
 ) -> CaseView {
     let mut view = of_case(name, about, Kind::Failing, case, &EnginesToJudge::default());
+    // The engines and the specimens draw the case; the program's picture comes from the judge.
     let Some(Pictured { drawn, other, expected, of, moved }) = picture else { return view };
+    // Each program with its own picture, compared with what is expected.
     let pictures = programs.iter().zip([drawn].into_iter().chain(other));
     let drawn = pictures
         .map(|(by, drawn)| layer((*by).to_owned(), Role::Engine, Ok(drawn.clone()), expected));
@@ -237,14 +268,17 @@ pub fn of_program(
         }
         return view;
     }
+    // The program comes first, and is compared with the other program or with the oracle.
     view.layers.splice(0..0, drawn);
     view.start = [0, if other.is_some() { 1 } else { view.place("oracle", 1) }];
     view
 }
 
+/// Gives views of one name names that differ.
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();
     for view in views {
+        // The second one of a name gets a 2.
         let times: &mut u32 = seen.entry(view.name.clone()).or_insert(0);
         *times += 1;
         if *times > 1 {
@@ -262,12 +296,15 @@ pub fn of_case(
     judged: &EnginesToJudge,
 ) -> CaseView {
     let truth = oracle_hits(case);
-    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(truth.clone()));
-    let specimens = SPECIMENS.iter().filter_map(|entry| {
-        Some((entry.name.to_owned(), Role::Specimen, drawn::by_specimen(entry, case)?))
-    });
-    let engines = judged.with_others().hits(case).into_iter();
-    let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
+    // Whoever draws the case: the engines, then the oracle, then the specimens.
+    let mut drawn: Vec<EngineHits> =
+        judged.with_others().hits(case).into_iter().map(with_role).collect();
+    drawn.push(("oracle".to_owned(), Role::Oracle, Ok(truth.clone())));
+    for entry in &SPECIMENS {
+        if let Some(hits) = drawn::by_specimen(entry, case) {
+            drawn.push((entry.name.to_owned(), Role::Specimen, hits));
+        }
+    }
     let shape = match &case.shape {
         Shape::Triangles { list, .. } => {
             let corners = list.iter().map(|t| t.corners().map_array(|p| [p.x, p.y]));
@@ -280,6 +317,7 @@ pub fn of_case(
         Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),
         Shape::Numbers { .. } => ShapeView::Free(Vec::new()),
     };
+    // Each of them as a layer, but for specimens that draw what another one draws.
     let mut layers: Vec<Layer> = Vec::new();
     for (name, role, hits) in drawn {
         let layer = layer(name, role, hits, &truth);
@@ -294,13 +332,16 @@ pub fn of_case(
             None => layers.push(layer),
         }
     }
+    // The page begins with two layers that differ, if there are any.
     let (start, window) = (start(&layers), case.window);
     let [found, command, pictured] = [const { String::new() }; 3];
     let chapter = chapter(kind, &shape);
     CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
 }
 
+/// What an engine draws, or a planted fault.
 fn with_role((name, hits): (String, Hits)) -> EngineHits {
+    // Planted faults are engines by their interface.
     let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
     (name, role, hits)
 }
@@ -308,6 +349,7 @@ fn with_role((name, hits): (String, Hits)) -> EngineHits {
 /// Where the docs derive what decides such a case.
 fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     const RULE: &str = "ch02-edge-functions.md#the-derivation-the-top-left-rule";
+    // The nearest page to what is shown.
     let (title, path) = match (kind, shape) {
         (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md"),
         (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
@@ -318,6 +360,7 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
 }
 
 fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
+    // Who panics or refuses draws nothing, and the reason is shown.
     let (runs, covered, tally, refused) = match hits {
         Ok(hits) => (runs(&hits), hits.covered(), Tally::between(&hits, truth), String::new()),
         Err(message) => (Vec::new(), 0, Tally::default(), message),
@@ -327,10 +370,13 @@ fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
 
 fn runs(hits: &Coverage) -> Vec<u32> {
     let mut runs: Vec<u32> = Vec::new();
-    for &hits in hits.rows().flat_map(|(_, row)| row) {
-        match runs.as_mut_slice() {
-            [.., count, last] if *last == u32::from(hits) => *count += 1,
-            _ => runs.extend([1, u32::from(hits)]),
+    // A run may go on in the next row.
+    for (_, row) in hits.rows() {
+        for &hits in row {
+            match runs.as_mut_slice() {
+                [.., count, last] if *last == u32::from(hits) => *count += 1,
+                _ => runs.extend([1, u32::from(hits)]),
+            }
         }
     }
     runs
@@ -340,15 +386,20 @@ fn runs(hits: &Coverage) -> Vec<u32> {
 /// two engines.
 fn start(layers: &[Layer]) -> [usize; 2] {
     let oracle = layers.iter().position(|l| l.role == Role::Oracle).unwrap_or(0);
-    let is_wrong = |l: &&Layer| l.tally.total() > 0;
-    let engines = layers.iter().filter(|l| l.role != Role::Specimen);
-    let specimens = layers.iter().filter(|l| l.role == Role::Specimen);
-    let worst = engines.filter(is_wrong).max_by_key(|l| l.tally.total());
-    let worst = worst.or_else(|| specimens.filter(is_wrong).max_by_key(|l| l.tally.total()));
-    match worst.and_then(|w| layers.iter().position(|l| l.names == w.names)) {
-        Some(at) => [at, oracle],
-        None => [0, 1.min(layers.len().saturating_sub(1))],
+    for of_specimens in [false, true] {
+        let (mut worst, mut most) = (0, 0);
+        for (at, layer) in layers.iter().enumerate() {
+            let wrong = layer.tally.total();
+            // Of layers that are as wrong, the last one.
+            if (layer.role == Role::Specimen) == of_specimens && wrong > 0 && wrong >= most {
+                (worst, most) = (at, wrong);
+            }
+        }
+        if most > 0 {
+            return [worst, oracle];
+        }
     }
+    [0, 1.min(layers.len().saturating_sub(1))]
 }
 
 impl CaseView {

@@ -18,6 +18,7 @@ const MOST_HELD: usize = 120;
 pub fn chinese(text: &str) -> String {
     let mut text = text.to_owned();
     for [english, chinese] in PHRASES.iter() {
+        // A phrase may occur several times; what was translated is not looked at again.
         let mut from = 0;
         while let Some((start, end, held)) = find(&text, from, english) {
             let mut said = chinese.clone();
@@ -39,6 +40,7 @@ fn find(text: &str, from: usize, phrase: &str) -> Option<(usize, usize, Vec<Stri
     let mut parts = phrase.split("{}");
     let first = parts.next()?;
     let parts: Vec<&str> = parts.collect();
+    // Wherever it begins, its other parts have to follow, each not far behind the one before.
     let starts = text[from..].match_indices(first).map(|(at, _)| from + at);
     starts.into_iter().find_map(|start| {
         let mut at = start + first.len();

@@ -14,6 +14,7 @@ use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::cases::{Case, Shape};
 
+/// The colours of pictures of cases; the module says what they mean.
 pub const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
 pub(super) const GRID: Rgb<u8> = Rgb([222, 222, 216]);
 pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
@@ -36,6 +37,7 @@ pub const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// The picture pixels of a segment that lie in a panel.
 pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
+    // Drawn by this project's own line drawer, cut off at the panel.
     let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
@@ -49,17 +51,21 @@ pub fn plain(width: u32, height: u32, colour: Rgb<u8>) -> RgbImage {
 pub fn painted(width: u32, height: u32, colour: impl Fn(u32, u32) -> Rgb<u8>) -> RgbImage {
     let mut bytes = Vec::with_capacity(3 * width as usize * height as usize);
     for y in 0..height {
-        (0..width).for_each(|x| bytes.extend_from_slice(&colour(x, y).0));
+        for x in 0..width {
+            bytes.extend_from_slice(&colour(x, y).0);
+        }
     }
     from_bytes(width, height, bytes)
 }
 
+/// A picture of bytes that are its pixels.
 fn from_bytes(width: u32, height: u32, bytes: Vec<u8>) -> RgbImage {
     RgbImage::from_raw(width, height, bytes).expect("three bytes for each pixel")
 }
 
 /// Draws a picture that lies within another one over it.
 pub(super) fn place(onto: &mut RgbImage, picture: &RgbImage, left: u32, top: u32) {
+    // Rows are copied as a whole.
     let (stride, row) = (3 * onto.width() as usize, 3 * picture.width() as usize);
     let first = stride * top as usize + 3 * left as usize;
     if row > 0 {
@@ -72,8 +78,13 @@ pub(super) fn place(onto: &mut RgbImage, picture: &RgbImage, left: u32, top: u32
 /// The pixels of a frame as a picture of the same size, of their first three channels.
 pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
-    let pixels = (bounds.y0..bounds.y1).flat_map(|y| frame.row(y));
-    from_bytes(bounds.width(), bounds.height(), pixels.flat_map(|p| [p[0], p[1], p[2]]).collect())
+    let mut bytes = Vec::with_capacity(3 * bounds.width() as usize * bounds.height() as usize);
+    for (_, row) in frame.rows() {
+        for pixel in row {
+            bytes.extend_from_slice(&pixel[..3]);
+        }
+    }
+    from_bytes(bounds.width(), bounds.height(), bytes)
 }
 
 /// Whether all pixels have the colour of the first.
@@ -96,8 +107,12 @@ pub fn outline(case: &Case) -> Vec<Segment> {
             list.iter().flat_map(|t| edges(t.corners().map(|p| p.to_px().into()))).collect()
         }
         Shape::Lines(lines) => {
-            let centre = |at: PixelPoint| [at.x, at.y].map(|v| f64::from(v) + 0.5);
-            lines.iter().map(|l| l.ends.each_ref().map(|end| centre(end.pixel))).collect()
+            let mut segments = Vec::new();
+            for line in lines {
+                let ends = line.ends.each_ref().map(|end| [end.pixel.x, end.pixel.y]);
+                segments.push(ends.map(|end| end.map(|v| f64::from(v) + 0.5)));
+            }
+            segments
         }
         Shape::Unsnapped { list, .. } => list.iter().flat_map(|t| edges(t.px())).collect(),
         Shape::Numbers { .. } => Vec::new(),
@@ -108,8 +123,11 @@ pub fn outline(case: &Case) -> Vec<Segment> {
 pub fn scaled(segments: &[Segment], shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
     // Saturating: a corner far outside stays far outside.
     let at = |v: f64, origin: i32| ((v - f64::from(origin)) * f64::from(zoom)).floor() as i32;
-    let place = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
-    segments.iter().map(|ends| ends.map(place)).collect()
+    let mut scaled = Vec::with_capacity(segments.len());
+    for ends in segments {
+        scaled.push(ends.map(|[x, y]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0))));
+    }
+    scaled
 }
 
 /// Room between two pictures of a stack.
@@ -119,6 +137,7 @@ const STACK_GAP: u32 = 12;
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
     let height: u32 = pictures.iter().map(|picture| picture.height() + STACK_GAP).sum();
+    // No gap below the last one.
     let height = height.saturating_sub(STACK_GAP).max(1);
     let mut sheet = plain(width, height, Rgb([255, 255, 255]));
     let mut top = 0;
@@ -132,7 +151,9 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 /// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
 pub fn png(image: &RgbImage) -> Vec<u8> {
     let mut bytes = Vec::new();
+    // Written here and not by `image`, whose encoder has no palettes.
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    // Few colours take one byte a pixel, which also compresses better.
     let data = match indexed(image) {
         Some((palette, indices)) => {
             encoder.set_color(png::ColorType::Indexed);
@@ -161,6 +182,7 @@ fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
     for pixel in image.pixels() {
         // Most pixels have the colour of the one before.
         if last.is_none_or(|(colour, _)| colour != pixel.0) {
+            // A colour gets the next number where it first occurs; a 257th ends the search.
             let next = numbers.len();
             let number = *numbers.entry(pixel.0).or_insert_with(|| {
                 palette.extend(pixel.0);

@@ -6,10 +6,13 @@ use super::words::{of_bound, thousands};
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
+/// What may go wrong in a rasterizer, with the families of cases that show it.
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
+    /// The page of the docs that explains it.
     pub chapter: &'static str,
+    /// The families of cases in which it is met.
     pub(super) families: &'static [&'static str],
 }
 
@@ -19,6 +22,7 @@ macro_rules! dangers {
     };
 }
 
+/// All of them, in the order of the first screen.
 pub const DANGERS: &[Danger] = dangers![
     "corners anywhere", "docs/ch02-edge-functions.md":
         "uniform";
@@ -46,11 +50,14 @@ pub const DANGERS: &[Danger] = dangers![
 pub fn asked(shares: &[DesignShare]) -> Option<Table> {
     let mut notes = Vec::new();
     for share in shares {
+        // How many pairs of facts occurred together in some case, of all that can.
         let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
+        // Some pairs cannot occur, by what a family declares.
         let pairs = match share.pairs == share.of_pairs {
             true => format!("all {pairs}"),
             false => format!("{pairs} of {of_pairs}"),
         };
+        // Rounded down, so that 100% means all.
         let percent = 100 * share.triples / share.of_triples.max(1);
         let triples = thousands(share.of_triples as u64);
         notes.push(format!(
@@ -87,16 +94,22 @@ pub fn chapter(failure: &Failure) -> &'static str {
     }
 }
 
+/// What came of the families of a danger.
 #[derive(Default)]
 pub(super) struct Sum {
     pub cases: u64,
+    /// Of each family, those of the engine that is wrong most often.
     pub wrong_cases: u64,
     pub tally: Tally,
+    /// Fragments against the engine's own coverage.
     fragments: Tally,
+    /// Cases at which an engine panicked.
     panics: u64,
+    /// Pixels at which the oracle contradicts itself.
     oracle: u64,
 }
 
+/// The families of a danger together.
 fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
     let mut sum = Sum::default();
     for f in verdict.families.iter().filter(|f| danger.families.contains(&f.family.as_str())) {
@@ -114,6 +127,7 @@ fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
 }
 
 impl Sum {
+    /// In words: a line, and what there is to say beyond it.
     pub fn describe(&self) -> String {
         let cases = thousands(self.cases);
         if self.wrong_cases == 0 && self.oracle == 0 {
@@ -138,6 +152,7 @@ impl Sum {
 
 /// A row for something that was judged; what there is to say beyond a line stands below it.
 pub(super) fn row(is_right: bool, name: &str, what: &str) -> Row {
+    // The first line stands in the row, the others below it.
     let (first, more) = what.split_once('\n').unwrap_or((what, ""));
     Row::of(&[&name, &first, &more]).marked(is_right)
 }
@@ -149,16 +164,24 @@ pub(super) fn judged(caption: &str, rows: Vec<Row>) -> Table {
 
 /// A row for each danger that was judged, then one for the values.
 pub fn table(verdict: &Verdict) -> Table {
-    let dangers = DANGERS.iter().map(|danger| (danger, sum(danger, verdict)));
-    let dangers = dangers.filter(|(_, sum)| sum.cases > 0);
-    let of_danger = |(danger, sum): (&Danger, Sum)| {
-        row(sum.wrong_cases == 0 && sum.oracle == 0, danger.name, &sum.describe())
-    };
-    let pairs = verdict.families.iter().flat_map(|f| &f.pairs);
-    let (values, worst) =
-        pairs.fold((0, 0.0), |(n, worst), pair| (n + pair.values, pair.worst().max(worst)));
-    let values = (values > 0).then(|| row(worst <= 1.0, "values and depths", &of_bound(worst)));
-    judged("", dangers.map(of_danger).chain(values).collect())
+    let mut rows = Vec::new();
+    for danger in DANGERS {
+        let sum = sum(danger, verdict);
+        if sum.cases > 0 {
+            let is_right = sum.wrong_cases == 0 && sum.oracle == 0;
+            rows.push(row(is_right, danger.name, &sum.describe()));
+        }
+    }
+    // Values are not of one danger: how close the worst of all came to its bound.
+    let (mut values, mut worst) = (0, 0.0);
+    for pair in verdict.families.iter().flat_map(|f| &f.pairs) {
+        values += pair.values;
+        worst = pair.worst().max(worst);
+    }
+    if values > 0 {
+        rows.push(row(worst <= 1.0, "values and depths", &of_bound(worst)));
+    }
+    judged("", rows)
 }
 
 #[cfg(test)]

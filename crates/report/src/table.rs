@@ -8,6 +8,7 @@ use super::words::mark;
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Table {
+    /// Nothing for a table that belongs to the one above it.
     pub caption: String,
     pub columns: Vec<Column>,
     pub rows: Vec<Row>,
@@ -19,6 +20,7 @@ pub struct Table {
     pub is_judged: bool,
 }
 
+/// A column, with what a terminal and a page say over it.
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Column {
@@ -27,6 +29,7 @@ pub struct Column {
     short: String,
     /// The head in more words, or nothing.
     pub about: String,
+    /// Numbers stand at the right of their column, so that digits line up.
     pub is_number: bool,
     /// Whether the label stands before each cell that stands below its row.
     is_labelled: bool,
@@ -38,23 +41,34 @@ pub struct Column {
 /// label stand `>` where the cells are numbers and `~` where a terminal has no head; without a width the cells stand below
 /// their row there, with `:` each behind the label.
 pub fn columns(all: &str) -> Vec<Column> {
-    let column = |text: &str| {
-        let (text, is_number) = text.strip_prefix('>').map_or((text, false), |text| (text, true));
-        let (text, is_labelled) = text.strip_prefix(':').map_or((text, false), |text| (text, true));
-        let (text, has_head) = text.strip_prefix('~').map_or((text, true), |text| (text, false));
-        let words: Vec<&str> = text.split(' ').collect();
-        let width = words.iter().position(|word| word.parse::<usize>().is_ok());
-        let label = words[..width.unwrap_or(words.len())].join(" ");
-        Column {
-            short: if has_head { label.clone() } else { String::new() },
-            label,
-            about: width.map_or(String::new(), |at| words[at + 1..].join(" ")),
-            is_number,
-            is_labelled,
-            least: width.map_or(0, |at| words[at].parse().unwrap_or_default()),
-        }
-    };
     all.split(" | ").map(column).collect()
+}
+
+fn column(text: &str) -> Column {
+    let (is_number, text) = without_sign(text, '>');
+    let (is_labelled, text) = without_sign(text, ':');
+    let (is_headless, text) = without_sign(text, '~');
+    // The first word that is a number is the width; what follows it is what the column is about.
+    let words: Vec<&str> = text.split(' ').collect();
+    let width = words.iter().position(|word| word.parse::<usize>().is_ok());
+    let at = width.unwrap_or(words.len());
+    let label = words[..at].join(" ");
+    Column {
+        short: if is_headless { String::new() } else { label.clone() },
+        label,
+        about: words.get(at + 1..).unwrap_or_default().join(" "),
+        is_number,
+        is_labelled,
+        least: words.get(at).and_then(|word| word.parse().ok()).unwrap_or_default(),
+    }
+}
+
+/// Whether a text begins with a sign, and what follows it.
+fn without_sign(text: &str, sign: char) -> (bool, &str) {
+    match text.strip_prefix(sign) {
+        Some(rest) => (true, rest),
+        None => (false, text),
+    }
 }
 
 impl Column {
@@ -78,11 +92,13 @@ impl Column {
     }
 }
 
+/// A row, with what a page makes of it.
 #[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Row {
     /// Where there are fewer cells than columns, the last one takes the rest of the row.
     pub cells: Vec<String>,
+    /// Whether something is wrong in it, or it is a sum.
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
@@ -113,6 +129,7 @@ impl From<Vec<String>> for Row {
 pub enum Mark {
     #[default]
     Plain,
+    /// Shown even where a page hides most of many rows.
     Wrong,
     /// As the sum of the others; always shown.
     Sum,
@@ -145,11 +162,13 @@ impl Table {
     /// The table in a terminal: a line of heads, and for each row a line of cells side by side, then a line for
     /// each of its other cells that is not empty. Rows begin at column `rows`, their other cells at column `below`.
     pub fn text(&self, [rows, below]: [usize; 2], colour: bool) -> String {
-        let heads = self.columns.iter().map(|column| match column.least {
-            0 => String::new(),
-            _ => column.short.clone(),
-        });
-        let indented = |row: &Row| {
+        // A line of heads, then one for each row, which is moved to the right and marked in its first cell.
+        let mut heads = Vec::new();
+        for column in &self.columns {
+            heads.push(if column.least == 0 { String::new() } else { column.short.clone() });
+        }
+        let mut lines: Vec<Vec<String>> = vec![heads];
+        for row in &self.rows {
             let mut cells = row.cells.clone();
             if let Some(first) = cells.first_mut() {
                 let is_right = row.mark != Mark::Wrong;
@@ -157,18 +176,21 @@ impl Table {
                 let gap = if self.is_judged { " " } else { "" };
                 *first = format!("{:rows$}{mark}{gap}{first}", "");
             }
-            cells
-        };
-        let lines: Vec<Vec<String>> =
-            std::iter::once(heads.collect()).chain(self.rows.iter().map(indented)).collect();
+            lines.push(cells);
+        }
+        // A column is as wide as its widest cell, but for rows whose last cell takes the rest.
         let is_whole = |cells: &&Vec<String>| cells.len() == self.columns.len();
-        let width = |(i, column): (usize, &Column)| {
-            let cells = lines.iter().filter(is_whole).map(|cells| cells[i].chars().count());
-            if column.least == 0 { 0 } else { cells.fold(column.least, usize::max) }
-        };
-        let widths: Vec<usize> = self.columns.iter().enumerate().map(width).collect();
+        let mut widths: Vec<usize> = self.columns.iter().map(|column| column.least).collect();
+        for cells in lines.iter().filter(is_whole) {
+            for (width, cell) in widths.iter_mut().zip(cells) {
+                if *width > 0 {
+                    *width = cell.chars().count().max(*width);
+                }
+            }
+        }
         let mut out = String::new();
         for (number, cells) in lines.iter().enumerate() {
+            // The first line is that of the heads.
             let row = number.checked_sub(1).map(|row| &self.rows[row]);
             let is_green = |i| colour && row.is_some_and(|row| row.good.contains(&i));
             let mut line = String::new();
@@ -177,7 +199,9 @@ impl Table {
                 cells.iter().zip(&self.columns).zip(&widths).enumerate()
             {
                 let gap = if i > 0 { " " } else { "" };
+                // A last cell that has no column of its own is not padded.
                 let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
+                // A cell below its row says what it is about.
                 let label = if column.is_labelled && !takes_rest {
                     &*format!("{}: ", column.label)
                 } else {

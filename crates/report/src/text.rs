@@ -16,12 +16,15 @@ pub const WIDTH: usize = 100;
 /// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word, in
 /// lines of at most so many columns.
 pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String {
+    // No wider than what can be read without moving the head.
     let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
+    // A verdict begins with its mark, so that it is seen before anything is read.
     let mut out = match verdict {
         Some(outcome) if !report.about.is_empty() => format!("{} ", mark(outcome.good, colour)),
         _ => String::new(),
     };
+    // The verdict stands behind the first line of what it is about.
     let answer = verdict.map(|outcome| &outcome.answer).filter(|answer| !answer.is_empty());
     let mut answer = answer.map(|answer| format!(": {answer}"));
     for part in report.about.lines() {
@@ -34,7 +37,10 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     if !out.is_empty() {
         out.push('\n');
     }
-    out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
+    for one in &report.excerpts {
+        out += &excerpt(one, columns);
+    }
+    // A first screen is short enough to be read at once.
     let all = all || report.first_screen.is_empty();
     out += &match all {
         true => tables(&report.tables, columns, colour),
@@ -45,6 +51,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
             note(&mut out, words, columns, ["", "  "]);
         }
     }
+    // Last of all what to do, and the verdict again, since the beginning may have scrolled away.
     let repeat = if report.repeat.is_empty() { &report.command } else { &report.repeat };
     if !repeat.is_empty() {
         let _ = writeln!(out, "repeat with: {repeat}");
@@ -71,9 +78,12 @@ fn answers(answers: &[Statement], columns: usize) -> String {
 /// A case with its pixels, what is said of it, and where to go on.
 pub fn excerpt(of: &Excerpt, columns: usize) -> String {
     let mut out = String::new();
-    of.title.lines().for_each(|line| lines(&mut out, line, columns, ["", "  "]));
+    for line in of.title.lines() {
+        lines(&mut out, line, columns, ["", "  "]);
+    }
     labelled(&mut out, &of.exchanges);
     if !of.grid.is_empty() {
+        // The pixels stand apart from the title.
         let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{gap}{}", of.grid.trim_end_matches('\n'));
     }
@@ -87,7 +97,10 @@ pub fn excerpt(of: &Excerpt, columns: usize) -> String {
 
 /// Lines that are not broken, each behind what it is.
 fn labelled(out: &mut String, lines: &[(&str, String)]) {
-    let widest = lines.iter().map(|(what, _)| what.len() + 1).fold(9, usize::max);
+    let mut widest = 9;
+    for (what, _) in lines {
+        widest = widest.max(what.len() + 1);
+    }
     for (what, line) in lines {
         let _ = writeln!(out, "  {:<widest$} {line}", format!("{what}:"));
     }
@@ -111,6 +124,7 @@ pub fn tables<'a>(
                 && table.text([2, 4], false).lines().any(is_wide);
             out += &table.text([if is_wide { 0 } else { 2 }, 4], colour);
         }
+        // Below the table, what its heads mean and what is said of it.
         let legend = Some(&table.legend).filter(|legend| !legend.is_empty());
         for words in legend.into_iter().chain(&table.notes) {
             note(&mut out, words, width, ["  ", "    "]);
@@ -122,6 +136,7 @@ pub fn tables<'a>(
 
 /// A note in lines; a command is not broken, so that it can be copied.
 fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
+    // A note that is a command begins with the name of a program.
     let (program, more) = words.split_once(' ').unwrap_or((words, ""));
     if !more.is_empty() && (program.ends_with("rasterproof") || program == "cargo") {
         let _ = writeln!(out, "{}{words}", indents[1]);
@@ -132,6 +147,7 @@ fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
 
 /// Words in lines of at most `width` columns: the first begins with one word, the others with another.
 fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
+    // All lines are as long, whichever indent they have.
     let room = width - first.len().max(rest.len());
     for (number, line) in ascii::lines(words, room, ascii::columns).iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });

@@ -3,6 +3,7 @@
 /// With commas between groups of three digits.
 pub fn thousands(n: u64) -> String {
     let digits = n.to_string();
+    // From the right, so that the first group is the short one.
     let groups = digits.as_bytes().rchunks(3).rev();
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
 }
@@ -15,6 +16,7 @@ pub fn grouped(text: &str) -> String {
         let digits: String = rest[start..].chars().take_while(char::is_ascii_digit).collect();
         out += &rest[..start];
         rest = &rest[start + digits.len()..];
+        // What stands before and after it says whether it is a number by itself.
         let is_part = out.ends_with(|c: char| c.is_alphanumeric() || ".,_#/^=".contains(c))
             || rest.starts_with(|c: char| {
                 c.is_alphabetic()
@@ -41,6 +43,7 @@ pub fn count(number: u64, one: &str, several: &str) -> String {
     format!("{} {}", thousands(number), if number == 1 { one } else { several })
 }
 
+/// The verdict of a comparison in a word.
 pub fn word(agrees: bool) -> &'static str {
     if agrees { "AGREES" } else { "DISAGREES" }
 }

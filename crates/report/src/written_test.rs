@@ -48,6 +48,7 @@ impl Language {
         }
     }
 
+    /// The file beside this one that holds what does not depend on the cases.
     fn template(self) -> &'static str {
         match self {
             Self::Python => include_str!("written_test/python.txt"),
@@ -61,6 +62,7 @@ impl Language {
     fn section(self, name: &str) -> &'static str {
         let begins = format!("@ {name}\n");
         let template = self.template();
+        // A section begins with a line of its name, and ends before the next such line.
         let Some(at) = template.find(&begins) else { return "" };
         let section = &template[at + begins.len()..];
         section.find("\n@ ").map_or(section, |end| &section[..=end]).trim_matches('\n')
@@ -75,6 +77,7 @@ impl Language {
 /// What came of the cases: the text of a file, where there is one to write, and what is not in it.
 #[derive(Debug, Default)]
 pub struct WrittenTest {
+    /// Nothing where no case can become a test.
     pub text: Option<String>,
     /// Tests in it.
     pub count: usize,
@@ -90,11 +93,13 @@ pub fn write(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> WrittenTest {
     let mut out = WrittenTest::default();
+    // Each request becomes a test of its own, and one that was asked before does not become another.
     let truth = Truth::of(&verdict.more.declared);
     let mut questions: Vec<&Question> = Vec::new();
     let mut tests = String::new();
     for failure in &verdict.failures {
         let place = format!("{} #{}", failure.family, failure.index);
+        // The first reason for which no test could be made, in case none of its requests gives one.
         let mut why_not = None;
         let mut number = 0;
         for exchange in &failure.evidence.exchanges {
@@ -116,6 +121,7 @@ pub fn write(
                 Err(why) => drop(why_not.get_or_insert(why)),
                 Ok(plain) => {
                     number += 1;
+                    // The first request of a case has the picture and the command in its comment.
                     let name = name(failure, number);
                     let about = if number == 1 { about(failure, repeat) } else { String::new() };
                     tests += &test(language, &name, &about, question, &plain);
@@ -135,6 +141,7 @@ pub fn write(
     out
 }
 
+/// Whether a request is answered with pixels.
 fn is_of_pixels(question: &Question) -> bool {
     !matches!(
         question.of,
@@ -176,14 +183,17 @@ fn file_of(
     let declared = &verdict.more.declared;
     // Nothing that a program says of itself ends a comment.
     let program = declared.name.replace("*/", "* /");
+    // The template, section by section, then the words that stand for something in it.
     let mut parts = vec![language.section("head").to_owned()];
     parts.extend(functions.iter().map(|name| language.section(name).to_owned()));
     parts.push(language.section("check").to_owned());
+    // Python has two empty lines between functions.
     let gap = if language == Language::Python { "\n\n\n" } else { "\n\n" };
     let mut text = parts.join(gap).replace("{program}", &program).replace("{file}", file);
     text = text.replace("{function}", &functions.join(", "));
     text = text.replace("{counts_hits}", counts_hits(language, !declared.mask));
     text = text.replace("{levels}", &declared.levels.to_string());
+    // The sentences of the template are about one function.
     if functions.len() > 1 {
         for [one, more] in [
             ["the function below", "the functions below"],
@@ -193,6 +203,7 @@ fn file_of(
             text = text.replace(one, more);
         }
     }
+    // C needs a function for each kind of pixel, and each once.
     let mut setters: Vec<String> = functions.iter().map(|name| setter(name)).collect();
     setters.sort();
     setters.dedup();
@@ -207,6 +218,7 @@ fn file_of(
     text + "\n"
 }
 
+/// Whether a mask or a count is expected, as a constant of the language.
 fn counts_hits(language: Language, counts: bool) -> &'static str {
     match (language, counts) {
         (Language::Python, true) => "True",
@@ -236,15 +248,20 @@ fn setter(function: &str) -> String {
 
 /// Calls every test of a file in C.
 fn main_of_c(tests: &str) -> String {
-    let names = tests
-        .lines()
-        .filter_map(|line| line.strip_prefix("static void ")?.strip_suffix("(void) {"));
-    let calls: String = names.map(|name| format!("    {name}();\n")).collect();
+    let mut calls = String::new();
+    for line in tests.lines() {
+        if let Some(rest) = line.strip_prefix("static void ")
+            && let Some(name) = rest.strip_suffix("(void) {")
+        {
+            calls += &format!("    {name}();\n");
+        }
+    }
     format!("int main(void) {{\n{calls}    return failed > 0;\n}}\n")
 }
 
 /// The name of a test: the property where that is not the family, the family, the number of its case, and which of its requests it is.
 fn name(failure: &Failure, number: usize) -> String {
+    // A name that every language takes: letters, digits and underscores.
     let (property, family) = (failure.evidence.property, failure.family);
     let of = if property == family { family.to_owned() } else { format!("{property}_{family}") };
     let more = if number > 1 { format!("_{number}") } else { String::new() };
@@ -266,6 +283,7 @@ fn comment(language: Language, text: &str) -> String {
     let indent = if language == Language::JavaScript { "  " } else { "" };
     let mut out = String::new();
     for line in text.lines() {
+        // A picture or a command that is broken is none.
         let stays = line.starts_with("  ") || line.contains("rasterproof");
         let lines = if stays {
             vec![line.to_owned()]
@@ -292,17 +310,19 @@ fn test(
 ) -> String {
     let none =
         |count: usize, name: &str| if count == 0 { "NULL".to_owned() } else { name.to_owned() };
-    let either = plain.either.iter().map(|[x, y]| PlainPixel { x: *x, y: *y, values: Vec::new() });
-    let either: Vec<String> = either
-        .map(|p| match language {
-            Language::Rust => format!("({}, {})", p.x, p.y),
-            _ => pixel(language, &p),
-        })
-        .collect();
+    let mut either = Vec::new();
+    for &[x, y] in &plain.either {
+        either.push(match language {
+            Language::Rust => format!("({x}, {y})"),
+            _ => pixel(language, &PlainPixel { x, y, values: Vec::new() }),
+        });
+    }
     let pixels: Vec<String> = plain.expected.iter().map(|p| pixel(language, p)).collect();
     let (count, count_of_either) = (plain.expected.len(), plain.either.len());
     let bounds: Vec<String> = plain.bounds.iter().map(|bound| number(language, *bound)).collect();
+    // The words of the template, and what stands in their place.
     let kind = Kind::of(question);
+    // How far values may be off, or zeros where there are none.
     let bounds = match (bounds.is_empty(), language) {
         (true, Language::C) => "0".to_owned(),
         (true, _) => vec!["0.0"; kind.values].join(", "),
@@ -339,6 +359,7 @@ fn test(
         "blank" => has_blank,
         _ => !has_blank,
     };
+    // Lines of the template that are not needed are left out.
     let mut code = String::new();
     for line in language.section("test").lines() {
         // What follows a question mark says when the line is needed.
@@ -357,18 +378,22 @@ fn test(
 
 /// What differs between the functions that are tested.
 struct Kind {
+    /// The name of the function that the reader fills in.
     function: &'static str,
     /// What it is given to draw a pixel with, in C.
     setter: &'static str,
     /// In Rust, what it gives to that, and what becomes of it.
     taken: &'static str,
+    /// The values of a pixel, as the comparison takes them.
     given: &'static str,
     /// How many values a pixel has.
     values: usize,
 }
 
 impl Kind {
+    /// The function that answers a request.
     fn of(question: &Question) -> Self {
+        // A pixel of a mask, a depth or an area is a number; the comparison knows values only.
         let function = function(question);
         let (setter, taken, given, values) = match function {
             "values" => ("set_values", "x, y, values", "x, y, values", 3),
@@ -414,12 +439,14 @@ fn list(language: Language, items: &[String]) -> String {
         Language::JavaScript => "      ",
         Language::C => "    ",
     };
+    // A short list stays in one line.
     let one_line = items.join(", ");
     if one_line.len() <= COLUMNS - 30 {
         return format!("{open}{one_line}{close}");
     }
     let mut lines = vec![String::new()];
     for item in items {
+        // As many items in a line as fit.
         let is_full = lines.last().is_some_and(|line| line.len() + item.len() + 2 > COLUMNS - 12);
         if is_full {
             lines.push(String::new());

@@ -59,8 +59,10 @@ pub const ALL: &[(&str, Values)] = &[
     ("hand-seam", seam),
 ];
 
+/// A window that holds the examples.
 const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 12, y1: 12 };
 
+/// The corners on the lattice, on which all examples lie.
 fn corners(corners_px: [[f64; 2]; 3]) -> Corners {
     corners_px.map(|[x, y]| SubpixelPoint::from_px(x, y).unwrap())
 }
@@ -76,64 +78,71 @@ fn values_in_space(
     w: [f64; 3],
     values: [f64; 3],
 ) -> Vec<([i32; 2], f64)> {
-    let vertex = |i: usize| {
+    let vertices = [0, 1, 2].map(|i: usize| {
         let [x, y] = corners_px[i];
         ScreenVertex::new(x, y, 0.0, w[i], values[i]).unwrap()
-    };
+    });
     let mut found = Vec::new();
-    EdgeFunction.fragments(&ScreenTriangle { vertices: [0, 1, 2].map(vertex) }, WINDOW, |f| {
+    EdgeFunction.fragments(&ScreenTriangle { vertices }, WINDOW, |f| {
         found.push(([f.x_px, f.y_px], f.varying));
     });
     found
 }
 
+/// The value at one pixel; see [`values`].
 fn value_at(corners_px: [[f64; 2]; 3], of_corners: [f64; 3], pixel: [i32; 2]) -> f64 {
     values(corners_px, of_corners).into_iter().find(|(at, _)| *at == pixel).unwrap().1
 }
 
 /// The three edge functions at the centre of a pixel, each opposite its corner, in parts of a pixel squared.
 fn edge_functions(corners_px: [[f64; 2]; 3], [x, y]: [i32; 2], parts: f64) -> [f64; 3] {
+    // The engine computes in square subpixels.
     let unit = f64::from(SUBPIXELS) / parts;
     edges_at(&corners(corners_px), x, y).unwrap().map(|edge| edge.value as f64 / (unit * unit))
 }
 
 /// Chapter 1: a square of 2.8 px, with samples in the centres, and in the corners of the pixels.
 fn square() -> Vec<f64> {
-    let covered = |moved: f64| {
-        let [low, high] = [0.6, 3.4].map(|v| v + moved);
-        let halves =
-            [[[low, low], [high, low], [high, high]], [[low, low], [high, high], [low, high]]];
-        let triangles = halves.map(|half| rasterproof_verify::cases::Triangle {
-            vertices: corners(half).map(|position| ScreenVertex {
-                position,
-                depth: 0.0,
-                inv_w: 1.0,
-                varying: glam::DVec2::ZERO,
-            }),
-        });
-        oracle_coverage(&triangles, WINDOW).covered() as f64
-    };
-    vec![covered(0.0), covered(0.5)]
+    // To move the square by half a pixel is to move the samples the other way.
+    vec![covered_by_square(0.6, 3.4), covered_by_square(0.6 + 0.5, 3.4 + 0.5)]
+}
+
+/// How many samples are covered by the square of two halves whose coordinates run from `low` to `high`.
+fn covered_by_square(low: f64, high: f64) -> f64 {
+    let halves = [[[low, low], [high, low], [high, high]], [[low, low], [high, high], [low, high]]];
+    let triangles = halves.map(|half| rasterproof_verify::cases::Triangle {
+        vertices: corners(half).map(|position| ScreenVertex {
+            position,
+            depth: 0.0,
+            inv_w: 1.0,
+            varying: DVec2::ZERO,
+        }),
+    });
+    oracle_coverage(&triangles, WINDOW).covered() as f64
 }
 
 /// Chapter 2: the rows of a line by column, and the pixels of a steep one.
 fn lines() -> Vec<f64> {
-    let pixels = |to: [i32; 2]| {
-        let ends = [[0, 0], to].map(|[x, y]| LineEnd {
-            pixel: PixelPoint::new(x, y),
-            depth: 0.0,
-            varying: 0.0,
-        });
-        let mut found = Vec::new();
-        Dda.draw(&ScreenLine { ends }, WINDOW, |f| found.push(f64::from(f.y_px)));
-        found
-    };
-    let steep = pixels([3, 9]).len() as f64;
-    [pixels([5, 2]), vec![steep]].concat()
+    let mut all = rows_of_line([5, 2]);
+    all.push(rows_of_line([3, 9]).len() as f64);
+    all
+}
+
+/// The row of each pixel of a line from (0, 0).
+fn rows_of_line(to: [i32; 2]) -> Vec<f64> {
+    let ends = [[0, 0], to].map(|[x, y]| LineEnd {
+        pixel: PixelPoint::new(x, y),
+        depth: 0.0,
+        varying: 0.0,
+    });
+    let mut found = Vec::new();
+    Dda.draw(&ScreenLine { ends }, WINDOW, |f| found.push(f64::from(f.y_px)));
+    found
 }
 
 /// Chapter 3: the value after one of four steps.
 fn step() -> Vec<f64> {
+    // Four columns from 2 to 10: the value grows by 2 in each.
     let end = |x, varying| LineEnd { pixel: PixelPoint::new(x, 0), depth: 0.0, varying };
     let mut found = Vec::new();
     Dda.draw(&ScreenLine { ends: [end(0, 2.0), end(4, 10.0)] }, WINDOW, |f| found.push(f.varying));
@@ -145,6 +154,7 @@ const LOWER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
 
 /// The edge functions of the upper triangle in half pixels, their sum, and the one on the diagonal in both triangles.
 fn edges() -> Vec<f64> {
+    // The engine names an edge by the corner opposite, the chapter by the corner where it begins.
     let [second, third, first] = edge_functions(UPPER, [2, 1], 2.0);
     let ties = [edge_functions(UPPER, [1, 1], 2.0)[1], edge_functions(LOWER, [1, 1], 2.0)[2]];
     vec![first, second, third, first + second + third, ties[0], ties[1]]
@@ -152,15 +162,16 @@ fn edges() -> Vec<f64> {
 
 /// The pixels of each row of both halves of a square, and of both together.
 fn rows() -> Vec<f64> {
-    let count = |triangle: [[f64; 2]; 3], row: i32| {
-        values(triangle, [0.0; 3]).iter().filter(|([_, y], _)| *y == row).count() as f64
-    };
-    let counts: Vec<_> = [LOWER, UPPER]
-        .into_iter()
-        .flat_map(|half| (0..4).map(move |row| count(half, row)))
-        .collect();
-    let sum = counts.iter().sum();
-    [counts, vec![sum]].concat()
+    let mut counts = Vec::new();
+    for half in [LOWER, UPPER] {
+        let mut rows = [0.0; 4];
+        for ([_, y], _) in values(half, [0.0; 3]) {
+            rows[y as usize] += 1.0;
+        }
+        counts.extend(rows);
+    }
+    counts.push(counts.iter().sum());
+    counts
 }
 
 /// Chapter 3: the value of a plane at a point, and the third exercise: edge functions, and the value.
@@ -176,11 +187,12 @@ fn plane() -> Vec<f64> {
 /// Chapter 5: the shares of the picture that four equal steps in space take.
 fn steps() -> Vec<f64> {
     let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).unwrap();
-    let picture = |t: f64| {
+    // The place in the picture of the beginning and of the end of each step.
+    let places = [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| {
         let p = projection * DVec3::new(12.0 * t, 0.0, 1.0 + 2.0 * t).extend(1.0);
         p.x / p.w / 4.0
-    };
-    [0.25, 0.5, 0.75, 1.0].map(|t| picture(t) - picture(t - 0.25)).to_vec()
+    });
+    places.windows(2).map(|step| step[1] - step[0]).collect()
 }
 
 /// Chapter 8: where a point is in a window of 5 x 5 px.
@@ -212,8 +224,10 @@ fn corner_square() -> Vec<f64> {
     }
     // No hole and no double hit: each of the rows 2 to 9 has the columns 3 to 10, once.
     for (y_px, row) in hits.rows() {
-        let is_in = |x: usize| (2..10).contains(&y_px) && (3..11).contains(&x);
-        assert!(row.iter().enumerate().all(|(x, &n)| n == u8::from(is_in(x))), "row {y_px}");
+        for (x, &hits) in row.iter().enumerate() {
+            let is_in = (2..10).contains(&y_px) && (3..11).contains(&x);
+            assert_eq!(hits, u8::from(is_in), "row {y_px}");
+        }
     }
     vec![hits.covered() as f64]
 }
@@ -227,18 +241,27 @@ fn height(a: [f64; 2], b: [f64; 2], x: f64) -> f64 {
 fn snapped() -> Vec<f64> {
     let subpixels = f64::from(SUBPIXELS);
     let snapped = f64::from(SubpixelPoint::from_px(1.7, 0.0).unwrap().x) / subpixels;
-    let diagonal = |x: f64| height([0.0, 0.0], [9.0, 5.0], x);
+    // The diagonal at the column of the corner, and farther right, where the crack is.
+    let [at_corner, beside] = [5.0, 6.5].map(|x| height([0.0, 0.0], [9.0, 5.0], x));
     let upper = height([5.0, 2.5], [9.0, 5.0], 6.5);
     let small = [0.001, 0.0019].map(|px| px * subpixels);
-    vec![snapped, 1.7 - snapped, diagonal(5.0), upper, diagonal(6.5), small[0], small[1]]
+    vec![snapped, 1.7 - snapped, at_corner, upper, beside, small[0], small[1]]
 }
 
 /// Chapter 2b: the first side of a square box that does not fit 32 bits, and the widest box 16 px high that does, both in subpixels.
 fn words() -> Vec<f64> {
     let square = (1i32..).find(|side| side.checked_mul(*side).is_none()).unwrap();
-    let fits = |width: &i64| (width + 256) * (16 * 256 + 256) < 1 << 31;
-    let widest = (1..).take_while(fits).last().unwrap();
-    vec![square.into(), widest as f64]
+    vec![square.into(), widest_box(1)]
+}
+
+/// The widest box of 16 px height of which the products fit 32 bits, in units of so many subpixels. The edge functions reach one
+/// pixel farther than the box on each axis.
+fn widest_box(unit: i64) -> f64 {
+    let mut width = 1;
+    while ((width + 1) * unit + 256) * (16 * 256 + 256) < 1 << 31 {
+        width += 1;
+    }
+    width as f64
 }
 
 /// Chapter 2c: where the long edge of the last exercise crosses row 5.
@@ -251,11 +274,12 @@ fn crossing() -> Vec<f64> {
 fn in_space() -> Vec<f64> {
     // The centre of pixel (3, 0) lies on the upper edge, which belongs to the triangle.
     let corners_px = [[0.5, 0.5], [4.5, 0.5], [0.5, 8.5]];
-    let value = |w| {
+    let mut found = Vec::new();
+    for w in [[4.0, 1.0, 1.0], [1.0; 3]] {
         let all = values_in_space(corners_px, w, [0.0, 10.0, 0.0]);
-        all.into_iter().find(|(at, _)| *at == [3, 0]).unwrap().1
-    };
-    vec![value([4.0, 1.0, 1.0]), value([1.0; 3])]
+        found.push(all.into_iter().find(|(at, _)| *at == [3, 0]).unwrap().1);
+    }
+    found
 }
 
 /// The depth from 0 to 1 at a distance, with the far plane at 100.
@@ -267,6 +291,7 @@ fn depth_at(near: f64, z: f64) -> f64 {
 
 /// By how much this depth grows for each unit of distance.
 fn depth_slope(near: f64, z: f64) -> f64 {
+    // The difference of two depths around the distance.
     let half = 1e-3;
     (depth_at(near, z + half) - depth_at(near, z - half)) / (2.0 * half)
 }
@@ -274,6 +299,7 @@ fn depth_slope(near: f64, z: f64) -> f64 {
 /// Chapter 6: depths, the slope at distance 50, a step of 16 bits and its length there, the same for a near plane at half of the
 /// distance, the slope at the far plane, and how many steps of 0.01 it asks for.
 fn depths() -> Vec<f64> {
+    // One step of a buffer of 16 bits; its length in space is the step over the slope.
     let step = 0.5f64.powi(16);
     let [slope, nearer, far] =
         [(1.0, 50.0), (0.5, 50.0), (1.0, 100.0)].map(|(near, z)| depth_slope(near, z));
@@ -300,11 +326,13 @@ fn turns() -> Vec<f64> {
 /// Chapter 11: the brightness of a road, and of a place between two texels, by both filters.
 fn light() -> Vec<f64> {
     let light = Light { towards: DVec3::new(0.6, 0.8, 0.0), ambient: 0.0, diffuse: 1.0 };
-    let texture =
-        |filter| Texture::grey(4, 1, vec![10, 20, 30, 40]).unwrap().with(filter, Wrap::Repeat);
-    let read = |filter| texture(filter).at(DVec2::new(0.6, 0.5)).x * 255.0;
     let brightness = light.intensity(DVec3::Y);
-    vec![brightness, brightness * 100.0, read(Filter::Nearest), read(Filter::Bilinear)]
+    let mut all = vec![brightness, brightness * 100.0];
+    for filter in [Filter::Nearest, Filter::Bilinear] {
+        let row = Texture::grey(4, 1, vec![10, 20, 30, 40]).unwrap().with(filter, Wrap::Repeat);
+        all.push(row.at(DVec2::new(0.6, 0.5)).x * 255.0);
+    }
+    all
 }
 
 /// The chapter on samples: a flat edge through eight pixels of a row, and the triangle on its other side.
@@ -336,19 +364,23 @@ fn shares() -> Vec<f64> {
 /// The root of the mean square of the errors of each choice.
 fn share_errors() -> Vec<f64> {
     let exact = row_of_shares(ExactArea, FLAT);
-    let error = |shares: &Vec<f64>| {
-        let squares = shares.iter().zip(&exact).map(|(a, b)| (a - b).powi(2));
-        (squares.sum::<f64>() / 8.0).sqrt()
-    };
-    sampled_shares().iter().map(error).collect()
+    let mut errors = Vec::new();
+    for shares in sampled_shares() {
+        let squares: f64 = shares.iter().zip(&exact).map(|(a, b)| (a - b).powi(2)).sum();
+        errors.push((squares / 8.0).sqrt());
+    }
+    errors
 }
 
 /// How often a colour is computed: once for each pixel with a covered sample, or for each covered sample of a grid.
 fn shadings() -> Vec<f64> {
     let [one, two, pattern, four] = sampled_shares();
-    let touched = |shares: &[f64]| shares.iter().filter(|share| **share > 0.0).count() as f64;
-    let samples = |shares: &[f64], each: f64| shares.iter().sum::<f64>() * each;
-    vec![touched(&one), touched(&pattern), samples(&two, 4.0), samples(&four, 16.0)]
+    let [one, pattern] =
+        [one, pattern].map(|shares| shares.iter().filter(|share| **share > 0.0).count() as f64);
+    // A share is the number of covered samples over the number of all.
+    let samples_of_two = two.iter().sum::<f64>() * 4.0;
+    let samples_of_four = four.iter().sum::<f64>() * 16.0;
+    vec![one, pattern, samples_of_two, samples_of_four]
 }
 
 /// The shares of pixel 2 of the triangles on both sides, and the white of 255 that is left when two black ones are mixed by them.
@@ -370,17 +402,15 @@ impl Floor {
 
     fn new() -> Self {
         // Half a pixel further, so that the centres of pixels lie on whole coordinates.
-        let vertex = |x: f64, s: f64| {
+        let vertices = [[0.0, 5.0], [64.0, 5.0], [0.0, 80.0]].map(|[x, s]: [f64; 2]| {
             let uv = DVec2::new(16.0 * x / s, 1600.0 / s) / Self::SIDE;
             ScreenVertex::new(x + 0.5, s + 0.5, 0.0, 100.0 / s, uv).unwrap()
-        };
-        let triangle =
-            ScreenTriangle { vertices: [vertex(0.0, 5.0), vertex(64.0, 5.0), vertex(0.0, 80.0)] };
-        let vertices = &triangle.vertices;
+        });
+        let triangle = ScreenTriangle { vertices };
         let footprint = Footprint::new(
             triangle.corners(),
-            [0, 1, 2].map(|i: usize| vertices[i].inv_w),
-            [0, 1, 2].map(|i: usize| vertices[i].varying),
+            vertices.map(|vertex| vertex.inv_w),
+            vertices.map(|vertex| vertex.varying),
             (Self::SIDE as u32, Self::SIDE as u32),
         );
         Self { triangle, footprint }
@@ -388,6 +418,7 @@ impl Floor {
 
     /// The texture coordinates in column 0 of a row.
     fn uv(&self, row: i32) -> DVec2 {
+        // The engine computes them, and not the formula by which the corners were made.
         let mut found = None;
         EdgeFunction.fragments(&self.triangle, PixelRect::window(64, 64), |f| {
             if (f.x_px, f.y_px) == (0, row) {
@@ -401,14 +432,15 @@ impl Floor {
 /// The lengths of the derivatives and the levels in some rows, the difference of two pixels, and how row 10 is read along its axis.
 fn floor() -> Vec<f64> {
     let floor = Floor::new();
-    let w = |row: i32| 100.0 / f64::from(row);
-    let [across, along] = floor.footprint.lengths(floor.uv(10), w(10));
-    let levels = [10, 20, 40, 50].map(|row| floor.footprint.level(floor.uv(row), w(row)));
-    let texels = |row: i32| floor.uv(row).y * Floor::SIDE;
-    let differences = [texels(10) - texels(11), texels(9) - texels(10)];
-    let taps = floor.footprint.taps(floor.uv(10), w(10), 16);
+    // Row 10 lies at the distance 10.
+    let [across, along] = floor.footprint.lengths(floor.uv(10), 10.0);
+    let taps = floor.footprint.taps(floor.uv(10), 10.0, 16);
+    let [above, here, below] = [9, 10, 11].map(|row| floor.uv(row).y * Floor::SIDE);
+    let differences = [here - below, above - here];
     let mut all = vec![across, along];
-    all.extend(levels);
+    for row in [10, 20, 40, 50] {
+        all.push(floor.footprint.level(floor.uv(row), 100.0 / f64::from(row)));
+    }
     all.extend(differences);
     all.extend(differences.map(libm::log2));
     all.extend([f64::from(taps.count), taps.level]);
@@ -417,13 +449,15 @@ fn floor() -> Vec<f64> {
 
 /// A row of eight texels at the levels 1 to 3 and at 1.5, and one of two islands at the levels 2 and 3.
 fn levels() -> Vec<f64> {
-    let row = |grey: [u8; 8]| Texture::grey(8, 1, grey.to_vec()).unwrap().with_mip_map();
-    let read =
-        |texture: &Texture, level: f64| texture.at_level(DVec2::new(0.1, 0.5), level).x * 255.0;
-    let ramp = row([10, 30, 50, 70, 90, 110, 130, 150]);
-    let islands = row([200, 200, 200, 200, 0, 0, 0, 0]);
-    let ramp = [1.0, 2.0, 3.0, 1.5].map(|level| read(&ramp, level));
-    [ramp.to_vec(), [2.0, 3.0].map(|level| read(&islands, level)).to_vec()].concat()
+    let mut all = at_levels([10, 30, 50, 70, 90, 110, 130, 150], &[1.0, 2.0, 3.0, 1.5]);
+    all.extend(at_levels([200, 200, 200, 200, 0, 0, 0, 0], &[2.0, 3.0]));
+    all
+}
+
+/// What is read at a place of the first texel of a row at some levels, from 0 to 255.
+fn at_levels(grey: [u8; 8], levels: &[f64]) -> Vec<f64> {
+    let row = Texture::grey(8, 1, grey.to_vec()).unwrap().with_mip_map();
+    levels.iter().map(|level| row.at_level(DVec2::new(0.1, 0.5), *level).x * 255.0).collect()
 }
 
 /// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
@@ -446,38 +480,39 @@ fn exercises() -> Vec<f64> {
     let ties = (0..=12).filter(|x| (2 * x * 10) % 24 == 12).count() as f64;
     let overflowing =
         (1i32..).find(|u| 2i32.checked_mul(*u).and_then(|v| v.checked_mul(*u)).is_none());
-    let fits = |width_px: &i64| (width_px * 256 + 256) * (16 * 256 + 256) < 1 << 31;
-    let widest = (1..).take_while(fits).last().unwrap() as f64;
     let row = values([[0.0, 0.0], [7.0, 4.0], [3.0, 10.0]], [0.0; 3]);
     let row: Vec<_> = row.iter().filter(|([_, y], _)| *y == 5).map(|([x, _], _)| *x).collect();
     assert_eq!((row.iter().min(), row.iter().max()), (Some(&2), Some(&5)));
     // Chapters 4 and 5: the middle of a picture, and the largest error of affine values.
-    let picture = |t: f64| 6.0 * t / (2.0 + 4.0 * t);
-    assert_eq!(picture(0.25), 0.5);
-    let error =
-        |k: i32| f64::from(k) / 3000.0 - f64::from(k) / 3000.0 / (4.0 - f64::from(k) / 1000.0);
-    let worst = (0..=3000).map(error).fold(0.0, f64::max);
+    let middle = 0.25;
+    assert_eq!(6.0 * middle / (2.0 + 4.0 * middle), 0.5);
+    let mut worst = 0.0_f64;
+    for k in 0..=3000 {
+        let t = f64::from(k) / 3000.0;
+        worst = worst.max(t - t / (4.0 - f64::from(k) / 1000.0));
+    }
     // Chapter 6: bits of depth.
     let slope = 100.0 / (99.0 * 100.0 * 100.0);
     let bits = (1..).find(|bits| 0.5f64.powi(*bits) / slope < 0.01).unwrap();
     // Chapter 8: depth from 0 to 1.
     let depth = (10.0 / 9.0 * 2.0 - 10.0 / 9.0) / 2.0;
     // Chapter 10: a reflection, and what a turn makes of a move.
-    let moved = |x| DMat4::from_translation(DVec3::X * x);
-    let reflected = moved(2.0) * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * moved(-2.0);
+    let [there, back] = [2.0, -2.0].map(|x| DMat4::from_translation(DVec3::X * x));
+    let reflected = there * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * back;
     assert_eq!(reflected.determinant(), -1.0);
+    // A turn takes the direction of a move along.
     let turned = turn_z(std::f64::consts::FRAC_PI_2).transform_vector3(DVec3::X * 3.0);
     // Chapter 11: a stretched roof, and short normals.
-    let cosine = |normal: DVec2| normal.normalize().y;
+    let [flat, steep] = [[1.0, 4.0], [4.0, 1.0]].map(|n| DVec2::from(n).normalize().y);
     let mean_of_60 = (DVec2::X + DVec2::from_angle(60f64.to_radians())) / 2.0;
     vec![
         mean,
         area,
         ties,
         f64::from(overflowing.unwrap()),
-        widest,
+        widest_box(256),
         row.len() as f64,
-        0.25,
+        middle,
         worst,
         f64::from(bits),
         clipped_corners() as f64,
@@ -485,8 +520,8 @@ fn exercises() -> Vec<f64> {
         12.0 * 3.0,
         reflected.transform_point3(DVec3::X * 5.0).x,
         turned.y,
-        cosine(DVec2::new(1.0, 4.0)),
-        cosine(DVec2::new(4.0, 1.0)),
+        flat,
+        steep,
         mean_of_60.length(),
         2.0 * libm::acos(0.95).to_degrees(),
     ]
@@ -494,10 +529,10 @@ fn exercises() -> Vec<f64> {
 
 /// Corners of an equilateral triangle around the window from -1 to 1, turned by 15 degrees, after it was cut by the four sides.
 fn clipped_corners() -> usize {
-    let corner = |degrees: f64| {
+    let triangle = [105.0_f64, 225.0, 345.0].map(|degrees| {
         let [x, y] = (DVec2::from_angle(degrees.to_radians()) * 2.0).to_array();
         ClipVertex { position: DVec4::new(x, y, 0.0, 1.0), varying: 0.0 }
-    };
-    let (polygon, _) = clip(&[105.0, 225.0, 345.0].map(corner), Outcode::MAX);
+    });
+    let (polygon, _) = clip(&triangle, Outcode::MAX);
     polygon.vertices().count()
 }

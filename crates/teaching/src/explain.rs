@@ -46,10 +46,12 @@ pub fn pixel(case: &Case, at: PixelPoint) -> String {
     out
 }
 
+/// The point at which a pixel is sampled.
 fn centre(at: PixelPoint) -> [f64; 2] {
     [at.x, at.y].map(|v| f64::from(v) + 0.5)
 }
 
+/// A point with all of its digits, since a last bit may decide.
 fn free_point([x, y]: [f64; 2]) -> String {
     format!("({x:?}, {y:?})")
 }
@@ -96,6 +98,7 @@ fn sides<P: Copy>(
         let _ = writeln!(out, "  zero area: it covers nothing");
         return false;
     }
+    // Then the inside lies to the right of every edge, for which the rule is stated.
     if area == Ordering::Less {
         corners.swap(1, 2);
         let _ = writeln!(out, "  counter-clockwise: taken the other way round");
@@ -111,6 +114,7 @@ fn sides<P: Copy>(
     true
 }
 
+/// The columns that an engine draws in the row of the pixel.
 fn span_of_row(out: &mut String, who: &str, row: i32, span: Option<(i32, i32)>) {
     let _ = match span {
         None => writeln!(out, "  {who} has no span in row {row}"),
@@ -118,11 +122,19 @@ fn span_of_row(out: &mut String, who: &str, row: i32, span: Option<(i32, i32)>) 
     };
 }
 
+/// x and y, to be indexed by an axis.
+fn coordinates(p: PixelPoint) -> [i64; 2] {
+    [p.x.into(), p.y.into()]
+}
+
+/// The three edges by whole numbers, and the span that the scanline engine draws.
 fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelPoint) {
     let corners: Corners = triangle.corners();
+    // The sum of the three is twice the area, wherever the pixel is.
     let area: i128 = edge_values(&corners, at.x, at.y).iter().sum();
     // Value i belongs to the edge opposite corner i; in units of 1/65536 square pixel.
     let edge = |corners: Corners, opposite: usize| {
+        // Inside is where all three values are above 0, or 0 on an edge that the rule counts in.
         let value = edge_values(&corners, at.x, at.y)[opposite];
         let (from, to) = (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]);
         let side = side(value.cmp(&0), kind([from.x, from.y], [to.x, to.y]));
@@ -131,6 +143,7 @@ fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelP
     if !sides(out, corners, area.cmp(&0), point, edge) {
         return;
     }
+    // The engine draws this row alone.
     let mut span = None;
     let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
     Scanline.cover(corners, row, |s| span = Some((s.x0_px, s.x1_px)));
@@ -143,6 +156,7 @@ fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at
     let area = edge_value(corners[0], corners[1], corners[2]).0;
     let edge = |corners: [[f64; 2]; 3], i: usize| {
         let (from, to) = (corners[i], corners[(i + 1) % 3]);
+        // The sign is exact, and the value is cut to what a float holds.
         let (sign, value) = edge_value(from, to, centre(at));
         let value = match (sign, value == 0.0) {
             (Ordering::Greater, true) => "above 0 by less than any f64".to_owned(),
@@ -158,6 +172,7 @@ fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at
     let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
     ScanlineExact.cover_exact(triangle, row, |s| span = Some((s.x0_px, s.x1_px)));
     span_of_row(out, "scanline-exact", at.y, span);
+    // The other engine decides this pixel alone, by floats where they are sure.
     let pixel = PixelRect { x0: at.x, x1: at.x + 1, ..row };
     let decisions = EdgeFunctionExact.cover_exact(triangle, pixel, |_| ());
     let _ = writeln!(
@@ -167,11 +182,13 @@ fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at
     );
 }
 
+/// Where a line passes the column or row of the pixel, and which pixel is lit there.
 fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
-    let [a, b] = line.ends.map(|end| [i64::from(end.pixel.x), i64::from(end.pixel.y)]);
+    let [a, b] = line.ends.map(|end| coordinates(end.pixel));
     let major = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
     let minor = 1 - major;
-    let [u, v] = [major, minor].map(|axis| [i64::from(at.x), i64::from(at.y)][axis]);
+    // u counts along the longer axis, in which a line has a pixel for each step; v counts across.
+    let (u, v) = (coordinates(at)[major], coordinates(at)[minor]);
     let names = ["x", "y"];
     let (major_name, minor_name) = (names[major], names[minor]);
     let _ = writeln!(out, "line ({}, {}) to ({}, {})", a[0], a[1], b[0], b[1]);
@@ -186,6 +203,7 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
     let (du, rise) = (along.abs().max(1), across * done * along.signum());
     let exact = i128::from(a[minor]) * du + rise;
     let (whole, part) = (exact.div_euclid(du), exact.rem_euclid(du));
+    // The height as a mixed number, of which only a half is a tie.
     let fraction = if part == 0 { String::new() } else { format!(" and {part}/{du}") };
     let is_tie = 2 * part == du;
     let tie = if is_tie { ", a tie: halfway between two pixels" } else { "" };
@@ -194,11 +212,11 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
         out,
         "  at {major_name} = {u} the line passes {minor_name} = {whole}{fraction}{tie}"
     );
+    // The oracle says which pixel is lit; the text above says why.
     let mut lit = None;
     Oracle.line_pixels(line, window, |p, _| {
-        let [pu, pv] = [major, minor].map(|axis| [i64::from(p.x), i64::from(p.y)][axis]);
-        if pu == u {
-            lit = Some(pv);
+        if coordinates(p)[major] == u {
+            lit = Some(coordinates(p)[minor]);
         }
     });
     let _ = match lit {

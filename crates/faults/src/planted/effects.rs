@@ -30,15 +30,21 @@ pub type TapsStage = fn(&Footprint, DVec2, f64, u8) -> Taps;
 /// How many of nine parts of the light reach a place in the plane through three.
 pub type LitStage = fn(&LightView, &ShadowMap, [DVec3; 3], DVec3) -> u32;
 
+/// The formulas of effects that have faults here.
 #[derive(Clone, Copy)]
 pub struct Formulas {
+    /// Blends a colour over what was there before, by its opacity.
     pub over: fn(Colour, Colour, u8) -> Colour,
+    /// Mixes what lies before the opaque surface of a sample, from the farthest layer on.
     pub mix: MixStage,
+    /// How often a texture is read for a fragment, and at which level.
     pub taps: TapsStage,
+    /// Decides how much light a place gets.
     pub lit: LitStage,
 }
 
 impl Formulas {
+    /// The formulas of the pipeline, of which a mutant replaces one.
     pub const REAL: Self = Self {
         over,
         mix: |layers, most, stored, colour| {
@@ -46,28 +52,32 @@ impl Formulas {
             layers.sort_unstable();
             mixed(&layers, most, stored, colour)
         },
-        taps: |footprint, uv, w, most| footprint.taps(uv, w, most),
+        taps: Footprint::taps,
         lit: |view, map, places, place| view.receiver(map, places).lit(place),
     };
 }
 
+/// The colour of a sample after its layers were mixed.
 fn mixed(layers: &[Layer], most: u32, stored: u64, mut colour: Colour) -> Colour {
     mix_sample(layers, most, stored, &mut colour);
     colour
 }
 
 impl EffectMutant {
+    /// The formulas with this fault in one of them.
     pub fn formulas(self) -> Formulas {
         let mut formulas = Formulas::REAL;
         match self {
             Self::OverShifts => {
                 formulas.over = |colour, before, opacity| {
-                    mixed_channels(colour, before, opacity, |sum| (sum + 128) >> 8)
+                    let [r, g, b] = weighted(colour, before, opacity).map_array(|sum| sum + 128);
+                    [(r >> 8) as u8, (g >> 8) as u8, (b >> 8) as u8, u8::MAX]
                 };
             }
             Self::OverTruncates => {
                 formulas.over = |colour, before, opacity| {
-                    mixed_channels(colour, before, opacity, |sum| sum / 255)
+                    let [r, g, b] = weighted(colour, before, opacity);
+                    [(r / 255) as u8, (g / 255) as u8, (b / 255) as u8, u8::MAX]
                 };
             }
             Self::LayersAsDrawn => {
@@ -93,6 +103,7 @@ impl EffectMutant {
             Self::TapsRoundedUp => {
                 formulas.taps = |footprint, uv, w, most| {
                     let [x, y] = footprint.lengths(uv, w);
+                    // The length of the footprint in its widths.
                     let ratio = x.max(y) / x.min(y).max(1.0);
                     let real = footprint.taps(uv, w, most);
                     let count = (ratio.ceil() as u8).clamp(1, most);
@@ -115,6 +126,7 @@ impl EffectMutant {
             }
             Self::ShadowWithoutSlope => {
                 formulas.lit = |view, map, places, place| {
+                    // As if the plane faced the light, so that the bias is too small for planes that do not.
                     let flat = places.map_array(|corner| DVec3 { z: places[0].z, ..corner });
                     view.receiver(map, flat).lit(place)
                 };
@@ -124,9 +136,12 @@ impl EffectMutant {
     }
 }
 
-fn mixed_channels(colour: Colour, before: Colour, opacity: u8, divide: fn(u32) -> u32) -> Colour {
+/// 255 times the mixture of two colours by an opacity.
+fn weighted(colour: Colour, before: Colour, opacity: u8) -> [u32; 3] {
     let a = u32::from(opacity);
-    let channel =
-        |i: usize| divide(a * u32::from(colour[i]) + (255 - a) * u32::from(before[i])) as u8;
-    [channel(0), channel(1), channel(2), u8::MAX]
+    let mut sums = [0; 3];
+    for (i, sum) in sums.iter_mut().enumerate() {
+        *sum = a * u32::from(colour[i]) + (255 - a) * u32::from(before[i]);
+    }
+    sums
 }

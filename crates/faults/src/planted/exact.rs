@@ -40,6 +40,7 @@ impl RasterizeExact for ExactMutant {
 }
 
 impl ExactMutant {
+    /// What [`RasterizeExact::cover_exact`] does.
     pub fn spans(
         &self,
         corners: &FreeCorners,
@@ -57,12 +58,14 @@ impl ExactMutant {
             }
             Self::PlainCrossing => by_crossing(px, bounds, emit),
             Self::SnapsInside => {
+                // Corners that cannot be snapped draw nothing.
                 let snapped = px.map_array(|[x, y]| SubpixelPoint::from_px(x, y));
                 if let [Ok(a), Ok(b), Ok(c)] = snapped {
                     Scanline.cover([a, b, c], bounds, emit);
                 }
             }
             Self::FlushesToZero => {
+                // As a processor does in a mode in which the smallest numbers are 0.
                 let flush = |v: f64| if v.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { v };
                 if let Ok(flushed) =
                     FreeCorners::new(px.map_array(|corner| corner.map_array(flush)))
@@ -77,26 +80,32 @@ impl ExactMutant {
 
 type Point = [f64; 2];
 
+/// The edge function as f64 computes it, with an error that may have the wrong sign.
 fn e_f64(a: Point, b: Point, p: Point) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
+/// The same in f32, in which already the coordinates are rounded.
 fn e_f32(a: Point, b: Point, p: Point) -> f64 {
     let [a, b, p] = [a, b, p].map_array(|point| point.map_array(|v| v as f32));
     f64::from((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
 }
 
+/// The edge function by floats where they seem to be sure: the bound is a thousandth of the one that holds.
 fn e_filtered(a: Point, b: Point, p: Point) -> f64 {
     let (left, right) = ((b[0] - a[0]) * (p[1] - a[1]), (b[1] - a[1]) * (p[0] - a[0]));
+    // The sum of both products bounds the rounding of their difference.
     let bound = 5e-3 * (f64::EPSILON / 2.0) * (left.abs() + right.abs());
     if (left - right).abs() > bound { left - right } else { e_exact(a, b, p) }
 }
 
+/// A number whose sign is that of the exact edge function; its size is not exact.
 fn e_exact(a: Point, b: Point, p: Point) -> f64 {
     let coord = |[x, y]: Point| robust::Coord { x, y };
     robust::orient2d(coord(a), coord(b), coord(p))
 }
 
+/// Whether an edge, with the inside to its right, is a left or a top one.
 fn top_left(a: Point, b: Point) -> bool {
     b[1] < a[1] || (b[1] == a[1] && b[0] > a[0])
 }
@@ -114,13 +123,14 @@ fn by_sign(
         Some(Ordering::Less) => (b, c) = (c, b),
         _ => return,
     }
-    let edges = [(a, b), (b, c), (c, a)];
     let inside = |x_px, y_px| {
         let p = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
-        edges.iter().all(|&(from, to)| {
+        let mut is_inside = true;
+        for (from, to) in [(a, b), (b, c), (c, a)] {
             let side = e(from, to, p);
-            side > 0.0 || (side == 0.0 && owns(from, to))
-        })
+            is_inside &= side > 0.0 || (side == 0.0 && owns(from, to));
+        }
+        is_inside
     };
     each_sample(bounds, &inside, emit);
 }
@@ -129,12 +139,13 @@ fn by_sign(
 fn by_crossing(corners: [Point; 3], bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     for y_px in bounds.y0..bounds.y1 {
         let y = f64::from(y_px) + 0.5;
-        let crossings: Vec<f64> = [(0, 1), (1, 2), (2, 0)]
-            .into_iter()
-            .map(|(i, j)| (corners[i], corners[j]))
-            .filter(|(a, b)| (a[1] <= y) != (b[1] <= y))
-            .map(|(a, b)| a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]))
-            .collect();
+        let mut crossings: Vec<f64> = Vec::new();
+        for i in 0..3 {
+            let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            if (a[1] <= y) != (b[1] <= y) {
+                crossings.push(a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]));
+            }
+        }
         for x_px in bounds.x0..bounds.x1 {
             let x = f64::from(x_px) + 0.5;
             if crossings.iter().filter(|crossing| **crossing <= x).count() % 2 == 1 {

@@ -47,6 +47,7 @@ planted! {
 }
 
 impl EdgeValuesMutant {
+    /// The faulty function in the place of `edge_values`.
     pub fn function(self) -> fn(&Corners, i32, i32) -> [i128; 3] {
         match self {
             Self::ThirdOffByOne => |corners, x_px, y_px| {
@@ -69,12 +70,13 @@ planted! {
 }
 
 impl WordWidthMutant {
+    /// The faulty choice of a word by the sides of the box.
     pub fn function(self) -> fn(u32, u32) -> WordWidth {
         match self {
             // The real choice pads each side by a pixel; less a pixel it is the bare product.
             Self::NoMargin => |width, height| {
-                let less = |extent: u32| extent.saturating_sub(SUBPIXELS as u32);
-                WordWidth::of(less(width), less(height))
+                let pixel = SUBPIXELS as u32;
+                WordWidth::of(width.saturating_sub(pixel), height.saturating_sub(pixel))
             },
             Self::AtMost64 => |width, height| match WordWidth::of(width, height) {
                 WordWidth::I128 => WordWidth::I64,
@@ -92,6 +94,7 @@ planted! {
 }
 
 impl SourceMutant {
+    /// The faulty source: the case of a family, a seed and a number.
     pub fn function(self) -> fn(&Family, u64, u64) -> Case {
         match self {
             Self::UniformOnly => |family, seed, index| {
@@ -103,6 +106,7 @@ impl SourceMutant {
             },
             Self::Counts => |family, seed, index| {
                 static MADE: AtomicU64 = AtomicU64::new(0);
+                // A generator with a state that is shared by all families.
                 let made = MADE.fetch_add(1, Ordering::Relaxed);
                 // The first cases are right, as with a generator that runs dry.
                 family.case(seed, if made > 100 { index ^ 1 << (made % 8) } else { index })
@@ -137,7 +141,14 @@ impl JudgeMutant {
     }
 }
 
+/// How many pixels differ, and how many there are.
 fn wrong_pixels(actual: &Coverage, target: &Coverage) -> [u64; 2] {
-    let pixels = actual.rows().zip(target.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
-    pixels.fold([0, 0], |[wrong, all], (a, b)| [wrong + u64::from(a != b), all + 1])
+    let (mut wrong, mut all) = (0, 0);
+    for ((_, actual), (_, target)) in actual.rows().zip(target.rows()) {
+        for (actual, target) in actual.iter().zip(target) {
+            wrong += u64::from(actual != target);
+            all += 1;
+        }
+    }
+    [wrong, all]
 }

@@ -32,6 +32,13 @@ impl DrawLine for LineMutant {
     }
 }
 
+/// How far a line that moves by `all` in all its steps has moved after some of them; what is added before the division
+/// decides about halves.
+fn moved(all: i64, step: i64, steps: i64, half: i64) -> i32 {
+    (all.signum() * ((2 * all.abs() * step + half) / (2 * steps))) as i32
+}
+
+/// What is spoilt by most of the faults below.
 fn bresenham<V: Varying>(
     line: &ScreenLine<V>,
     bounds: PixelRect,
@@ -40,7 +47,15 @@ fn bresenham<V: Varying>(
     Bresenham.draw(line, bounds, emit);
 }
 
+/// The fragments of the right line, for faults that change their order, their values or their number.
+fn fragments_of<V: Varying>(line: &ScreenLine<V>, bounds: PixelRect) -> Vec<Fragment<V>> {
+    let mut fragments = Vec::new();
+    bresenham(line, bounds, &mut |f| fragments.push(f));
+    fragments
+}
+
 impl LineMutant {
+    /// The line with its fault, through `dyn`, so that Bresenham's loop is not compiled for each of the faults.
     pub fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
@@ -55,15 +70,15 @@ impl LineMutant {
                 }
             }),
             Self::DrawsBackwards => {
-                let mut fragments = Vec::new();
-                bresenham(line, bounds, &mut |f| fragments.push(f));
-                fragments.into_iter().rev().for_each(emit);
+                for f in fragments_of(line, bounds).into_iter().rev() {
+                    emit(f);
+                }
             }
             Self::WeightsFromClip => {
-                let mut fragments = Vec::new();
-                bresenham(line, bounds, &mut |f| fragments.push(f));
+                let fragments = fragments_of(line, bounds);
                 let last = fragments.len().saturating_sub(1).max(1) as f64;
                 for (i, f) in fragments.into_iter().enumerate() {
+                    // Counted from the first visible pixel, not from the end of the line.
                     let t = i as f64 / last;
                     let varying = a.varying + (b.varying - a.varying) * t;
                     emit(Fragment { depth: a.depth + (b.depth - a.depth) * t, varying, ..f });
@@ -82,8 +97,7 @@ impl LineMutant {
                 });
             }
             Self::RestartsAtBorder => {
-                let mut inside = Vec::new();
-                bresenham(line, bounds, &mut |f| inside.push(f));
+                let inside = fragments_of(line, bounds);
                 let mut visible = *line;
                 if let [first, .., last] = &inside[..] {
                     for (end, f) in visible.ends.iter_mut().zip([first, last]) {
@@ -111,10 +125,12 @@ impl LineMutant {
             i64::from(b.pixel.x) - i64::from(a.pixel.x),
             i64::from(b.pixel.y) - i64::from(a.pixel.y),
         );
+        // One step for each pixel along the longer axis.
         let steps = dx.abs().max(dy.abs());
         if steps == 0 || steps > 1 << 16 {
             return bresenham(line, bounds, emit);
         }
+        // What the book's line adds at each step, and where it is then.
         let (slope_x, slope_y) = (dx as f32 / steps as f32, dy as f32 / steps as f32);
         let (mut x, mut y) = (a.pixel.x as f32, a.pixel.y as f32);
         for i in 0..=steps {
@@ -129,15 +145,11 @@ impl LineMutant {
                     let steep = dy.abs() > dx.abs();
                     let backwards = if steep { dy > 0 } else { dx < 0 };
                     let half = steps - i64::from(backwards);
-                    let round =
-                        |d: i64| (d.signum() * ((2 * d.abs() * i + half) / (2 * steps))) as i32;
-                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                    (a.pixel.x + moved(dx, i, steps, half), a.pixel.y + moved(dy, i, steps, half))
                 }
                 _ => {
                     // Rounds half away from the first end, whichever end that is.
-                    let round =
-                        |d: i64| (d.signum() * ((2 * d.abs() * i + steps) / (2 * steps))) as i32;
-                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                    (a.pixel.x + moved(dx, i, steps, steps), a.pixel.y + moved(dy, i, steps, steps))
                 }
             };
             (x, y) = (x + slope_x, y + slope_y);

@@ -48,6 +48,7 @@ use rasterproof_core::triangle::Span;
 /// Declares [`Mutant`] from the kinds of faults.
 macro_rules! kinds {
     ($($kind:ident($mutant:ty),)+) => {
+        /// A planted fault that the invariants are asked about, whatever it is a fault of.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Mutant {
             $($kind($mutant),)+
@@ -92,6 +93,7 @@ kinds! {
 }
 
 impl Mutant {
+    /// The fault of this name, but for those of corners that are not snapped.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|mutant| mutant.name() == name)
     }
@@ -108,6 +110,7 @@ pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
+/// The names that `--plant` takes.
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

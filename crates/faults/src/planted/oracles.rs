@@ -18,6 +18,7 @@ planted! {
 impl OracleMutant {
     /// Whether the edge from `upper` to `lower` crosses the row left of a sample, by this mutant.
     fn is_left(self, upper: SubpixelPoint, lower: SubpixelPoint, sample: SubpixelPoint) -> bool {
+        // As the oracle has it, but for the comparison at the end.
         let [ux, uy, lx, ly, sx, sy] =
             [upper.x, upper.y, lower.x, lower.y, sample.x, sample.y].map(i128::from);
         if self == Self::PlanesInF32 {
@@ -37,15 +38,17 @@ impl Rasterize for OracleMutant {
         }
         let inside = |x_px, y_px| {
             let sample = centre_of(x_px, y_px);
-            let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|&(i, j)| {
-                let (a, b) = (corners[i], corners[j]);
-                match (a.y <= sample.y, b.y <= sample.y) {
+            let mut is_inside = false;
+            for i in 0..3 {
+                let (a, b) = (corners[i], corners[(i + 1) % 3]);
+                // A sample is inside after an odd number of crossings.
+                is_inside ^= match (a.y <= sample.y, b.y <= sample.y) {
                     (true, false) => self.is_left(a, b, sample),
                     (false, true) => self.is_left(b, a, sample),
                     _ => false,
-                }
-            });
-            crossings.count() % 2 == 1
+                };
+            }
+            is_inside
         };
         each_sample(bounds, &inside, &mut emit);
     }
@@ -60,7 +63,9 @@ impl Interpolate for OracleMutant {
     ) {
         let mut spoilt = *triangle;
         if *self == Self::AffineValues {
-            spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = 1.0);
+            for vertex in &mut spoilt.vertices {
+                vertex.inv_w = 1.0;
+            }
         }
         Oracle.fragments(&spoilt, bounds, emit);
     }

@@ -25,8 +25,11 @@ planted! {
     }
 }
 
+/// Clips a triangle by the planes whose bits are set, and gives the polygon that is left.
 type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
+/// Decides whether a triangle is removed.
 type CullStage = fn(Cull, Corners) -> bool;
+/// Chooses the effects of a frame from those that the user has set.
 type ChooseStage = fn(Effects) -> Effects;
 
 impl StageMutant {
@@ -89,6 +92,7 @@ fn textbook(
 ) -> Vec<ClipVertex<DVec2>> {
     let mut polygon = triangle.to_vec();
     for plane in ClipPlane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
+        // One plane after the other; each may cut what the one before has made.
         let mut kept = Vec::new();
         for (i, start) in polygon.iter().enumerate() {
             let end = &polygon[(i + 1) % polygon.len()];
@@ -97,6 +101,7 @@ fn textbook(
                 kept.push(*start);
             }
             if (from >= 0.0) != (to >= 0.0) {
+                // Always from the inner end, which is the right way to count.
                 let turned = inside_out && from < 0.0;
                 let (a, b, t) = if turned {
                     (end, start, to / (to - from))
@@ -107,6 +112,7 @@ fn textbook(
                     position: a.position + (b.position - a.position) * t,
                     varying: a.varying + (b.varying - a.varying) * t,
                 };
+                // The coordinate that the plane gives is exact, and the interpolated one is rounded.
                 if assigns {
                     let p = &mut vertex.position;
                     match plane {

@@ -22,7 +22,9 @@ planted! {
 }
 
 impl TileMutant {
+    /// A piece with the fault of this mutant; nothing where no pixel is left of it.
     fn spoilt(self, piece: Piece) -> Option<Piece> {
+        // Every kind of piece as a tile, the kind whose mask can hold any pixels.
         let mut tile = match piece {
             Piece::Cell(cell) => cell.tile(),
             Piece::Quarter(quarter) => quarter.tile(),
@@ -31,8 +33,14 @@ impl TileMutant {
         };
         match self {
             Self::MaskOffByOne => {
-                let last = tile.rows.iter().fold(0, |all, row| all | row).leading_zeros();
-                tile.rows.iter_mut().for_each(|row| *row &= !(0x8000 >> last));
+                let mut columns = 0;
+                for row in tile.rows {
+                    columns |= row;
+                }
+                let last = columns.leading_zeros();
+                for row in &mut tile.rows {
+                    *row &= !(0x8000 >> last);
+                }
             }
             Self::WrongReject => {
                 let corners = (tile.rows[0] | tile.rows[15]) & 0x8001;
@@ -46,6 +54,7 @@ impl TileMutant {
 
 impl CoverList for TileMutant {
     fn cover_list(&self, triangles: &[Corners], bounds: PixelRect, take: &mut dyn FnMut(&[Piece])) {
+        // The right pieces, spoilt one by one; the other faults are of the list.
         let mut pieces = Vec::new();
         Tiles::default().cover_list(triangles, bounds, &mut |run| pieces.extend_from_slice(run));
         pieces = pieces.into_iter().filter_map(|piece| self.spoilt(piece)).collect();
@@ -61,6 +70,7 @@ impl CoverList for TileMutant {
                 pieces.sort_by_key(Piece::triangle);
             }
             Self::TailOfBatch if triangles.len() > 16 => {
+                // What follows the last full batch is lost.
                 let full = triangles.len() / 16 * 16;
                 pieces.retain(|piece| (piece.triangle() as usize) < full);
             }
@@ -78,31 +88,37 @@ impl CoverList for TileMutant {
 
 /// The larger side of the box, in subpixels.
 fn widest([a, b, c]: &Corners) -> i64 {
-    let side = |a: i32, b: i32, c: i32| i64::from(a.max(b).max(c)) - i64::from(a.min(b).min(c));
-    side(a.x, b.x, c.x).max(side(a.y, b.y, c.y))
+    let [width, height] = [[a.x, b.x, c.x], [a.y, b.y, c.y]]
+        .map(|[a, b, c]| i64::from(a.max(b).max(c)) - i64::from(a.min(b).min(c)));
+    width.max(height)
 }
 
 /// Whether the box is wide, but not after its sides have wrapped around.
 fn taken_for_narrow(corners: &Corners) -> bool {
     let [a, b, c] = corners;
-    let side = |a: i32, b: i32, c: i32| a.max(b).max(c).wrapping_sub(a.min(b).min(c));
-    let wrapped = side(a.x, b.x, c.x).max(side(a.y, b.y, c.y));
-    wrapped <= NARROW_EXTENT && widest(corners) > i64::from(NARROW_EXTENT)
+    let [width, height] = [[a.x, b.x, c.x], [a.y, b.y, c.y]]
+        .map(|[a, b, c]| a.max(b).max(c).wrapping_sub(a.min(b).min(c)));
+    width.max(height) <= NARROW_EXTENT && widest(corners) > i64::from(NARROW_EXTENT)
+}
+
+/// An edge function in 32 bits, less 1 where samples on the edge do not belong, so that 0 is inside.
+fn wrapped_edge(from: SubpixelPoint, to: SubpixelPoint, sample: SubpixelPoint) -> i32 {
+    let (dx, dy) = (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y));
+    let is_top_left = dy < 0 || (dy == 0 && dx > 0);
+    dx.wrapping_mul(sample.y.wrapping_sub(from.y))
+        .wrapping_sub(dy.wrapping_mul(sample.x.wrapping_sub(from.x)))
+        .wrapping_sub(i32::from(!is_top_left))
 }
 
 /// The pixels of a triangle as the engine's words have it if they wrap around, one a piece.
-fn wrapping([a, b, c]: &Corners, bounds: PixelRect, triangle: u32, pieces: &mut Vec<Piece>) {
-    let edge = |from: &SubpixelPoint, to: &SubpixelPoint, x, y| {
-        let (dx, dy) = (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y));
-        let top_left = dy < 0 || (dy == 0 && dx > 0);
-        dx.wrapping_mul(i32::wrapping_sub(y, from.y))
-            .wrapping_sub(dy.wrapping_mul(i32::wrapping_sub(x, from.x)))
-            .wrapping_sub(i32::from(!top_left))
-    };
+fn wrapping(corners: &Corners, bounds: PixelRect, triangle: u32, pieces: &mut Vec<Piece>) {
+    let [a, b, c] = *corners;
     let inside = |x_px, y_px| {
-        let SubpixelPoint { x, y } = centre_of(x_px, y_px);
-        let all = |b, c| edge(a, b, x, y) | edge(b, c, x, y) | edge(c, a, x, y);
-        all(b, c) >= 0 || all(c, b) >= 0
+        let sample = centre_of(x_px, y_px);
+        // Three numbers are at least 0 where none of them has the bit of the sign, in either order of the corners.
+        wrapped_edge(a, b, sample) | wrapped_edge(b, c, sample) | wrapped_edge(c, a, sample) >= 0
+            || wrapped_edge(a, c, sample) | wrapped_edge(c, b, sample) | wrapped_edge(b, a, sample)
+                >= 0
     };
     each_sample(bounds, &inside, &mut |span| {
         let mut rows = [0; SIDE_PX as usize];

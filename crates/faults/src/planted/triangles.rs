@@ -74,6 +74,7 @@ impl Interpolate for TriangleMutant {
 
 // No mutant is called from a hot loop: through `dyn`, its engines are compiled once.
 impl TriangleMutant {
+    /// The spans with their fault: of an engine, spoilt, or of a rule that is tested sample by sample.
     pub fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
@@ -106,8 +107,9 @@ impl TriangleMutant {
             }
             Self::WrapsInI32 => wrapping(corners, bounds, emit),
             Self::PanicsOnFlatBottom => {
-                let lowest = corners.map_array(|corner| corner.y).into_iter().max();
-                let on_it = corners.iter().filter(|corner| Some(corner.y) == lowest).count();
+                let [a, b, c] = corners.map_array(|corner| corner.y);
+                let lowest = a.max(b).max(c);
+                let on_it = corners.iter().filter(|corner| corner.y == lowest).count();
                 assert!(on_it != 2, "planted: slope of a flat edge");
                 Scanline.cover(corners, bounds, emit);
             }
@@ -159,12 +161,14 @@ impl TriangleMutant {
         }
     }
 
+    /// What [`Interpolate::fragments`] does: faults of values spoil the corners or the fragments, and the others have right values.
     pub fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
         emit: &mut dyn FnMut(Fragment<V>),
     ) {
+        // Some faults are right values of wrong corners.
         let mut spoilt = *triangle;
         match self {
             Self::SwappedWeights => {
@@ -172,14 +176,16 @@ impl TriangleMutant {
                 (spoilt.vertices[1].varying, spoilt.vertices[2].varying) = (c.varying, b.varying);
             }
             Self::AffineAttributes => {
-                spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = 1.0);
+                for vertex in &mut spoilt.vertices {
+                    vertex.inv_w = 1.0;
+                }
             }
             Self::ValuesAtCorner => {
                 // A triangle moved by half a pixel shows at each centre what was at the corner;
                 // its outermost pixels are not covered and keep their values.
-                spoilt.vertices.iter_mut().for_each(|vertex| {
+                for vertex in &mut spoilt.vertices {
                     vertex.position.x = vertex.position.x.saturating_add(HALF_PIXEL);
-                });
+                }
                 let mut moved = std::collections::HashMap::new();
                 let mut keep = |f: Fragment<V>| {
                     moved.insert((f.x_px, f.y_px), f);
@@ -200,7 +206,9 @@ impl TriangleMutant {
                 return;
             }
             Self::ClampsInvW => {
-                spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = vertex.inv_w.min(1.0));
+                for vertex in &mut spoilt.vertices {
+                    vertex.inv_w = vertex.inv_w.min(1.0);
+                }
             }
             Self::NaiveBarycentric => return barycentric(triangle, bounds, 0.0, emit),
             Self::EpsilonInDenominator => return barycentric(triangle, bounds, 1e-9, emit),
@@ -234,6 +242,7 @@ fn on_outline<V: Varying>(
 ) {
     // The topmost, then leftmost vertex first, and clockwise: the order they came in leaves no trace.
     let mut vertices = triangle.vertices;
+    // Equal heights from left to right.
     let top = (0..3).min_by_key(|&i| (vertices[i].position.y, vertices[i].position.x));
     vertices.rotate_left(top.unwrap_or(0));
     if twice_area(&triangle.corners()) < 0 {
@@ -246,6 +255,7 @@ fn on_outline<V: Varying>(
     let q = [v0.inv_w, v1.inv_w, v2.inv_w].map_array(|inv_w| inv_w / largest);
     for x_px in row.x0..row.x1 {
         let sample = centre_of(x_px, row.y0);
+        // Twice the areas beside the sample: where one is below 0, the sample is outside.
         let [a, b, c] = corners;
         let e =
             [twice_area(&[b, c, sample]), twice_area(&[c, a, sample]), twice_area(&[a, b, sample])];
@@ -253,6 +263,7 @@ fn on_outline<V: Varying>(
             continue;
         }
         let l = e.map_array(|e| e as f64 / area as f64);
+        // 1/w at the sample, as a part of the largest one.
         let scale = 1.0 / ((l[0] * q[0] + l[1] * q[1]) + l[2] * q[2]);
         let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
         emit(Fragment {
@@ -319,6 +330,7 @@ fn by_rule(
     by_edges(corners, near(&corners, bounds), &keeps, emit);
 }
 
+/// Edge functions as they come out in 32 bits, in the whole window, for a wrapped one may be positive anywhere.
 fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
         let sample = centre_of(x_px, y_px);
@@ -345,6 +357,7 @@ fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut
     each_sample(near(&corners, bounds), &inside, emit);
 }
 
+/// Draws what lies on a triangle without area: the samples on its line, between its ends.
 fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let [a, b, c] = corners;
     let within =
@@ -379,26 +392,39 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut d
 /// The book's scanline fill with half-open ranges, stepped down the edges in f32 pixels.
 fn steps_in_f32(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let corners = sorted(corners, |a, b| (a.y, a.x) > (b.y, b.x));
-    let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
+    let px = |p: SubpixelPoint| [p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32];
     let [top, middle, bottom] = corners.map_array(px);
-    let row = |y: f32| (y - 0.5).ceil() as i32;
-    let rows = [row(top.1).max(bounds.y0), row(middle.1), row(bottom.1).min(bounds.y1)];
-    for (first, end, from, to) in [
-        (rows[0], rows[1].min(bounds.y1), top, middle),
-        (rows[1].max(bounds.y0), rows[2], middle, bottom),
-    ] {
-        let slope = |a: (f32, f32), b: (f32, f32)| (b.0 - a.0) / (b.1 - a.1);
-        let (long_step, short_step) = (slope(top, bottom), slope(from, to));
-        let start = |a: (f32, f32), step: f32| a.0 + (first as f32 + 0.5 - a.1) * step;
-        let (mut long, mut short) = (start(top, long_step), start(from, short_step));
-        for y_px in first..end {
-            let column = |x: f32| ((x - 0.5).ceil() as i32).clamp(bounds.x0, bounds.x1);
-            let (x0_px, x1_px) = (column(long.min(short)), column(long.max(short)));
-            if x0_px < x1_px {
-                emit(Span { y_px, x0_px, x1_px });
-            }
-            (long, short) = (long + long_step, short + short_step);
+    let split = first_centre_in_f32(middle[1]);
+    let first = first_centre_in_f32(top[1]).max(bounds.y0);
+    let end = first_centre_in_f32(bottom[1]).min(bounds.y1);
+    // Down the long edge and one of the short ones.
+    step_down(first..split.min(bounds.y1), [top, bottom], [top, middle], bounds, emit);
+    step_down(split.max(bounds.y0)..end, [top, bottom], [middle, bottom], bounds, emit);
+}
+
+/// The first row or column whose centre is at or after a coordinate in pixels.
+fn first_centre_in_f32(px: f32) -> i32 {
+    (px - 0.5).ceil() as i32
+}
+
+/// The spans of rows between two edges, whose places accumulate from row to row.
+fn step_down(
+    rows: std::ops::Range<i32>,
+    long: [[f32; 2]; 2],
+    short: [[f32; 2]; 2],
+    bounds: PixelRect,
+    emit: &mut dyn FnMut(Span),
+) {
+    let steps = [long, short].map_array(|[a, b]| (b[0] - a[0]) / (b[1] - a[1]));
+    let [mut x, mut other] = [(long[0], steps[0]), (short[0], steps[1])]
+        .map_array(|(from, step)| from[0] + (rows.start as f32 + 0.5 - from[1]) * step);
+    for y_px in rows {
+        let x0_px = first_centre_in_f32(x.min(other)).clamp(bounds.x0, bounds.x1);
+        let x1_px = first_centre_in_f32(x.max(other)).clamp(bounds.x0, bounds.x1);
+        if x0_px < x1_px {
+            emit(Span { y_px, x0_px, x1_px });
         }
+        (x, other) = (x + steps[0], other + steps[1]);
     }
 }
 
@@ -416,6 +442,7 @@ fn perspective_depth<V: Varying>(
             varying: v.depth,
         }),
     };
+    // Both walks come to the same pixels in the same order.
     let mut wrong = Vec::new();
     edge_values(&depths, bounds, &mut |f| wrong.push(f.varying));
     let mut wrong = wrong.into_iter();

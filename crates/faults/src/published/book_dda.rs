@@ -60,6 +60,7 @@ fn steps(
     Ok(())
 }
 
+/// Lights a pixel of the screen that lies in the window.
 fn put(screen: BookScreen, x: i64, y: i64, emit: &mut dyn FnMut(i32, i32)) {
     let (width, height) = screen.size();
     if (0..width).contains(&x) && (0..height).contains(&y) {

@@ -15,6 +15,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
 
+/// The chapters that store a depth which is no z/w.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BookDepth {
     /// w, perspective-correct.

@@ -31,7 +31,7 @@ pub struct BookFinal {
 }
 
 /// The six borders in the book's order, as the function that is positive inside.
-const BORDERS: [fn(DVec4) -> f64; 6] =
+pub(super) const BORDERS: [fn(DVec4) -> f64; 6] =
     [|p| p.w + p.x, |p| p.w - p.x, |p| p.w + p.y, |p| p.w - p.y, |p| p.w + p.z, |p| p.w - p.z];
 
 /// Clips a triangle by left, right, bottom, top, near and far, in this order (section 8.3).
@@ -41,6 +41,7 @@ const BORDERS: [fn(DVec4) -> f64; 6] =
 pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, NoResult> {
     let mut polygon = triangle.to_vec();
     for (border, place) in BORDERS.iter().enumerate() {
+        // The published arrays have one element more for each border.
         let size = border + 4;
         let mut kept = Vec::new();
         for (i, a) in polygon.iter().enumerate() {
@@ -75,13 +76,16 @@ fn device_steps(bounds: PixelRect) -> DVec2 {
 #[derive(Clone, Copy)]
 struct Corner {
     at: DVec2,
+    /// z over w, as the depth buffer of the book holds it.
     z: f64,
     w: f64,
     varying: DVec2,
 }
 
+/// A row of the triangle, with the values at its left and its right end.
 struct ValuedRow {
     row: Row,
+    /// At its left and its right end, as w and the attributes are.
     z: [f64; 2],
     w: [f64; 2],
     varying: [DVec2; 2],
@@ -150,13 +154,12 @@ impl BookFinal {
                 z = sides.map_array(|(start, _)| start.z);
                 t = [0.0; 2];
             }
-            let at = |side: usize| {
-                let (a, b) = &sides[side];
-                let w = formulas::w(a.w, b.w, t[side]);
-                (w, formulas::value(a.w, b.w, a.varying, b.varying, t[side]))
-            };
-            let ((left_w, left), (right_w, right)) = (at(0), at(1));
-            visit(ValuedRow { row, z, w: [left_w, right_w], varying: [left, right] })?;
+            let (mut w, mut varying) = ([0.0; 2], [DVec2::ZERO; 2]);
+            for (side, (a, b)) in sides.iter().enumerate() {
+                w[side] = formulas::w(a.w, b.w, t[side]);
+                varying[side] = formulas::value(a.w, b.w, a.varying, b.varying, t[side]);
+            }
+            visit(ValuedRow { row, z, w, varying })?;
             for side in [0, 1] {
                 let (a, b) = &sides[side];
                 t[side] += 1.0 / (b.at.y - a.at.y);
@@ -174,8 +177,10 @@ impl Published for BookFinal {
     fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         let screen = BookScreen { bounds };
         self.rows(triangle, bounds, &mut |ValuedRow { row, .. }| {
-            if let Some((first, last)) = int_loop(row.left, row.right)? {
-                screen.span(row.y, first, last).into_iter().for_each(&mut *emit);
+            if let Some((first, last)) = int_loop(row.left, row.right)?
+                && let Some(span) = screen.span(row.y, first, last)
+            {
+                emit(span);
             }
             Ok(())
         })
@@ -195,6 +200,7 @@ impl Published for BookFinal {
             let Some(span) = screen.span(row.y, first, last) else { return Ok(()) };
             columns.add(first)?;
             let length = row.right - row.left;
+            // t' is 0 at the first pixel, whose column was truncated, and not at the side of the triangle.
             let (dt, dz) = (1.0 / length, (z[1] - z[0]) / length);
             let (mut t, mut depth) = (0.0, z[0]);
             for x in first..=last.min(screen.size().0 - 1) {
@@ -229,7 +235,11 @@ pub fn draw_clip(version: Version, setting: Setting) -> Image {
         // Memory is overwritten; nothing that could be drawn is defined.
         Version::Published => clip(triangle).unwrap_or_default(),
         Version::Repaired => {
-            BORDERS.iter().fold(triangle.to_vec(), |polygon, place| clip_by_sign(&polygon, place))
+            let mut polygon = triangle.to_vec();
+            for border in &BORDERS {
+                polygon = clip_by_sign(&polygon, border);
+            }
+            polygon
         }
     };
     let mut image = empty(SIDE);

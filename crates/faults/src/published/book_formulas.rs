@@ -10,7 +10,6 @@
 use glam::DVec2;
 
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty};
-use rasterproof_core::arrays::MapArray as _;
 
 /// Formula (8): a value at t' between two corners with w of `wa` and `wb`.
 pub fn value(wa: f64, wb: f64, va: DVec2, vb: DVec2, t: f64) -> DVec2 {
@@ -57,11 +56,13 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         };
         // In eighths, so that the last bits do not show.
         let off = ((value - 1.0).abs().min(1.0) * 8.0).round() / 8.0;
-        let mix = |k: usize| {
-            let [from, to] = [COLOURS[0], COLOURS[1]].map_array(|colour| f64::from(colour[k]));
-            (from + (to - from) * off) as u8
-        };
-        let colour = if value.is_finite() { [mix(0), mix(1), mix(2)] } else { WHITE };
+        let mut colour = WHITE;
+        if value.is_finite() {
+            for (k, channel) in colour.iter_mut().enumerate() {
+                let (from, to) = (f64::from(COLOURS[0][k]), f64::from(COLOURS[1][k]));
+                *channel = (from + (to - from) * off) as u8;
+            }
+        }
         image.span_mut(y, x, x + 1)[0] = colour;
     }
     image

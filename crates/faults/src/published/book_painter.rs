@@ -15,6 +15,7 @@ use rasterproof_core::geometry::sorted;
 /// Three blades, each turned by a third of a circle; each starts near, broad, and ends far under
 /// the next one, or lies flat at a depth of its own.
 fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
+    // The cosine and the sine of 120 degrees.
     let third = DVec2::new(-0.5, 0.866_025_403_784_438_6);
     let blade = [DVec2::new(-15.0, 2.0), DVec2::new(-7.0, 14.0), DVec2::new(14.0, -1.0)];
     let turned = blade.map_array(|p| third.rotate(p));
@@ -29,13 +30,14 @@ fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
     })
 }
 
+/// The blades by the published order, or by the depth of each pixel.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let blades = blades(setting);
     let mut image = empty(SIDE);
     if version == Version::Published {
-        let mean = |i: usize| blades[i].iter().map(|(_, depth)| depth).sum::<f64>();
-        let order = sorted([0, 1, 2], |&a, &b| mean(a).total_cmp(&mean(b)).is_lt());
-        for i in order {
+        // A sum orders them as their mean would.
+        let depths = blades.map_array(|[(_, a), (_, b), (_, c)]| a + b + c);
+        for i in sorted([0, 1, 2], |&a, &b| depths[a] < depths[b]) {
             fill(&mut image, &blades[i].map_array(|(corner, _)| corner), COLOURS[i]);
         }
         return image;

@@ -12,6 +12,7 @@ use glam::{DVec2, DVec3};
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty, fill};
 use rasterproof_core::angle::sin_cos;
 
+/// A turn about an axis, as one of the two sources has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
     X,
@@ -21,6 +22,7 @@ pub enum Turn {
     CodeX,
 }
 
+/// The point after the published turn.
 pub fn published(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
     let (s, c) = sin_cos(angle_rad);
     match turn {

@@ -73,6 +73,7 @@ impl Side {
 pub(super) struct Row {
     pub half: usize,
     pub y: i64,
+    /// Where the sides cross the row, in pixels.
     pub left: f64,
     pub right: f64,
 }

@@ -13,15 +13,19 @@ use super::{
 };
 use rasterproof_core::arrays::MapArray as _;
 
+/// A specimen: where it is from, what is wrong with it, and how it is shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
     pub name: &'static str,
+    /// Where in the book, or in which course.
     pub source: &'static str,
     pub fault: &'static str,
+    /// What the repaired version does instead.
     pub cure: &'static str,
     pub exhibit: Exhibit,
 }
 
+/// What shows the fault, and a case of the same kind in which it does not show.
 #[derive(Clone, Copy, Debug)]
 pub enum Exhibit {
     /// A rasterizer: the exposing and the harmless case.
@@ -32,11 +36,14 @@ pub enum Exhibit {
     Scene(&'static str, fn(Version, Setting) -> Image),
 }
 
+/// Triangles in a square window, with w and values of their corners.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
     pub name: &'static str,
+    /// Its window is a square that begins at the origin.
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
+    /// Of the three corners of every triangle, as the values are.
     pub w: [f64; 3],
     pub values: [f64; 3],
 }
@@ -47,17 +54,21 @@ pub struct LineCase {
     pub pixels: [(i32, i32); 2],
 }
 
+/// An input for which the book shows what its code draws.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
+    /// The card of the code that drew it.
     pub specimen: &'static str,
     /// Corners in the book's coordinates: y up, samples at whole numbers.
     pub corners: &'static [[(f64, f64); 3]],
 }
 
+/// The side of the square window for which the book shows its pictures.
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {
+    /// The corners in this project's coordinates: y down, samples at halves.
     pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
         let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];
         self.corners.iter().map(|corners| corners.map_array(to_window)).collect()
@@ -70,6 +81,7 @@ macro_rules! recorded {
     };
 }
 
+/// Values and w of corners: growing, all the same, and without perspective.
 const RAMP: [f64; 3] = [0.0, 0.5, 1.0];
 const FLAT: [f64; 3] = [0.5; 3];
 const ONES: [f64; 3] = [1.0; 3];
@@ -117,6 +129,7 @@ macro_rules! cards {
     };
 }
 
+/// Every specimen, in the order of the contact sheet.
 pub const CARDS: &[Card] = cards![
     "book-dda", "book 2.1", "no last pixel, rounds down, slope drifts",
         "exact slope, rounded height, both ends",

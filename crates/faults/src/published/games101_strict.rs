@@ -14,9 +14,7 @@
 use glam::{DVec2, Vec2};
 
 use super::scene::{Image, Setting, Version, chequered, floor};
-use super::{
-    DrawResult, Fragments, NoResult, Published, RealTriangle, RealVertex, Spans, bare, to_int,
-};
+use super::{DrawResult, Fragments, NoResult, Published, RealTriangle, Spans, bare, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -42,8 +40,8 @@ fn inside(corners: [Vec2; 3], sample: Vec2) -> bool {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         (a - sample).perp_dot(a - b)
     };
-    let sides = [side(0), side(1), side(2)];
-    sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+    let [a, b, c] = [side(0), side(1), side(2)];
+    (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0)
 }
 
 impl Games101Strict {
@@ -53,15 +51,12 @@ impl Games101Strict {
         bounds: PixelRect,
         emit: &mut dyn FnMut(i32, i32, Vec2),
     ) -> Result<(), NoResult> {
-        let low = corners.into_iter().fold(corners[0], Vec2::min);
-        let high = corners.into_iter().fold(corners[0], Vec2::max);
-        let range = |low: f32, high: f32, size: u32| -> Result<_, NoResult> {
-            let (first, last) = (to_int(low.into())?, to_int(high.into())? + 1);
-            Ok(first.max(0)..(last + 1).min(size.into()))
-        };
-        let rows = range(low.y, high.y, bounds.height())?;
-        for x in range(low.x, high.x, bounds.width())? {
+        let [a, b, c] = corners;
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let rows = whole_range(low.y, high.y, bounds.height())?;
+        for x in whole_range(low.x, high.x, bounds.width())? {
             for y in rows.clone() {
+                // The lower left corner of the pixel, with y up.
                 let corner = Vec2::new(x as f32, y as f32);
                 let sample = if self.whole_samples { corner } else { corner + 0.5 };
                 if inside(corners, sample) {
@@ -73,13 +68,21 @@ impl Games101Strict {
     }
 }
 
+/// The rows or columns of the bounding box, one more than are needed, as far as they are in the window.
+fn whole_range(low: f32, high: f32, size: u32) -> Result<std::ops::Range<i64>, NoResult> {
+    let (first, last) = (to_int(low.into())?, to_int(high.into())? + 1);
+    Ok(first.max(0)..(last + 1).min(size.into()))
+}
+
 /// computeBarycentric2D: the weights of the first two corners and of the third.
 fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> [f32; 3] {
-    let weight = |a: Vec2, b: Vec2, c: Vec2| {
-        let at = |q: Vec2| q.x * (b.y - c.y) + (c.x - b.x) * q.y + b.x * c.y - c.x * b.y;
-        at(p) / at(a)
-    };
-    [weight(a, b, c), weight(b, c, a), weight(c, a, b)]
+    [weight([a, b, c], p), weight([b, c, a], p), weight([c, a, b], p)]
+}
+
+/// The weight of the first corner: the distance from the edge opposite, as a part of that of the corner.
+fn weight([a, b, c]: [Vec2; 3], p: Vec2) -> f32 {
+    let at = |q: Vec2| q.x * (b.y - c.y) + (c.x - b.x) * q.y + b.x * c.y - c.x * b.y;
+    at(p) / at(a)
 }
 
 impl Published for Games101Strict {
@@ -100,13 +103,14 @@ impl Published for Games101Strict {
         let corners = corners(triangle, bounds);
         self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
             let weights = weights(corners, sample).map_array(f64::from);
-            let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
-            let inverse: f64 = (0..3).map(over_w).sum();
-            let sum = |value: fn(&RealVertex) -> f64| {
-                (0..3).map(|i| over_w(i) * value(&triangle[i])).sum::<f64>() / inverse
-            };
-            let varying = DVec2::new(sum(|v| v.varying.x), sum(|v| v.varying.y));
-            emit(Fragment { x_px, y_px, depth: sum(|v| v.depth), varying });
+            let (mut inverse, mut depth, mut varying) = (0.0, 0.0, DVec2::ZERO);
+            for (weight, v) in weights.into_iter().zip(triangle) {
+                let over_w = weight / if self.true_w { v.w } else { 1.0 };
+                inverse += over_w;
+                depth += over_w * v.depth;
+                varying += over_w * v.varying;
+            }
+            emit(Fragment { x_px, y_px, depth: depth / inverse, varying: varying / inverse });
         })
     }
 }

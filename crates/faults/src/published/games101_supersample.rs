@@ -10,10 +10,10 @@ use glam::DVec2;
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty, fill};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::PixelRect;
 
 const SAMPLES: u32 = 2;
 
+/// Two halves of a square, or one of them alone.
 fn triangles(setting: Setting) -> Vec<[DVec2; 3]> {
     let p = DVec2::new;
     let lower = [p(3.3, 4.2), p(28.6, 27.9), p(3.3, 27.9)];
@@ -23,6 +23,7 @@ fn triangles(setting: Setting) -> Vec<[DVec2; 3]> {
     }
 }
 
+/// The mean of the samples of each pixel.
 fn resolve(samples: &Image) -> Image {
     let mut image = empty(SIDE);
     let bounds = image.bounds();
@@ -30,9 +31,13 @@ fn resolve(samples: &Image) -> Image {
     for y in bounds.y0..bounds.y1 {
         for x in bounds.x0..bounds.x1 {
             let mut sum = [0u32; 3];
-            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-                let colour = samples.get(x * n + i, y * n + j).unwrap_or_default();
-                (0..3).for_each(|k| sum[k] += u32::from(colour[k]));
+            for i in 0..n {
+                for j in 0..n {
+                    let colour = samples.get(x * n + i, y * n + j).unwrap_or_default();
+                    for (sum, channel) in sum.iter_mut().zip(colour) {
+                        *sum += u32::from(channel);
+                    }
+                }
             }
             // A mean of bytes is a byte.
             image.span_mut(y, x, x + 1)[0] = sum.map_array(|s| (s / (SAMPLES * SAMPLES)) as u8);
@@ -41,10 +46,12 @@ fn resolve(samples: &Image) -> Image {
     image
 }
 
+/// Draws a triangle into samples, which are pixels of a larger picture.
 fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
     fill(samples, &triangle.map_array(|p| p * f64::from(SAMPLES)), colour);
 }
 
+/// Draws the triangles of the setting by samples, and averages them early as published, or once at the end.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let (mut all, mut image) = (empty(SIDE * SAMPLES), empty(SIDE));
     for triangle in triangles(setting) {
@@ -55,11 +62,12 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         let mut own = empty(SIDE * SAMPLES);
         drawn(&mut own, triangle, COLOURS[0]);
         let mean = resolve(&own);
-        let PixelRect { y0, y1, x0, x1 } = image.bounds();
-        for (x, y) in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y))) {
-            let colour = mean.get(x, y).unwrap_or_default();
-            if colour != [0; 3] {
-                image.span_mut(y, x, x + 1)[0] = colour;
+        // The published mistake: an average replaces what earlier triangles have left in the pixel.
+        for (y, row) in mean.rows() {
+            for (pixel, colour) in image.row_mut(y).iter_mut().zip(row) {
+                if *colour != [0; 3] {
+                    *pixel = *colour;
+                }
             }
         }
     }

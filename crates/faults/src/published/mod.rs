@@ -46,6 +46,7 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
 /// A corner as a specimen receives it: real numbers in window pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RealVertex {
+    /// Off the lattice, as published code takes it.
     pub position_px: DVec2,
     /// Depth, linear in the window (z/w).
     pub depth: f64,
@@ -53,6 +54,7 @@ pub struct RealVertex {
     pub varying: DVec2,
 }
 
+/// A triangle as published code takes it.
 pub type RealTriangle = [RealVertex; 3];
 
 /// Positions alone, with depth 0, w 1 and no values.
@@ -161,6 +163,7 @@ impl Columns {
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
+/// Whether it was drawn, or why the published code gives no result.
 pub type DrawResult = Result<(), NoResult>;
 
 pub trait Published: fmt::Debug + Sync {
@@ -200,6 +203,7 @@ pub trait Published: fmt::Debug + Sync {
     }
 }
 
+/// A published line drawer, whose ends are positions and not pixels.
 pub trait PublishedLine: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` in the published order, as often as they are set.
     fn draw(
@@ -214,6 +218,7 @@ pub trait PublishedLine: fmt::Debug + Sync {
 /// the whole numbers are the sample points.
 #[derive(Clone, Copy, Debug)]
 struct BookScreen {
+    /// The window, whose rows the book counts from below.
     bounds: PixelRect,
 }
 

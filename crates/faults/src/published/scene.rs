@@ -16,15 +16,20 @@ use rasterproof_core::triangle::{Fragment, ScreenTriangle, ScreenVertex};
 pub type Colour = [u8; 3];
 pub type Image = Frame<Colour>;
 
+/// As published, or with its fault repaired and nothing else changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     Published,
+    /// With the cure of its card, and otherwise the published code.
     Repaired,
 }
 
+/// Whether the picture is to show the fault, or is one in which it does not show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
+    /// What the fault needs occurs, so the versions differ.
     Exposing,
+    /// What the fault needs does not occur, so both versions draw the same.
     Harmless,
 }
 
@@ -41,6 +46,7 @@ fn at(position_px: DVec2) -> SubpixelPoint {
     SubpixelPoint::from_px(position_px.x, position_px.y).expect("scenes stay in the domain")
 }
 
+/// Fills a convex polygon as a fan around its first corner, by this project's engine.
 pub fn fill(image: &mut Image, corners_px: &[DVec2], colour: Colour) {
     for pair in corners_px.get(1..).unwrap_or_default().windows(2) {
         EdgeFunction.cover([at(corners_px[0]), at(pair[0]), at(pair[1])], image.bounds(), |span| {
@@ -140,13 +146,11 @@ pub fn clip_vertex(x_ndc: f64, y_ndc: f64, z_ndc: f64, w: f64) -> ClipVertex {
 /// Fills a clipped polygon on a screen of `SIDE` pixels; a corner that is not a number draws nothing.
 pub fn fill_clipped(image: &mut Image, polygon: &[ClipVertex], colour: Colour) {
     let side = f64::from(image.bounds().width());
-    let on_screen: Vec<_> = polygon
-        .iter()
-        .map(|v| {
-            let ndc = v.position.truncate().truncate() / v.position.w;
-            DVec2::new((ndc.x + 1.0) / 2.0 * side, (1.0 - ndc.y) / 2.0 * side)
-        })
-        .collect();
+    let mut on_screen = Vec::with_capacity(polygon.len());
+    for v in polygon {
+        let ndc = v.position.truncate().truncate() / v.position.w;
+        on_screen.push(DVec2::new((ndc.x + 1.0) / 2.0 * side, (1.0 - ndc.y) / 2.0 * side));
+    }
     for pair in on_screen.get(1..).unwrap_or_default().windows(2) {
         let triangle = [on_screen[0], pair[0], pair[1]];
         if triangle.iter().all(|p| p.is_finite() && p.abs().max_element() < 8e6) {

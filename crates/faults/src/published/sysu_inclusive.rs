@@ -16,6 +16,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
+/// The published rule and values.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuInclusive;
 
@@ -23,6 +24,7 @@ pub struct SysuInclusive;
 pub(super) struct Sample {
     pub x_px: i32,
     pub y_px: i32,
+    /// At most 0 inside, and wrapped around where they overflow.
     pub edges: [i32; 3],
     pub inverse: f32,
 }
@@ -38,6 +40,7 @@ fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], NoResult> {
     Ok(corners)
 }
 
+/// The triangle with its corners in the order of a front face.
 pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, NoResult> {
     let [a, b, c] = whole(triangle)?.map_array(|corner| corner.map_array(i128::from));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -65,8 +68,10 @@ pub(super) fn samples(
     let start = edges.map_array(|(i, j, k)| {
         k.wrapping_add(i.wrapping_mul(*columns.start())).wrapping_add(j.wrapping_mul(*rows.start()))
     });
+    // The sum of the three is the same everywhere: twice the area.
     let delta = start.into_iter().fold(0i32, i32::wrapping_add);
     let inverse = (1.0 / f64::from(delta)) as f32;
+    // From pixel to pixel and from row to row each function changes by a constant.
     let mut at_row = start;
     for y_px in rows {
         let mut at = at_row;
@@ -110,6 +115,7 @@ impl Published for SysuInclusive {
     ) -> DrawResult {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
+            // Each weight is an edge function over the sum, and belongs to the corner opposite.
             let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);
             let (depth, varying) = lerp(&triangle, [bc, ca, ab]);
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });

@@ -5,9 +5,8 @@
 //! Symptom: a triangle that covers the screen with every corner outside is dropped; one with a corner behind
 //! the eye is kept whole and divided by a w of the wrong sign.
 
-use glam::DVec4;
-
 use super::ClipVertex;
+use super::book_final::BORDERS;
 use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
@@ -19,15 +18,18 @@ fn inside(v: &ClipVertex) -> bool {
     (0.1..=100.0).contains(&p.w) && p.truncate().abs().max_element() <= p.w
 }
 
+/// The published choice: all of a triangle, or nothing of it.
 pub fn kept(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
     if triangle.iter().any(inside) { triangle.to_vec() } else { Vec::new() }
 }
 
 /// The cure: what lies on the inner side of all six planes.
 fn clipped(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
-    let planes: [fn(DVec4) -> f64; 6] =
-        [|p| p.w + p.x, |p| p.w - p.x, |p| p.w + p.y, |p| p.w - p.y, |p| p.w + p.z, |p| p.w - p.z];
-    planes.iter().fold(triangle.to_vec(), |polygon, plane| clip_by_sign(&polygon, plane))
+    let mut polygon = triangle.to_vec();
+    for border in &BORDERS {
+        polygon = clip_by_sign(&polygon, border);
+    }
+    polygon
 }
 
 /// A triangle around the whole screen, or one within it.

@@ -19,19 +19,19 @@ impl Published for SysuTruncated {
     fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         let triangle = front(triangle)?;
         // The corners' positions in whole pixels, as f32.
-        let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;
+        let [a, b, c] = triangle.map_array(|v| v.position_px.trunc().as_vec2());
         let mut result = Ok(());
         samples(&triangle, bounds, &mut |s| {
             let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);
-            let at = |axis: usize| {
-                let sum = bc * position(0, axis) + ca * position(1, axis) + ab * position(2, axis);
-                to_int(sum.into()).map(|px| px as i32)
-            };
-            match (at(0), at(1)) {
-                (Ok(x_px), Ok(y_px)) if bounds.contains(x_px, y_px) => {
-                    emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            let sum = bc * a + ca * b + ab * c;
+            match (to_int(sum.x.into()), to_int(sum.y.into())) {
+                (Ok(x), Ok(y)) => {
+                    // Within i32, as `to_int` says.
+                    let (x_px, y_px) = (x as i32, y as i32);
+                    if bounds.contains(x_px, y_px) {
+                        emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+                    }
                 }
-                (Ok(_), Ok(_)) => {}
                 (Err(refused), _) | (_, Err(refused)) => result = Err(refused),
             }
         })?;

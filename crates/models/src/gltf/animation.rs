@@ -7,28 +7,37 @@ use super::data::Data;
 use super::document::{Node, entry};
 use crate::Pose;
 
+/// An animation, as the document describes it.
 #[derive(Deserialize)]
 struct Animation {
     channels: Vec<Channel>,
     samplers: Vec<Sampler>,
 }
 
+/// What is moved, and by which sampler.
 #[derive(Deserialize)]
 struct Channel {
+    /// The number of what gives the values.
     sampler: usize,
     target: Target,
 }
 
+/// The node, and which of its parts.
 #[derive(Deserialize)]
 struct Target {
     node: Option<usize>,
+    /// `translation`, `rotation`, `scale` or `weights`.
     path: String,
 }
 
+/// The accessors of moments and of values.
 #[derive(Deserialize)]
 struct Sampler {
+    /// The accessor of the moments, in seconds.
     input: usize,
+    /// The accessor of the values at them.
     output: usize,
+    /// `LINEAR` where there is none.
     interpolation: Option<String>,
 }
 
@@ -53,6 +62,7 @@ pub(super) fn apply(data: &mut Data<'_>, pose: Pose) -> Result<(), String> {
     Ok(())
 }
 
+/// Replaces what a node has by what an animation gives.
 fn set(node: &mut Node, path: &str, value: &[f64]) {
     let value: Vec<f32> = value.iter().map(|number| *number as f32).collect();
     match (path, &value[..]) {
@@ -78,6 +88,7 @@ fn value(data: &Data<'_>, sampler: &Sampler, path: &str, time: f64) -> Result<Ve
         "rotation" => data.vectors::<4>(output)?.into_flattened(),
         _ => data.vectors::<1>(output)?.into_flattened(),
     };
+    // A cubic spline has three values at each moment.
     let is_cubic = sampler.interpolation.as_deref() == Some("CUBICSPLINE");
     let parts = if is_cubic { 3 } else { 1 };
     let width = values.len().checked_div(times.len() * parts).unwrap_or(0);
@@ -91,6 +102,7 @@ fn value(data: &Data<'_>, sampler: &Sampler, path: &str, time: f64) -> Result<Ve
     let key = times.partition_point(|moment| *moment <= time).max(1) - 1;
     let from = at(key, middle);
     let Some(next) = times.get(key + 1) else { return Ok(from.to_vec()) };
+    // Between two moments, the time as a part of the way from one to the other.
     let (to, span) = (at(key + 1, middle), next - times[key]);
     let t = if span > 0.0 { (time - times[key]) / span } else { 0.0 };
     let mixed = |weigh: &dyn Fn(usize) -> f64| (0..width).map(weigh).collect::<Vec<f64>>();

@@ -56,9 +56,12 @@ struct Column<'a> {
     /// From the first element on; nothing where all are zeros.
     bytes: Option<&'a [u8]>,
     count: usize,
+    /// From one element to the next, in bytes.
     stride: usize,
+    /// How many numbers an element has; a reader may take the first of them alone.
     width: usize,
     kind: Kind,
+    /// Whether whole numbers stand for numbers from 0 or -1 to 1.
     normalized: bool,
 }
 
@@ -69,8 +72,10 @@ impl<'a> Data<'a> {
         // By its name the number of a buffer among those that were read.
         let mut read: HashMap<&str, usize> = HashMap::new();
         let mut numbers = Vec::new();
+        // All buffers together have a limit, not each of them.
         let mut left_bytes = limits::MODEL_BYTES;
         for (number, buffer) in root.buffers.iter().enumerate() {
+            // A file that several buffers name is read once.
             let known = buffer.uri.as_deref().and_then(|uri| read.get(uri)).copied();
             numbers.push(known.unwrap_or(buffers.len()));
             let bytes = match (&buffer.uri, bin) {
@@ -168,6 +173,7 @@ impl<'a> Data<'a> {
         entry(&self.root.accessors, "accessors", number)
     }
 
+    /// Where the numbers of an accessor are, all of which lie in its buffer view.
     fn column(&self, number: usize) -> Result<Column<'_>, String> {
         let accessor = self.accessor(number)?;
         let failed = |cause: &str| format!("accessors[{number}]: {cause}");
@@ -184,6 +190,7 @@ impl<'a> Data<'a> {
         let (all, stride) = self.view(view)?;
         let stride = stride.filter(|&stride| stride > 0).unwrap_or(size);
         // Nothing has to follow the last element.
+        // The last element begins a stride before the end, or less.
         let needed = match count.checked_sub(1) {
             None => Some(0),
             Some(last) => last.checked_mul(stride).and_then(|start| start.checked_add(size)),
@@ -206,6 +213,7 @@ impl<'a> Data<'a> {
             return Err(format!("accessors[{number}] has {width} numbers where {N} are needed"));
         }
         let mut vectors = column.read::<N>();
+        // A sparse accessor replaces some of its elements, whose numbers and values have views of their own.
         let Some(sparse) = &self.accessor(number)?.sparse else { return Ok(vectors) };
         let failed = |cause: &str| format!("accessors[{number}].sparse: {cause}");
         let kind = kind_of(sparse.indices.component_type);
@@ -213,6 +221,7 @@ impl<'a> Data<'a> {
         let Some(kind) = kind.filter(|kind| of_indices.contains(kind)) else {
             return Err(failed("the component type of the indices is not one of glTF"));
         };
+        // As many numbers of elements as values for them.
         let count = usize::try_from(sparse.count).unwrap_or(usize::MAX);
         let size = column.width * column.kind.size();
         let part = |view: usize, offset: u64, size: usize| {
@@ -263,14 +272,18 @@ impl<'a> Data<'a> {
             let read = self.vectors::<1>(number)?;
             return Ok(read.into_iter().map(|[index]| index as u32).collect());
         };
+        // Usual indices are read without a detour over doubles.
         // No index is below 0, whatever the file says.
         let kind = match column.kind {
             Kind::I8 => Kind::U8,
             Kind::I16 => Kind::U16,
             kind => kind,
         };
-        let index = |at: usize| kind.number(&bytes[at * column.stride..], false) as u32;
-        Ok((0..column.count).map(index).collect())
+        let mut indices = Vec::with_capacity(column.count);
+        for at in 0..column.count {
+            indices.push(kind.number(&bytes[at * column.stride..], false) as u32);
+        }
+        Ok(indices)
     }
 }
 
@@ -280,16 +293,16 @@ impl Column<'_> {
         let Some(bytes) = self.bytes else { return vec![[0.0; N]; self.count] };
         if self.kind == Kind::F32 && self.stride == 4 * N && self.count > 0 {
             let number = |bytes: [u8; 4]| f64::from(f32::from_le_bytes(bytes));
-            let element = |words: &[[u8; 4]; N]| words.map(number);
             let words = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
-            return words[..self.count].iter().map(element).collect();
+            return words[..self.count].iter().map(|element| element.map(number)).collect();
         }
         let size = self.kind.size();
-        let element = |number: usize| {
+        let mut read = Vec::with_capacity(self.count);
+        for number in 0..self.count {
             let element = &bytes[number * self.stride..];
-            std::array::from_fn(|at| self.number(&element[at * size..]))
-        };
-        (0..self.count).map(element).collect()
+            read.push(std::array::from_fn(|at| self.number(&element[at * size..])));
+        }
+        read
     }
 
     /// The number at the beginning of these bytes. Normalized ones are in [-1, 1].
@@ -328,14 +341,16 @@ pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec
             .with_decode_allow_trailing_bits(true);
         let engine = GeneralPurpose::new(&base64::alphabet::STANDARD, config);
         // Some programs break the lines, and some write the alphabet of addresses.
-        let usual = |byte| match byte {
-            b'-' => b'+',
-            b'_' => b'/',
-            _ => byte,
-        };
-        let data = data.into_iter().filter(|byte| !byte.is_ascii_whitespace()).map(usual);
-        let data: Vec<u8> = data.collect();
-        return engine.decode(data).map_err(|error| format!("is not base64: {error}"));
+        let mut usual = Vec::with_capacity(data.len());
+        for byte in data {
+            match byte {
+                b'-' => usual.push(b'+'),
+                b'_' => usual.push(b'/'),
+                _ if byte.is_ascii_whitespace() => {}
+                _ => usual.push(byte),
+            }
+        }
+        return engine.decode(usual).map_err(|error| format!("is not base64: {error}"));
     }
     let shown = printable_short(uri, 60);
     if uri.contains("://") && !uri.starts_with("file:") {

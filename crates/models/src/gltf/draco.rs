@@ -38,6 +38,7 @@ pub(super) fn decode(
     let mut mesh = Mesh::new();
     let limits = DecodeLimits::default().with_max_decoded_bytes(*left_bytes);
     let [points, triangles] = BYTES.map_array(|bytes| *left_bytes / bytes);
+    // The decoder refuses what would take more before it takes it.
     let limits = limits.with_max_points(points).with_max_faces(triangles);
     MeshDecoder::new()
         .decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh)
@@ -59,6 +60,7 @@ pub(super) fn decode(
 }
 
 impl DecodedPrimitive {
+    /// The vertices of all corners, three for each triangle.
     pub(super) fn indices(&self) -> Vec<u32> {
         let faces = (0..self.mesh.num_faces() as u32).map(|face| self.mesh.face(FaceIndex(face)));
         faces.flatten().map(|point| point.0).collect()

@@ -41,10 +41,12 @@ const NAMES: [(&str, &str); 10] = [
 /// A document of version 1.0, with the number of each name in its list.
 struct First<'a> {
     document: &'a Value,
+    /// The place of a name in its list.
     numbers: HashMap<(&'static str, &'a str), usize>,
 }
 
 impl<'a> First<'a> {
+    /// Numbers the entries of every list.
     fn of(document: &'a Value) -> Self {
         let mut first = Self { document, numbers: HashMap::new() };
         for (list, _) in LISTS {
@@ -55,6 +57,7 @@ impl<'a> First<'a> {
         first
     }
 
+    /// The entries of a list with their names, in the order of the document.
     fn list(&self, list: &str) -> impl Iterator<Item = (&'a String, &'a Value)> + use<'a> {
         self.document.get(list).and_then(Value::as_object).into_iter().flatten()
     }
@@ -66,19 +69,20 @@ impl<'a> First<'a> {
 
     /// An object with some members of another one, and with numbers where that has names.
     fn members(&self, value: &Value, names: &[&str]) -> Value {
-        let member = |name: &&str| {
-            let of = value.get(name)?;
-            let list = NAMES.iter().find(|(member, _)| member == name);
-            let made = match (list, of) {
-                (None, of) => of.clone(),
+        let mut made = Map::new();
+        for name in names {
+            let Some(of) = value.get(name) else { continue };
+            let of = match (NAMES.iter().find(|(member, _)| member == name), of) {
+                (None, of) => Some(of.clone()),
                 (Some((_, list)), Value::Array(all)) => {
-                    all.iter().filter_map(|one| self.number(list, one)).collect()
+                    Some(all.iter().filter_map(|one| self.number(list, one)).collect())
                 }
-                (Some((_, list)), one) => self.number(list, one)?,
+                // A name that is not in the list is left out.
+                (Some((_, list)), one) => self.number(list, one),
             };
-            Some(((*name).to_owned(), made))
-        };
-        Value::Object(names.iter().filter_map(member).collect())
+            made.extend(of.map(|of| ((*name).to_owned(), of)));
+        }
+        made.into()
     }
 
     /// The triangles of a mesh. The first set of each kind of attribute had no number.
@@ -104,6 +108,7 @@ impl<'a> First<'a> {
 pub(super) fn upgraded(json: &[u8], contents: &mut Contents) -> Result<Vec<u8>, serde_json::Error> {
     let document: Value = serde_json::from_slice(json)?;
     let first = First::of(&document);
+    // Every list with what means the same in both versions; below, what does not is added.
     let mut lists: HashMap<&str, Vec<Value>> = HashMap::new();
     for (list, members) in LISTS {
         let made = first.list(list).map(|(_, value)| first.members(value, members));
@@ -165,6 +170,7 @@ pub(super) fn upgraded(json: &[u8], contents: &mut Contents) -> Result<Vec<u8>, 
     lists.entry("nodes").or_default().extend(nodes);
     let animations = document.get("animations").and_then(Value::as_object).map_or(0, Map::len);
     contents.count("animation", animations as u64);
+    // The lists have numbers now, and no names.
     let mut out = json!({ "asset": { "version": "2.0" } });
     for (list, made) in lists {
         out[list] = made.into();
@@ -185,11 +191,9 @@ fn material(first: &First<'_>, value: &Value, made: &mut Value, contents: &mut C
         pbr["baseColorTexture"] = json!({ "index": number });
     } else if let Some(colour) = diffuse.and_then(Value::as_array) {
         // Its colours are those of the screen.
-        let channel = |at: usize| {
-            let channel = colour.get(at).and_then(Value::as_f64).unwrap_or(1.0);
-            if at < 3 { decoded(channel) } else { channel }
-        };
-        pbr["baseColorFactor"] = json!([channel(0), channel(1), channel(2), channel(3)]);
+        let [r, g, b, a] =
+            [0, 1, 2, 3].map(|at: usize| colour.get(at).and_then(Value::as_f64).unwrap_or(1.0));
+        pbr["baseColorFactor"] = json!([decoded(r), decoded(g), decoded(b), a]);
     }
     let shiny = shiny(values, &mut pbr);
     for (member, key) in [
@@ -198,12 +202,6 @@ fn material(first: &First<'_>, value: &Value, made: &mut Value, contents: &mut C
         ("ambient", "ambient colour of material"),
         ("bump", "bump map"),
     ] {
-        let is_lit = |value: &Value| match value {
-            Value::Array(channels) => {
-                channels.iter().take(3).any(|channel| channel.as_f64().is_some_and(|c| c > 0.0))
-            }
-            value => value.is_string(),
-        };
         let is_drawn = member == "specular" && shiny.is_some();
         let is_left_out = !is_drawn && values.get(member).is_some_and(is_lit);
         contents.count(key, is_left_out.into());
@@ -218,18 +216,28 @@ fn material(first: &First<'_>, value: &Value, made: &mut Value, contents: &mut C
     made["doubleSided"] = true.into();
 }
 
+/// Whether a colour has an effect, or a texture is named in its place.
+fn is_lit(value: &Value) -> bool {
+    match value {
+        Value::Array(channels) => {
+            channels.iter().take(3).any(|channel| channel.as_f64().is_some_and(|c| c > 0.0))
+        }
+        value => value.is_string(),
+    }
+}
+
 /// A material with a specular colour and an exponent as one of the extension that has gloss, with the diffuse part of
 /// `pbr`: of such a gloss that [`super::materials`] makes the exponent of it again.
 fn shiny(values: &Value, pbr: &mut Value) -> Option<Value> {
     let channels = values.get("specular")?.as_array()?;
-    let channel = |at: usize| channels.get(at).and_then(Value::as_f64).unwrap_or(0.0);
+    let channels =
+        [0, 1, 2].map(|at: usize| channels.get(at).and_then(Value::as_f64).unwrap_or(0.0));
     let exponent = values.get("shininess")?.as_f64().filter(|&exponent| exponent > 0.0)?;
-    if (0..3).all(|at| channel(at) <= 0.0) {
+    if channels.iter().all(|channel| *channel <= 0.0) {
         return None;
     }
     let gloss = 1.0 - libm::pow(2.0 / (exponent + 2.0), 0.25);
-    let factor = [0, 1, 2].map(|at| decoded(channel(at)));
-    let mut shiny = json!({ "specularFactor": factor, "glossinessFactor": gloss });
+    let mut shiny = json!({ "specularFactor": channels.map(decoded), "glossinessFactor": gloss });
     for (from, to) in [("baseColorFactor", "diffuseFactor"), ("baseColorTexture", "diffuseTexture")]
     {
         if let Some(part) = pbr.as_object_mut().and_then(|pbr| pbr.remove(from)) {

@@ -29,6 +29,7 @@ pub(super) type Coordinates = (u32, DAffine2);
 /// A surface, and the coordinates of its texture and of maps that are read elsewhere.
 pub(super) struct Described {
     pub surface: Surface,
+    /// Of the texture, and of the first map that has others.
     pub uvs: [Option<Coordinates>; 2],
 }
 
@@ -44,11 +45,14 @@ pub(crate) fn encoded(linear: f64) -> f64 {
 /// The pictures of a document, by their numbers.
 #[derive(Default)]
 pub(super) struct Images {
+    /// Decoded by their bytes, so that a picture of several names is decoded once.
     pictures: Pictures,
+    /// By their numbers, also those that cannot be read, so that they are not read again.
     read: HashMap<usize, Result<Decoded, String>>,
 }
 
 impl Images {
+    /// The picture of this number, decoded where it is first asked for.
     fn get(&mut self, data: &Data<'_>, number: usize) -> Result<Decoded, String> {
         let Self { pictures, read } = self;
         let new = || {
@@ -90,6 +94,7 @@ pub(super) fn describe(
         Some(number) => data.root.materials.get(number)?,
         None => &missing,
     };
+    // What is counted and what is warned of, while the reader holds the other parts.
     let Contents { not_drawn, warnings, .. } = contents;
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
     let pbr = &material.pbr_metallic_roughness;
@@ -98,6 +103,7 @@ pub(super) fn describe(
     let info = colour_texture(material);
     let factor = other.map_or(pbr.base_color_factor, |other| other.diffuse_factor);
     let [r, g, b, alpha] = factor.unwrap_or([1.0; 4]);
+    // A highlight is drawn of a surface with gloss, but not if a map changes it from texel to texel.
     let mut specular = Specular::default();
     if let Some(other) = other {
         let colour = other.specular_factor.unwrap_or([1.0; 3]);
@@ -115,6 +121,7 @@ pub(super) fn describe(
     // Light has no effect on it, and its maps are of other surfaces.
     let is_plain = !is_physical && !unlit;
     let emits = material.emissive_factor.iter().any(|&channel| channel > 0.0);
+    // What it has and is not drawn is counted.
     for (key, is_there) in [
         ("specular map", other.is_some_and(|other| other.specular_glossiness_texture.is_some())),
         ("normal map", is_plain && material.normal_texture.is_some()),
@@ -126,22 +133,24 @@ pub(super) fn describe(
             count(key);
         }
     }
+    // The base colour is a factor and a texture.
     let mode = alpha_mode(material);
-    let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
-    let name = material.name.as_deref().map(|name| records::name(name).to_owned());
-    let name = name.unwrap_or_else(numbered);
-    let decoded = info.and_then(|info| {
-        let read = texture(data, info, images);
-        match read {
-            Ok(decoded) => Some(decoded),
-            Err(cause) => {
-                let name = printable_short(&name, 40);
-                let text = format!("{cause}; the material '{name}' is drawn in its colour");
-                warnings.add("textures", &text);
-                None
-            }
+    // One without a name is called by its number.
+    let name = match (&material.name, number) {
+        (Some(name), _) => records::name(name).to_owned(),
+        (None, Some(number)) => format!("materials[{number}]"),
+        (None, None) => String::new(),
+    };
+    let decoded = match info.map(|info| texture(data, info, images)) {
+        None => None,
+        Some(Ok(decoded)) => Some(decoded),
+        Some(Err(cause)) => {
+            let name = printable_short(&name, 40);
+            let text = format!("{cause}; the material '{name}' is drawn in its colour");
+            warnings.add("textures", &text);
+            None
         }
-    });
+    };
     // Textures and colours of an unlit surface are decoded before they are filtered or interpolated, as those of a physical one.
     let is_linear = is_physical || unlit;
     let physical = is_linear.then(|| {
@@ -157,6 +166,7 @@ pub(super) fn describe(
         };
         (linear, Arc::new(physical(data, material, images, &mut count, &mut missing)))
     });
+    // Opacities are the product of a factor and of those of the picture.
     let map = decoded.as_ref().and_then(Decoded::opacity);
     let factor = f64::from(alpha).clamp(0.0, 1.0);
     // A file may let blend what is opaque everywhere.
@@ -167,6 +177,7 @@ pub(super) fn describe(
         false => Arc::new(decoded.texture),
     });
     let has_maps = physical.as_ref().is_some_and(|(_, of)| of.maps.iter().any(Option::is_some));
+    // Without a picture no coordinates are needed.
     let uvs = coordinates(material);
     Some(Described {
         uvs: [uvs[0].filter(|_| texture.is_some() || has_maps), uvs[1]],
@@ -204,6 +215,7 @@ pub(super) fn uv_of_opacity(opacity: f64) -> DVec2 {
     DVec2::new((opacity * 255.0 + 0.5) / 256.0, 0.5)
 }
 
+/// The texture of the base colour, by either kind of material.
 fn colour_texture(material: &Material) -> Option<&Info> {
     match &material.extensions.glossiness {
         Some(other) => other.diffuse_texture.as_ref(),
@@ -249,6 +261,7 @@ fn coordinates(material: &Material) -> [Option<Coordinates>; 2] {
     [first, all.find(|of| Some(*of) != first)]
 }
 
+/// Where a texture is read: an extension may name another set and move the coordinates.
 fn of_info(info: &Info) -> Coordinates {
     let transform = info.extensions.transform.as_ref();
     let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
@@ -259,6 +272,7 @@ fn of_info(info: &Info) -> Coordinates {
 fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) {
     let extensions = &material.extensions;
     let ior = extensions.refraction.as_ref().map(|of| f64::from(of.ior.unwrap_or(1.5)));
+    // The share that is reflected from straight ahead, by the index of refraction.
     let straight = match ior {
         // The one of the format.
         None | Some(1.5) => 0.04,
@@ -276,6 +290,11 @@ fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) 
     ((straight * colour).min(DVec3::ONE) * part, part)
 }
 
+/// A number from 0 to 1, which is 1 where the file leaves it out.
+fn share(number: Option<f32>) -> f64 {
+    f64::from(number.unwrap_or(1.0)).clamp(0.0, 1.0)
+}
+
 /// All of a physical surface but its base colour.
 fn physical(
     data: &Data<'_>,
@@ -287,7 +306,6 @@ fn physical(
     let pbr = &material.pbr_metallic_roughness;
     let strength = material.extensions.emissive.as_ref().and_then(|of| of.emissive_strength);
     let [r, g, b] = material.emissive_factor.map_array(|channel| f64::from(channel).max(0.0));
-    let share = |number: Option<f32>| f64::from(number.unwrap_or(1.0)).clamp(0.0, 1.0);
     let info = |map: Map| maps(material)[map as usize].1;
     let (straight, grazing) = reflected(material, count);
     let mut surface = Physical {
@@ -300,7 +318,9 @@ fn physical(
         bumps: info(Map::Normal).and_then(|info| info.scale).unwrap_or(1.0).into(),
         ..Physical::default()
     };
+    // A map that cannot be read is done without; light that a map should have limited is then not emitted.
     for (map, info) in maps(material) {
+        // A map is read at one of two sets of coordinates.
         let Some(info) = info else { continue };
         match coordinates(material).iter().position(|of| *of == Some(of_info(info))) {
             None => count("map with a third kind of texture coordinates of material"),

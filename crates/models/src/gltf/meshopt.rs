@@ -15,11 +15,13 @@ pub(super) fn decode(view: &Compressed, bytes: &[u8], most: usize) -> Result<Vec
     decompressed(view, bytes, most).map_err(|error| format!("{EXTENSION}: {error}"))
 }
 
+/// The same, with an error that does not name the extension.
 fn decompressed(view: &Compressed, bytes: &[u8], most: usize) -> Result<Vec<u8>, String> {
     let &Compressed { count, byte_stride: stride, ref mode, ref filter, .. } = view;
     let size = count.checked_mul(stride).filter(|&size| size <= most);
     let size = size
         .ok_or_else(|| format!("{count} times {stride} bytes are more than the {most} allowed"))?;
+    // A filter turns the whole numbers that were stored into those of the attribute.
     let filter = filter.as_deref().unwrap_or("NONE");
     let decoded = match (mode.as_str(), filter, stride) {
         ("ATTRIBUTES", ..) => {

@@ -32,7 +32,7 @@ use crate::records::{self, without_mark};
 use crate::{Pose, Wrong};
 use data::Data;
 use document::{
-    Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
+    Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Node, POINTS, Primitive, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES, entry,
 };
 pub(crate) use materials::encoded;
@@ -99,9 +99,11 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
         false => Chunks { json: bytes, bin: None, odd: None },
     };
     // Some programs fill a chunk with zeros.
-    let is_filling = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
-    let end = json.iter().rposition(|byte| !is_filling(byte)).map_or(0, |last| last + 1);
-    let json = without_mark(&json[..end]);
+    let mut json = json;
+    while let [rest @ .., 0 | b' ' | b'\t' | b'\n' | b'\x0C' | b'\r'] = json {
+        json = rest;
+    }
+    let json = without_mark(json);
     let no_gltf = |error: serde_json::Error| Wrong {
         line: if is_glb(bytes) { 0 } else { error.line() },
         cause: format!("is no glTF that can be read: {error}"),
@@ -111,6 +113,7 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
         true => Cow::Owned(first::upgraded(json, contents).map_err(no_gltf)?),
         false => Cow::Borrowed(json),
     };
+    // Both versions are one from here on.
     let root = document::read(&json).map_err(no_gltf)?;
     let compressed = root.extensions_required.iter().find(|name| COMPRESSED.contains(&&***name));
     if let Some(name) = compressed {
@@ -118,13 +121,15 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
         let cause = "its triangles are compressed by";
         return Err(format!("{cause} {name}, which is not read: {remedy}").into());
     }
+    // A pose is a change of the nodes, made before anything is read of them.
     let mut data = Data::new(root, contents.folder(), bin)?;
     if let Some(pose) = pose {
         animation::apply(&mut data, pose)?;
     }
-    let name =
-        |animation: &Value| records::name(animation["name"].as_str().unwrap_or("")).to_owned();
-    contents.animations = data.root.animations.iter().map(name).collect();
+    for animation in &data.root.animations {
+        let name = records::name(animation["name"].as_str().unwrap_or(""));
+        contents.animations.push(name.to_owned());
+    }
     let mut reader = Reader {
         data: &data,
         contents,
@@ -147,6 +152,7 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
 
 /// What a GLB consists of.
 struct Chunks<'a> {
+    /// The document itself, as text.
     json: &'a [u8],
     /// The bytes of the buffer without a name.
     bin: Option<&'a [u8]>,
@@ -157,23 +163,20 @@ struct Chunks<'a> {
 /// A GLB has a head of 12 bytes, then chunks with a head of 8 bytes each. In version 1, a head of 20 bytes with the length of the
 /// JSON. What follows the length in the head is no part of it.
 fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
-    let word = |at: usize| {
-        let word = bytes.get(at..at + 4).and_then(|word| <[u8; 4]>::try_from(word).ok());
-        word.map(u32::from_le_bytes).ok_or_else(|| format!("is cut off at byte {}", bytes.len()))
-    };
-    let (all, said) = (bytes.len(), word(8)? as usize);
-    if word(4)? == 1 {
-        let length = word(12)? as usize;
+    let (all, said) = (bytes.len(), word(bytes, 8)? as usize);
+    if word(bytes, 4)? == 1 {
+        let length = word(bytes, 12)? as usize;
         let cut = || format!("is cut off: its JSON has {length} bytes from byte 20 on");
         let rest = &bytes[20.min(all)..];
         let (json, bin) = rest.split_at_checked(length).ok_or_else(cut)?;
         return Ok(Chunks { json, bin: Some(bin), odd: None });
     }
     // Some programs do not know the length when they write the head.
+    // Up to here there are chunks, as far as the head says it.
     let end = if said < LEAST_GLB_BYTES { all } else { said.min(all) };
     let (mut json, mut bin, mut at) = (None, None, 12);
     while at + CHUNK_HEAD_BYTES <= end {
-        let (length, kind) = (word(at)? as usize, word(at + 4)?);
+        let (length, kind) = (word(bytes, at)? as usize, word(bytes, at + 4)?);
         let chunk = bytes.get(at + CHUNK_HEAD_BYTES..).and_then(|rest| rest.get(..length));
         let chunk = chunk.ok_or_else(|| {
             let left = all - at - CHUNK_HEAD_BYTES;
@@ -187,6 +190,7 @@ fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
         }
         at += CHUNK_HEAD_BYTES + length;
     }
+    // A length that does not fit is said, and does no harm.
     let odd = if said > all {
         Some(format!("its head says that it has {said} bytes, and it has {all}: it may be cut off"))
     } else if at > said {
@@ -199,6 +203,15 @@ fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     Ok(Chunks { json: json.ok_or("has no chunk of JSON")?, bin, odd })
 }
 
+/// The number of four bytes of a GLB.
+fn word(bytes: &[u8], at: usize) -> Result<u32, String> {
+    match bytes.get(at..).and_then(<[u8]>::first_chunk) {
+        Some(word) => Ok(u32::from_le_bytes(*word)),
+        None => Err(format!("is cut off at byte {}", bytes.len())),
+    }
+}
+
+/// The head of a chunk: its length and its kind.
 const CHUNK_HEAD_BYTES: usize = 8;
 
 /// The head of a GLB, and that of one chunk.
@@ -207,6 +220,7 @@ const LEAST_GLB_BYTES: usize = 12 + CHUNK_HEAD_BYTES;
 /// The number of a material in the contents, and where its texture finds its coordinates.
 type UsedMaterial = (usize, [Option<materials::Coordinates>; 2]);
 
+/// Makes parts of the primitives that are shown.
 struct Reader<'a> {
     data: &'a Data<'a>,
     contents: &'a mut Contents,
@@ -217,6 +231,7 @@ struct Reader<'a> {
     see_through: HashMap<(usize, u64), usize>,
     /// The map of all opacities, where one is needed.
     opacities: Option<Arc<OpacityMap>>,
+    /// For the limit of what a file of this length may contain.
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
@@ -225,6 +240,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// Counts what is not drawn; see [`Contents::count`].
     fn count(&mut self, key: &str, count: u64) {
         self.contents.count(key, count);
     }
@@ -236,6 +252,7 @@ impl Reader<'_> {
     /// Reads the meshes of all nodes of the scene.
     fn scene(&mut self) -> Result<(), String> {
         let root = &self.data.root;
+        // The scene to show, or without one everything that nothing else contains.
         let number = root.scene.unwrap_or(0);
         let roots: Vec<usize> = match root.scenes.get(number) {
             Some(scene) => scene.nodes.clone(),
@@ -243,12 +260,18 @@ impl Reader<'_> {
             None => self.parentless(),
         };
         self.count("other scene", root.scenes.len().saturating_sub(1) as u64);
+        // From the coordinates of each node to those of the file.
         let mut worlds = vec![DMat4::IDENTITY; root.nodes.len()];
         let mut visits: Vec<(usize, DMat4)> = Vec::new();
-        let mut open: Vec<(usize, DMat4, usize)> =
-            roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY, 1)).collect();
+        // Nodes to visit, the next one last: their number, the matrix of their parent, and how deep they are.
+        let mut open: Vec<(usize, DMat4, usize)> = Vec::new();
+        for node in roots.into_iter().rev() {
+            open.push((node, DMat4::IDENTITY, 1));
+        }
         while let Some((number, parent, depth)) = open.pop() {
+            // A node gives its place to its children, which are visited after it.
             let node = entry(&root.nodes, "nodes", number)?;
+            // A path of more nodes than there are passes one of them twice.
             if depth > root.nodes.len() {
                 return Err(format!("nodes[{number}] contains itself: nodes have to form a tree"));
             }
@@ -258,9 +281,12 @@ impl Reader<'_> {
             let world = parent * local(node);
             worlds[number] = world;
             visits.push((number, world));
-            open.extend(node.children.iter().rev().map(|&child| (child, world, depth + 1)));
+            for &child in node.children.iter().rev() {
+                open.push((child, world, depth + 1));
+            }
         }
-        self.left_bytes = self.refuse_too_many_copies(visits.iter().map(|(number, _)| *number))?;
+        self.left_bytes = self.refuse_too_many_copies(&visits)?;
+        // All matrices are known now, which skins need, and what is shown is not too much.
         for (number, world) in visits {
             let node = &root.nodes[number];
             self.camera(number, node, world);
@@ -283,6 +309,7 @@ impl Reader<'_> {
     fn camera(&mut self, number: usize, node: &Node, world: DMat4) {
         let Some(at) = node.camera else { return };
         let camera = self.data.root.cameras.get(at);
+        // Of the two kinds of cameras one has to be there.
         let (lens, of) = match camera {
             Some(document::Camera { perspective: Some(of), .. }) => {
                 (Lens::Perspective { angle_rad: of.yfov }, of)
@@ -323,6 +350,7 @@ impl Reader<'_> {
         let light = self.data.root.extensions[LIGHTS]["lights"].get(number as usize)?;
         let light = Light::deserialize(light).ok()?;
         let range = light.range.filter(|range| *range > 0.0).map_or(f64::INFINITY, f64::from);
+        // A light of another kind is counted, and not drawn.
         let kind = match light.kind.as_str() {
             "directional" => Kind::Directional,
             "point" => Kind::Point { range },
@@ -342,50 +370,66 @@ impl Reader<'_> {
 
     /// Where a node shows its mesh, in its own coordinates: once, or as often as an extension says.
     fn instances(&self, node: &Node) -> Result<Vec<DMat4>, String> {
-        let once = || Ok(vec![DMat4::IDENTITY]);
-        let Some(Instances { attributes }) = &node.extensions.instances else { return once() };
+        let once = vec![DMat4::IDENTITY];
+        let Some(Instances { attributes }) = &node.extensions.instances else { return Ok(once) };
         // Where the joints of a skin are decides alone.
-        let Some(count) = self.copies(node).filter(|_| node.skin.is_none()) else { return once() };
-        let read = |name: &str| attributes.get(name).copied();
-        fn vectors<const N: usize>(
-            data: &Data<'_>,
-            accessor: Option<usize>,
-            (count, missing): (u64, [f64; N]),
-        ) -> Result<Vec<[f64; N]>, String> {
-            match accessor {
-                Some(accessor) => data.vectors(accessor),
-                None => Ok(vec![missing; count as usize]),
-            }
+        let Some(count) = self.copies(node).filter(|_| node.skin.is_none()) else {
+            return Ok(once);
+        };
+        let moves = self.vectors_or(attributes.get("TRANSLATION"), count, [0.0; 3])?;
+        let turns = self.vectors_or(attributes.get("ROTATION"), count, [0.0, 0.0, 0.0, 1.0])?;
+        let scales = self.vectors_or(attributes.get("SCALE"), count, [1.0; 3])?;
+        let mut copies = Vec::with_capacity(count as usize);
+        for ((by, turn), scale) in moves.into_iter().zip(turns).zip(scales) {
+            copies.push(placed(scale, turn, by));
         }
-        let moves = vectors(self.data, read("TRANSLATION"), (count, [0.0; 3]))?;
-        let turns = vectors(self.data, read("ROTATION"), (count, [0.0, 0.0, 0.0, 1.0]))?;
-        let scales = vectors(self.data, read("SCALE"), (count, [1.0; 3]))?;
-        let copies = moves.into_iter().zip(turns).zip(scales);
-        Ok(copies.map(|((by, turn), scale)| placed(scale, turn, by)).collect())
+        Ok(copies)
+    }
+
+    /// The vectors of an accessor, or as many of the same where there is none.
+    fn vectors_or<const N: usize>(
+        &self,
+        accessor: Option<&usize>,
+        count: u64,
+        missing: [f64; N],
+    ) -> Result<Vec<[f64; N]>, String> {
+        match accessor {
+            Some(accessor) => self.data.vectors(*accessor),
+            None => Ok(vec![missing; count as usize]),
+        }
     }
 
     /// How many copies of its mesh a node shows by an extension: those of which all is given.
     fn copies(&self, node: &Node) -> Option<u64> {
-        let attributes = node.extensions.instances.as_ref()?.attributes.iter();
-        let of_copies = attributes.filter(|(name, _)| !name.starts_with('_'));
-        of_copies.map(|(_, &accessor)| self.data.count(accessor)).min()
+        let mut least = None;
+        for (name, &accessor) in &node.extensions.instances.as_ref()?.attributes {
+            // Those of a program say nothing about where a copy is.
+            if !name.starts_with('_') {
+                let count = self.data.count(accessor);
+                least = Some(least.map_or(count, |least: u64| least.min(count)));
+            }
+        }
+        least
     }
 
     /// Refuses what the nodes show before it is built, where it takes far more than the file; the bytes that are left.
-    fn refuse_too_many_copies(&self, visits: impl Iterator<Item = usize>) -> Result<u64, String> {
+    fn refuse_too_many_copies(&self, visits: &[(usize, DMat4)]) -> Result<u64, String> {
         let root = &self.data.root;
-        let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|one| self.bytes(one)).sum::<u64>();
-        let of_meshes: Vec<u64> = root.meshes.iter().map(of_mesh).collect();
-        let of_skins: Vec<u64> =
-            root.skins.iter().map(|skin| (skin.joints.len() * size_of::<DMat4>()) as u64).collect();
+        let matrix = size_of::<DMat4>() as u64;
+        // What each mesh takes is computed once, since many nodes may show it.
+        let mut of_meshes = vec![0; root.meshes.len()];
+        for (mesh, bytes) in root.meshes.iter().zip(&mut of_meshes) {
+            *bytes = mesh.primitives.iter().map(|one| self.bytes(one)).sum();
+        }
         let (mut bytes, mut copies) = (0u64, 0u64);
-        for number in visits {
-            let node = &root.nodes[number];
+        for (number, _) in visits {
+            let node = &root.nodes[*number];
             let Some(mesh) = node.mesh else { continue };
-            let of = |all: &[u64], number: usize| all.get(number).copied().unwrap_or(0);
-            let skin = node.skin.map_or(0, |skin| of(&of_skins, skin));
+            let skin = node.skin.and_then(|skin| root.skins.get(skin));
+            let joints = skin.map_or(0, |skin| skin.joints.len() as u64);
             let shown = self.copies(node).unwrap_or(1);
-            let of_copy = of(&of_meshes, mesh).saturating_add(skin + size_of::<DMat4>() as u64);
+            let of_mesh = of_meshes.get(mesh).copied().unwrap_or(0);
+            let of_copy = of_mesh.saturating_add(matrix * joints + matrix);
             bytes = bytes.saturating_add(of_copy.saturating_mul(shown));
             copies += shown;
         }
@@ -395,6 +439,7 @@ impl Reader<'_> {
         if bytes <= most {
             return Ok(most - bytes);
         }
+        // In MiB, as the limits are stated.
         let [bytes, most] = [bytes, most].map_array(|bytes| bytes >> 20);
         Err(format!(
             "shows {copies} copies of its meshes, which take {bytes} MiB, and a file of {length} bytes may have {most} MiB: \
@@ -409,20 +454,25 @@ impl Reader<'_> {
             return PART_BYTES;
         }
         let count = |accessor: Option<usize>| accessor.map_or(0, |number| self.data.count(number));
+        // What its vertices, its corners and its shapes take, each as large as it gets.
         let vertices = count(primitive.attributes.get("POSITION").copied());
         // Positions in the file and as they are drawn; an attribute is at most three doubles.
         let vector = size_of::<DVec3>() as u64;
         let of_vertex = size_of::<ClipPoint>() as u64 + vector * primitive.attributes.len() as u64;
-        let moved = primitive.targets.iter().map(|target| {
-            vector.saturating_mul(count(target.position)).saturating_add(count(target.normal))
-        });
         let corners = primitive.indices.map_or(vertices, |number| self.data.count(number));
         let of_corner = match primitive.mode {
             None | Some(TRIANGLES) => CORNER_BYTES,
             _ => 3 * CORNER_BYTES,
         };
-        let all = [vertices.saturating_mul(of_vertex), corners.saturating_mul(of_corner)];
-        all.into_iter().chain(moved).fold(PART_BYTES, u64::saturating_add)
+        let mut all = PART_BYTES
+            .saturating_add(vertices.saturating_mul(of_vertex))
+            .saturating_add(corners.saturating_mul(of_corner));
+        for target in &primitive.targets {
+            all = all
+                .saturating_add(vector.saturating_mul(count(target.position)))
+                .saturating_add(count(target.normal));
+        }
+        all
     }
 
     /// The nodes without a parent, which are shown where no scene is described.
@@ -441,6 +491,7 @@ impl Reader<'_> {
     fn count_the_rest(&mut self) {
         let root = &self.data.root;
         // Some files name what they require here alone.
+        // In alphabetical order, so that the warnings are the same each time.
         let required: BTreeSet<&String> = root.extensions_required.iter().collect();
         let all: BTreeSet<&String> = root.extensions_used.iter().chain(required.clone()).collect();
         for name in all.into_iter().filter(|name| !READ.contains(&name.as_str())) {
@@ -455,6 +506,7 @@ impl Reader<'_> {
         }
     }
 
+    /// Adds a primitive as a part: its triangles, what its vertices have, and its surface.
     fn primitive(
         &mut self,
         primitive: &Primitive,
@@ -463,6 +515,7 @@ impl Reader<'_> {
         worlds: &[DMat4],
         place: &str,
     ) -> Result<(), String> {
+        // What is compressed is decoded first, for it says how many vertices there are.
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         let compressed = draco::decode(self.data, primitive, &mut self.left_bytes);
         let compressed = compressed.map_err(|cause| {
@@ -482,6 +535,7 @@ impl Reader<'_> {
             (None, Some(accessor)) => self.data.indices(*accessor)?,
             (None, None) => (0..count as u32).collect(),
         };
+        // Points and lines are counted and not drawn.
         let (key, elements) = match mode {
             POINTS => ("point", indices.len()),
             LINES => ("line", indices.len() / 2),
@@ -494,11 +548,13 @@ impl Reader<'_> {
         if !key.is_empty() {
             return Ok(());
         }
+        // Every kind of triangles becomes a list of three corners each.
         let triangles = self.triangles(mode, indices, count, place);
         self.corners += triangles.len();
         if self.corners > MOST_CORNERS {
             return Err(format!("shows more than {MOST_CORNERS} corners of triangles"));
         }
+        // Positions and normals, as shapes and joints move them.
         let mut normals = match vertices.read("NORMAL") {
             Some(read) => self.optional(read.map(vectors3), count, "normals", place),
             None => Vec::new(),
@@ -523,11 +579,14 @@ impl Reader<'_> {
                 _ => self.warn("skins", &format!("{place}: its joints are not as many as its positions; it is drawn without its skin")),
             }
         }
+        // What else a vertex has, in the form in which the surface needs it.
         self.count_attributes(primitive);
+        // Colours are multiplied with the surface, so without any they are white.
         let colours = match vertices.read("COLOR_0") {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
+        // Colours are linear in a glTF, and those of surfaces in linear light stay so.
         let mut material = self.material(primitive.material, place);
         let surface = material.map(|(material, ..)| &self.contents.materials[material]);
         let physical = surface.and_then(|surface| surface.physical.clone());
@@ -537,12 +596,14 @@ impl Reader<'_> {
         };
         let is_bumpy = physical.is_some_and(|(_, of)| of.map(Map::Normal).is_some());
         // Those of a file without normals are not to be used, and those that a skin moves are computed.
+        // Tangents are used where there is a normal map, with the normals that belong to them.
         let is_read = is_bumpy && !normals.is_empty() && node.skin.is_none();
         let tangents = match vertices.read::<4>("TANGENT").filter(|_| is_read) {
             Some(read) => self.optional(read, count, "tangents", place),
             None => Vec::new(),
         };
         let tangents = tangents.into_iter().map(DVec4::from_array).collect();
+        // Texture coordinates with v up, moved as the material says.
         let mut read_uvs = |set| {
             let Some((set, transform)) = set else { return Vec::new() };
             let Some(read) = vertices.read(&format!("TEXCOORD_{set}")) else {
@@ -556,6 +617,7 @@ impl Reader<'_> {
             let read = read.map(|read| read.into_iter().map(turned).collect());
             self.optional(read, count, "texture coordinates", place)
         };
+        // The texture and its maps may be read at two sets of coordinates, and no more.
         let [first, second] = material.map_or([None; 2], |(_, uvs)| uvs);
         let (mut uvs, second_uvs) = (read_uvs(first), read_uvs(second));
         if let Some((number, _)) = &mut material {
@@ -563,6 +625,7 @@ impl Reader<'_> {
             *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
         let name = records::name(node.name.as_deref().unwrap_or(""));
+        // All that a part has; what is missing is computed later, or left out.
         let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),
@@ -592,25 +655,24 @@ impl Reader<'_> {
         let material = primitive.material.and_then(|at| self.data.root.materials.get(at));
         let Some(mode) = material.and_then(materials::alpha_mode) else { return number };
         let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") else { return number };
-        let opacities = || colours.iter().map(|[.., alpha]| alpha.clamp(0.0, 1.0));
-        let Some(first) = opacities().next().filter(|_| opacities().any(|alpha| alpha < 1.0))
-        else {
-            return number;
-        };
+        let opacities: Vec<f64> = colours.iter().map(|[.., alpha]| alpha.clamp(0.0, 1.0)).collect();
+        let transparent = opacities.iter().filter(|alpha| **alpha < 1.0).count();
+        let Some(&first) = opacities.first().filter(|_| transparent > 0) else { return number };
+        // One opacity for all is multiplied into the surface; different ones need a map.
         let surface = &self.contents.materials[number];
         let opacity = surface.opacity.clone();
         let mut opacity = opacity.unwrap_or(Opacity { factor: 1.0, map: None, mode });
-        let is_one = opacities().all(|alpha| alpha == first);
+        let is_one = opacities.iter().all(|alpha| *alpha == first);
         if is_one {
             opacity.factor *= first;
         } else if has_picture {
-            let transparent = opacities().filter(|alpha| *alpha < 1.0).count();
             self.count("transparent position of textured primitive", transparent as u64);
             return number;
         } else {
-            *uvs = opacities().map(materials::uv_of_opacity).collect();
+            *uvs = opacities.into_iter().map(materials::uv_of_opacity).collect();
             opacity.map = Some(self.opacities.get_or_insert_with(materials::opacities).clone());
         }
+        // Primitives with the same surface and opacity share a surface.
         let key = (number, if is_one { first.to_bits() } else { u64::MAX });
         let Contents { materials, .. } = &mut *self.contents;
         *self.see_through.entry(key).or_insert_with(|| {
@@ -620,6 +682,7 @@ impl Reader<'_> {
         })
     }
 
+    /// Counts what a primitive has at its vertices and is not drawn.
     fn count_attributes(&mut self, primitive: &Primitive) {
         let mut not_defined = 0;
         for name in primitive.attributes.keys() {
@@ -642,20 +705,28 @@ impl Reader<'_> {
     fn triangles(&mut self, mode: u64, indices: Vec<u32>, count: usize, place: &str) -> Vec<u32> {
         let mut list = match mode {
             TRIANGLE_STRIP => {
-                let turned = |(number, strip): (usize, &[u32])| {
-                    let [a, b, c] = [strip[0], strip[1], strip[2]];
-                    if number % 2 == 0 { [a, b, c] } else { [a, c, b] }
-                };
-                // Triangles of two equal corners lead from one part of a strip to the next.
-                let is_face = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-                indices.windows(3).enumerate().map(turned).filter(is_face).flatten().collect()
+                let mut list = Vec::new();
+                for number in 2..indices.len() {
+                    let [a, b, c] = [indices[number - 2], indices[number - 1], indices[number]];
+                    // Triangles of two equal corners lead from one part of a strip to the next.
+                    if a != b && b != c && c != a {
+                        // Every second one runs the other way, so that all of them face the same way.
+                        list.extend(if number % 2 == 0 { [a, b, c] } else { [a, c, b] });
+                    }
+                }
+                list
             }
             TRIANGLE_FAN => {
                 let Some((&first, others)) = indices.split_first() else { return Vec::new() };
-                others.windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
+                let mut list = Vec::new();
+                for pair in others.windows(2) {
+                    list.extend([pair[0], pair[1], first]);
+                }
+                list
             }
             _ => indices,
         };
+        // Corners that make no triangle, and triangles that name nothing, are left out with a warning.
         let left = list.len() % 3;
         if left > 0 {
             list.truncate(list.len() - left);
@@ -664,18 +735,23 @@ impl Reader<'_> {
                 &format!("{place}: {left} indices at the end make no triangle; they are left out"),
             );
         }
-        let is_there = |corners: &[u32; 3]| corners.iter().all(|&index| (index as usize) < count);
-        let wrong = list.as_chunks::<3>().0.iter().filter(|corners| !is_there(corners)).count();
-        if wrong > 0 {
-            let named = list.iter().copied().max().unwrap_or(0);
+        let named = list.iter().copied().max().unwrap_or(0);
+        if named as usize >= count && !list.is_empty() {
+            let before = list.len();
+            let mut kept = Vec::new();
+            for corners in list.as_chunks::<3>().0 {
+                if corners.iter().all(|&index| (index as usize) < count) {
+                    kept.extend(corners);
+                }
+            }
+            list = kept;
+            let wrong = (before - list.len()) / 3;
             // The index is what stands in the file.
             let named = match self.data.has_outside_buffer() {
                 true => String::new(),
                 false => format!(", as {named} of {count}"),
             };
             self.warn("triangles", &format!("{place}: {wrong} triangles name a vertex that is not there{named}; they are left out"));
-            let kept = list.as_chunks::<3>().0.iter().filter(|corners| is_there(corners));
-            list = kept.flatten().copied().collect();
         }
         list
     }
@@ -705,6 +781,7 @@ impl Reader<'_> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
+        // Each material is described once, also where it is missing.
         let (images, contents) = (&mut self.images, &mut *self.contents);
         let described = materials::describe(self.data, number, images, contents);
         let known = described.map(|Described { surface, uvs }| {
@@ -729,10 +806,9 @@ impl Reader<'_> {
     ) -> Result<(), String> {
         let mesh = node.mesh.and_then(|mesh| self.data.root.meshes.get(mesh));
         let weights = node.weights.as_ref().or(mesh.and_then(|mesh| mesh.weights.as_ref()));
-        let weight =
-            |number: usize| weights.and_then(|all| all.get(number)).copied().unwrap_or(0.0);
         for (number, target) in primitive.targets.iter().enumerate() {
-            let weight = f64::from(weight(number));
+            let weight = weights.and_then(|all| all.get(number)).copied().unwrap_or(0.0);
+            let weight = f64::from(weight);
             // At rest an animation may leave it out.
             if weight == 0.0 {
                 continue;
@@ -752,21 +828,25 @@ impl Reader<'_> {
     /// Where each joint of a skin brings what is bound to it.
     fn joints(&self, number: usize, worlds: &[DMat4]) -> Result<Vec<DMat4>, String> {
         let skin = entry(&self.data.root.skins, "skins", number)?;
+        // From the coordinates of the mesh to those of a joint, as it was when the mesh was bound to it.
         let bound: Vec<[f64; 16]> = match skin.inverse_bind_matrices {
             Some(accessor) => self.data.vectors(accessor)?,
             None => Vec::new(),
         };
-        let matrix = |(at, &joint): (usize, &usize)| {
+        let mut matrices = Vec::with_capacity(skin.joints.len());
+        for (at, &joint) in skin.joints.iter().enumerate() {
             let inverse = bound.get(at).map_or(DMat4::IDENTITY, DMat4::from_cols_array);
-            Ok(*entry(worlds, "nodes", joint)? * inverse)
-        };
-        skin.joints.iter().enumerate().map(matrix).collect()
+            matrices.push(*entry(worlds, "nodes", joint)? * inverse);
+        }
+        Ok(matrices)
     }
 }
 
+/// The vertices of a primitive, whether Draco compressed them or not.
 struct Vertices<'a> {
     data: &'a Data<'a>,
     primitive: &'a Primitive,
+    /// What Draco decoded, in the place of buffer views.
     compressed: Option<draco::DecodedPrimitive>,
 }
 
@@ -791,11 +871,9 @@ fn local(node: &Node) -> DMat4 {
     if let Some(matrix) = &node.matrix {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
-    let vector = |numbers: Option<[f32; 3]>, missing: f64| {
-        numbers.map_or([missing; 3], |numbers| numbers.map(f64::from))
-    };
-    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.map(f64::from));
-    placed(vector(node.scale, 1.0), turn, vector(node.translation, 0.0))
+    let scale = node.scale.unwrap_or([1.0; 3]).map(f64::from);
+    let turn = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]).map(f64::from);
+    placed(scale, turn, node.translation.unwrap_or([0.0; 3]).map(f64::from))
 }
 
 /// A matrix that scales, turns by a quaternion and moves.
@@ -816,16 +894,23 @@ fn bend(
 ) -> Result<(), String> {
     for (at, (joints, weights)) in joints.iter().zip(weights).enumerate() {
         let sum: f64 = weights.iter().sum();
+        // Without a weight the vertex stays where it is.
         if sum <= 0.0 {
             continue;
         }
         let mut matrix = DMat4::ZERO;
-        for (&joint, &weight) in joints.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-            let of = matrices.get(joint as usize);
-            let joints = matrices.len();
-            let missing =
-                || format!("vertex {at} is bound to a joint that is not there, of {joints}");
-            matrix += *of.ok_or_else(missing)? * (weight / sum);
+        for (&joint, &weight) in joints.iter().zip(weights) {
+            // A joint without a weight may name anything.
+            if weight == 0.0 {
+                continue;
+            }
+            let Some(of) = matrices.get(joint as usize) else {
+                let joints = matrices.len();
+                return Err(format!(
+                    "vertex {at} is bound to a joint that is not there, of {joints}"
+                ));
+            };
+            matrix += *of * (weight / sum);
         }
         positions[at] = matrix.transform_point3(positions[at]);
         if let Some(normal) = normals.get_mut(at) {

@@ -15,6 +15,7 @@ use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::{Explanation, Mistakes, NOTHING};
 
+/// How many requests a step takes, and how much time.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     pub cases: u64,
@@ -25,6 +26,7 @@ pub struct Amount {
     pub patience: Duration,
 }
 
+/// What came of a step: counts, why it ended early, and its smallest failing case.
 #[derive(Debug, Default)]
 pub struct Outcome {
     pub cases: u64,
@@ -60,10 +62,12 @@ struct Wrong<'a> {
 /// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
 /// count here: the course has one convention.
 pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outcome {
+    // The first case that fails is kept with its exercise, to be made small at the end.
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut restarts = run::MOST_DEATHS;
     program.end_at(Some(amount.end));
+    // All exercises are asked, also after one has failed, so that the number of wrong cases is that of the step.
     for exercise in &step.exercises {
         let mut asked = Vec::new();
         let had_failed = failing.is_some();
@@ -74,6 +78,7 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
             if outcome.out_of_time || restarts == 0 {
                 break;
             }
+            // Of several families of one exercise, the first one that fails gives the case.
             let first = ask_family(
                 program,
                 exercise,
@@ -85,22 +90,27 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
             );
             failing = failing.or(first);
         }
+        // The first exercise that fails is the one that is explained.
         if !had_failed && failing.is_some() {
             outcome.misconception = misconceptions::find(exercise.check, &asked, &truth(exercise));
         }
     }
     program.end_at(None);
     // A function that sets no pixel in this step may do so in others, which tell why.
+    // The judge looks for a cause where no misconception is known, or only that nothing is drawn.
     let is_named = outcome.misconception.is_some_and(|is| is.name != NOTHING);
     let unexplained = failing.as_ref().filter(|_| !is_named);
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
     let is_nothing = |cause: &Explanation| cause.name == NOTHING;
+    // Of both explanations one is said: the judge's where it knows the mistake, else the misconception.
     match &outcome.cause {
         Some(cause) if cause.causes.iter().any(is_nothing) => outcome.cause = None,
         Some(cause) if cause.is_known() => outcome.misconception = None,
         _ => {}
     }
+    // Last of all, for this may take long, and everything else is known by now.
     outcome.failure = failing.map(|Wrong { exercise, is, case, truth, asked }| {
+        // What preparation would change is no case of the step.
         let may_be = |case: &Case| (exercise.prepare)(case.clone()).as_ref() == Some(case);
         let &Amount { seed, patience, .. } = amount;
         let search =
@@ -127,7 +137,9 @@ fn ask_family<'a>(
     let check = exercise.check;
     let truth = truth(exercise);
     let family = adapt_case::families(&[name.to_owned()])[0];
+    // All requests of the family in one list, and which of them belong to each case.
     let mut cases = Vec::new();
+    // A case may need several requests, which follow each other in the list.
     let mut questions = Vec::new();
     for index in 0..amount.cases {
         let case = adapt_case::case(family, amount.seed, index, &truth.declared);
@@ -138,6 +150,7 @@ fn ask_family<'a>(
         check.questions(&case, &truth, &mut questions);
         cases.push((index, case, start..questions.len()));
     }
+    // They are sent together, until the program has died or was started again too often.
     let mut answers = Vec::new();
     while answers.len() < questions.len() && *restarts > 0 {
         // The first one alone: if it hangs, it need not be looked for among those in flight.
@@ -146,6 +159,7 @@ fn ask_family<'a>(
         let here = program.ask(asked, 1);
         let died = here.last().is_some_and(Answer::is_death);
         // A program that died of no single request goes on, a few times.
+        // Fewer answers than requests, without a death, mean that it ended or was too slow.
         let is_short = !died && here.len() < asked.len();
         outcome.out_of_time |= is_short && Instant::now() >= amount.end;
         if outcome.out_of_time {
@@ -157,6 +171,7 @@ fn ask_family<'a>(
         outcome.given_up |= strayed && *restarts == 0;
         answers.extend(here);
     }
+    // Every case is judged by its own answers, and the first one that fails is kept.
     let mut first = None;
     for (index, case, range) in cases {
         // Where the program was given up, the rest of the answers is not there.
@@ -164,6 +179,7 @@ fn ask_family<'a>(
             break;
         }
         let here = &answers[range.start..range.end.min(answers.len())];
+        // Each answer is compared with the exact one by the rules of the step.
         let judged = judge(check, &case, here, range.len(), &truth);
         outcome.cases += 1;
         let is_wrong = judged.is_wrong();
@@ -179,6 +195,7 @@ fn ask_family<'a>(
         }
     }
     first.map(|(index, case, asked)| {
+        // A case can be generated again from its family and its number.
         let is = Failing::new(family, index, check, &asked.judged);
         Wrong { exercise, is, case, truth, asked }
     })
@@ -196,7 +213,9 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     if !failing.asked.judged.died.is_empty() {
         return None;
     }
+    // The judge asks more than the step did: cases that tell mistakes apart.
     let checks = [failing.exercise.check.of_its_cause()];
+    // Questions for a cause take time, which the step limits.
     let mut asked = Timed::new(program, None).within(Some(patience));
     let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None, &[]);
     Some(found.into_iter().next()?.why)

@@ -19,6 +19,7 @@ use super::progress::{self, Progress};
 use super::sandbox::{self, Bounds};
 use super::{STEPS, verdict};
 
+/// What is graded: a program, and the folder in which it is built and started.
 pub struct Submission {
     /// The name of its folder; a dot where a program is named.
     pub id: OsString,
@@ -55,16 +56,19 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
             paths.push(path);
         }
     }
+    // The order of a folder is that of its file system, which differs between machines.
     paths.sort();
     if paths.is_empty() {
         return Err(format!("{shown} holds no folder\n  expected one for each submission"));
     }
     let one = |path: PathBuf| {
+        // The name of the folder is shown, as far as it can be.
         let id = path.file_name().unwrap_or_default().to_owned();
         let name = printable(id.as_encoded_bytes(), 40);
         if !path.is_dir() {
             return Err((name, "it is no folder".to_owned()));
         }
+        // The same words for everybody, with the folder of each in the place of `{}`.
         if let Some(template) = template {
             let word = |word: &str| {
                 word.split("{}").map(OsStr::new).collect::<Vec<_>>().join(path.as_os_str())
@@ -72,6 +76,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
             let run = template.split_whitespace().map(word).collect();
             return Ok(Submission::of_program(id, name, run));
         }
+        // Without a template each folder says in its progress file how it is built and run.
         match Progress::read(&path) {
             Ok(Some(Progress { build, run, .. })) => {
                 let run = run.into_iter().map(OsString::from).collect();
@@ -84,6 +89,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSub
     Ok(paths.into_iter().map(one).collect())
 }
 
+/// The points of a submission and how it came to them.
 #[derive(Default, Serialize, Deserialize)]
 pub struct Grade {
     pub name: String,
@@ -104,11 +110,13 @@ pub struct StepResult {
 }
 
 impl Grade {
+    /// The grade of a submission that cannot be judged: no points, and why.
     #[must_use]
     pub fn failed(name: String, error: String) -> Self {
         Self { name, of: STEPS.len(), error: Some(error), ..Self::default() }
     }
 
+    /// Whether the step at this place was passed.
     #[must_use]
     pub fn has_passed(&self, at: usize) -> bool {
         self.steps.get(at).is_some_and(|step| step.passed)
@@ -127,6 +135,7 @@ pub struct Terms {
     pub bounds: Bounds,
 }
 
+/// Builds and starts a program, and asks it all steps; it is started once, so that a slow start counts once.
 #[must_use]
 pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
     let start = Instant::now();
@@ -136,9 +145,11 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
             let (&Terms { cases, seed, .. }, seconds) = (terms, Duration::from_secs(terms.seconds));
+            // A small part of the time for each step may go into a smaller failing case.
             let patience = Duration::from_secs(1).min(seconds / 24);
             let amount = Amount { cases, seed, end: start + seconds, patience };
             for step in STEPS.iter() {
+                // Every step is judged, also after one that fails, since points are given for each.
                 let outcome = examine::examine(&mut program, step, &amount);
                 let report = verdict::report(step, &outcome, "the program");
                 let output = terminal::text(&report, true, false, terminal::WIDTH);
@@ -154,9 +165,12 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
     grade
 }
 
+/// A program that is built, and has said HELLO.
 fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     let Submission { folder, build, run, .. } = submission;
+    // Time that waits is bounded by `Terms::seconds` itself; this bounds what a process computes.
     let processor_s = Some(terms.seconds);
+    // A build takes part of the time that the submission has in all.
     let longest = terms.bounds.build.min(Duration::from_secs(terms.seconds));
     let bounds = Bounds { processor_s, build: longest, ..terms.bounds };
     sandbox::build(folder, build, &bounds)?;
@@ -165,6 +179,7 @@ fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     sandbox::start(folder, run, &bounds, Limits { answer: terms.answer, start })
 }
 
+/// The JSON file of a teacher: by which cases all were judged, and what became of each.
 #[derive(Serialize, Deserialize)]
 struct Grades {
     version: String,
@@ -173,6 +188,7 @@ struct Grades {
     submissions: Vec<Grade>,
 }
 
+/// The grades as JSON, which [`read`] reads.
 pub fn json(submissions: Vec<Grade>, seed: u64, cases: u64) -> String {
     let version = env!("CARGO_PKG_VERSION").to_owned();
     pretty(&Grades { version, seed, cases, submissions })
@@ -187,10 +203,12 @@ pub fn read(json: &[u8]) -> Option<Grade> {
 /// A row of the table of submissions by steps, as it is printed when it is known.
 pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
     // A column is as wide as the number of its step, and holds two digits.
+    // The heads of the columns are printed above all rows, so the widths are the same in each.
     let width = |step| super::number(step).len().max(2);
     let of_steps: String = STEPS.iter().map(|step| format!(" | >~step {}", width(step))).collect();
     let columns = format!("~name 26{of_steps} | >~points 6");
     let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
+    // A name, a mark for each step, and what they come to.
     let mut cells: Vec<&dyn Display> = vec![&name];
     cells.extend(steps.iter().map(|step| step as &dyn Display));
     cells.push(points);
@@ -218,6 +236,7 @@ pub fn text(grades: &[Grade], is_table: bool) -> String {
 
 /// One submission as Gradescope's results.json.
 pub fn gradescope(grade: &Grade) -> String {
+    // A submission that cannot be judged has the reason in the place of each verdict.
     let output = |at: usize| match (grade.steps.get(at), &grade.error) {
         (Some(step), _) => step.output.clone(),
         (None, error) => error.clone().unwrap_or_default(),

@@ -29,6 +29,7 @@ use rasterproof_verify::comparison::line_has_tie;
 use crate::spine;
 use progress::Progress;
 
+/// A step of the course: what there is to write, and by which cases it is judged.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
@@ -56,11 +57,14 @@ impl PartialEq for Step {
     }
 }
 
+/// The cases of some families, and what a program is asked about them.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exercise {
     pub check: Check,
+    /// The names of the families, as the judge lists them.
     pub families: Vec<String>,
+    /// Words of the convention by which the answers are judged, where it is not the usual one.
     #[serde(default)]
     pub convention: String,
     /// Makes a case of the family one of the step; nothing where it has no use. What it has made,
@@ -71,6 +75,7 @@ pub struct Exercise {
 
 type Prepare = fn(Case) -> Option<Case>;
 
+/// Reads the name of a function from the file of the steps, so that a name without a function is an error there.
 fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     Ok(match String::deserialize(from)?.as_str() {
         "inside" => inside,
@@ -84,6 +89,7 @@ fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     })
 }
 
+/// Cases that lie in their window, since clipping is a step of its own.
 fn inside(case: Case) -> Option<Case> {
     (!adapt_case::leaves_window(&case)).then_some(case)
 }
@@ -95,7 +101,9 @@ fn anywhere(case: Case) -> Option<Case> {
 /// Lines from their first pixel to itself.
 fn point(mut case: Case) -> Option<Case> {
     if let Shape::Lines(lines) = &mut case.shape {
-        lines.iter_mut().for_each(|line| line.ends[1] = line.ends[0]);
+        for line in lines {
+            line.ends[1] = line.ends[0];
+        }
     }
     Some(case)
 }
@@ -109,7 +117,9 @@ fn no_ties(case: Case) -> Option<Case> {
 /// Depth left out: nothing but the two attributes is at stake.
 fn attributes_alone(mut case: Case) -> Option<Case> {
     if let Shape::Triangles { list, .. } = &mut case.shape {
-        list.iter_mut().flat_map(|t| &mut t.vertices).for_each(|v| v.depth = 0.0);
+        for vertex in list.iter_mut().flat_map(|t| &mut t.vertices) {
+            vertex.depth = 0.0;
+        }
     }
     inside(case)
 }
@@ -117,7 +127,9 @@ fn attributes_alone(mut case: Case) -> Option<Case> {
 /// Attributes left out: nothing but depth is at stake.
 fn depth_alone(mut case: Case) -> Option<Case> {
     if let Shape::Triangles { list, .. } = &mut case.shape {
-        list.iter_mut().flat_map(|t| &mut t.vertices).for_each(|v| v.varying = DVec2::ZERO);
+        for vertex in list.iter_mut().flat_map(|t| &mut t.vertices) {
+            vertex.varying = DVec2::ZERO;
+        }
     }
     inside(case)
 }
@@ -135,6 +147,7 @@ pub fn find(word: &str) -> Option<&'static Step> {
 /// The number of its chapter, with its place among the steps of that chapter where there are several: `5`, `2a.1`.
 pub fn number(step: &Step) -> String {
     let chapter = spine::number(step.chapter()).unwrap_or_default();
+    // A chapter of one step gives it its own number.
     let of_chapter: Vec<_> = STEPS.iter().filter(|other| other.page == step.page).collect();
     match of_chapter.iter().position(|other| *other == step) {
         Some(at) if of_chapter.len() > 1 => format!("{chapter}.{}", at + 1),
@@ -151,13 +164,17 @@ pub fn known() -> String {
 /// The steps as a table; those passed are marked where the progress is known.
 pub fn listed(progress: Option<&Progress>) -> Report {
     let row = |step: &Step| {
+        // A plus for what was passed, an arrow for the current step.
         let mark = match progress {
             Some(progress) if progress.has_passed(step) => "+",
             Some(progress) if progress.current() == step => ">",
             _ => "",
         };
-        let mut families: Vec<_> =
-            step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
+        // Several exercises may ask cases of one family.
+        let mut families = Vec::new();
+        for exercise in &step.exercises {
+            families.extend(exercise.families.iter().map(String::as_str));
+        }
         families.sort_unstable();
         families.dedup();
         let page = format!("{} ({})", step.title, step.page);
@@ -186,6 +203,7 @@ pub static STEPS: LazyLock<Vec<Step>> = LazyLock::new(|| {
     struct Steps {
         step: Vec<Step>,
     }
+    // A step whose families or functions do not exist is found by the tests, which read the same text.
     let steps: Steps = toml::from_str(include_str!("steps.toml")).expect("the steps are whole");
     steps.step
 });

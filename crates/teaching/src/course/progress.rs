@@ -9,20 +9,25 @@ use super::{STEPS, Step};
 
 pub const FILE: &str = "course.toml";
 
+/// The comment at the top of the file, for people who edit it.
 const HEADER: &str = "\
 # Progress of `rasterproof course`. Yours to edit; `course check` writes it anew, without your comments.
 # build (may be empty) and run: commands as lists of words, run in this folder.
 # step: the current one. failures: how often it has failed; each shows one hint more.
 ";
 
+/// How far a student has come, and how the program is built and run.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
     /// What makes the program from its source; may be empty.
     #[serde(default)]
     pub build: Vec<String>,
+    /// The words of the command that runs the program.
     pub run: Vec<String>,
+    /// The name of the step that `course check` judges next.
     pub step: String,
+    /// The names of the steps that were passed, in the order in which they were.
     #[serde(default)]
     pub passed: Vec<String>,
     /// How often the current step failed.
@@ -35,6 +40,7 @@ pub fn path(folder: &Path) -> PathBuf {
 }
 
 impl Progress {
+    /// The progress of somebody who begins.
     #[must_use]
     pub fn new(build: Vec<String>, run: Vec<String>) -> Self {
         let step = STEPS[0].name.clone();
@@ -66,7 +72,9 @@ impl Progress {
     /// # Errors
     /// What is wrong with it, with its line.
     pub fn parse(text: &str) -> Result<Self, String> {
+        // TOML's errors name the line, so they are passed on as they are.
         let progress: Self = toml::from_str(text).map_err(|e| e.to_string().trim().to_owned())?;
+        // A step that was renamed or misspelt is an error, and not a step that was not passed.
         let unknown = |name: &&String| super::find(name).is_none();
         let mut named = std::iter::once(&progress.step).chain(&progress.passed);
         if let Some(name) = named.find(unknown) {
@@ -80,16 +88,19 @@ impl Progress {
         format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
     }
 
+    /// The current step; the first one where the name is that of none.
     pub fn current(&self) -> &'static Step {
         super::find(&self.step).unwrap_or(&STEPS[0])
     }
 
     /// Notes how a step came out. A step that passes makes the next one current that did not.
     pub fn note(&mut self, step: &Step, passes: bool) {
+        // Failures are those of one step; to work on another one begins with none.
         if self.step != step.name {
             self.step.clone_from(&step.name);
             self.failures = 0;
         }
+        // A step that was passed before is not, once it fails.
         if !passes {
             self.failures += 1;
             self.passed.retain(|name| *name != step.name);

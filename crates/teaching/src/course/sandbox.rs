@@ -50,12 +50,14 @@ const LINE: &str =
 
 /// The command that runs a program in its folder and its bounds.
 pub fn command<S: AsRef<OsStr>>(folder: &Path, run: &[S], bounds: &Bounds) -> Vec<OsString> {
+    // `ulimit` takes numbers, and this word for none.
     let bound = |n: Option<u64>| n.map_or_else(|| "unlimited".to_owned(), |n| n.to_string());
     // Nothing to set is left as it is: another `sh` may know no such bound.
     let line = match (bounds.memory_mib, bounds.processor_s) {
         (None, None) => "cd -- \"$3\" && shift 3 && exec \"$@\"",
         _ => LINE,
     };
+    // `ulimit -v` counts in KiB.
     let memory = bound(bounds.memory_mib.map(|mib| mib.saturating_mul(1024)));
     let head = ["sh", "-c", line, "sh", &memory, &bound(bounds.processor_s)].map(OsString::from);
     let run = run.iter().map(|word| word.as_ref().to_owned());
@@ -73,6 +75,7 @@ pub fn check_command<S: AsRef<OsStr>>(folder: &Path, run: &[S]) -> Result<(), St
     if !folder.is_dir() {
         return Err(format!("{} is no folder", printable_path(folder)));
     }
+    // A name with a slash is a path from the folder; any other one is looked for in PATH, as a shell does.
     let is_in = |folder: &Path| folder.join(name).is_file();
     if name.as_encoded_bytes().contains(&b'/') {
         let remedy = "build it, or mend run in course.toml";
@@ -102,6 +105,7 @@ pub fn start<S: AsRef<OsStr>>(
     })
 }
 
+/// The beginning of a command, for a message.
 fn shown<S: AsRef<OsStr>>(words: &[S], most: usize) -> String {
     let words: Vec<_> = words.iter().map(|word| word.as_ref().to_string_lossy()).collect();
     printable(words.join(" ").as_bytes(), most)
@@ -119,9 +123,11 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
         return Ok(());
     }
     check_command(folder, build)?;
+    // A builder maps more memory than the program that it makes.
     let line = command(folder, build, &Bounds { memory_mib: None, ..*bounds });
     let mut command = Command::new(&line[0]);
     command.args(&line[1..]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    // A group of its own, so that all of its processes can be ended.
     let mut group = Group::start(&mut command).map_err(|e| format!("cannot build: {e}"))?;
     let said = BuildMessages::default();
     if let Some(stderr) = group.child().stderr.take() {
@@ -129,7 +135,9 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
             format!("cannot build: no thread can be started; allow more processes (ulimit -u): {e}")
         })?;
     }
+    // What was said stays readable if the thread that reads it panics.
     let lock = || said.lock().unwrap_or_else(PoisonError::into_inner);
+    // The build runs until it ends, has written too much, or has taken too long.
     let end = Instant::now() + bounds.build;
     let floods = || lock().1 > bounds.build_bytes;
     while !group.has_ended() && !floods() && Instant::now() < end {
@@ -138,6 +146,7 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
     let ended = group.end(Duration::ZERO);
     // What has left the group may hold the pipe, which is therefore not waited for.
     end_strays_of_ended_groups();
+    // Why it was ended, if it was; a build that has ended by itself has succeeded or failed.
     let limit = match ended {
         _ if floods() => Some(format!(
             "the build writes more than {} MiB to standard error",
@@ -155,6 +164,7 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
         }
     }
     let text = lock().0.clone();
+    // The first lines that are not empty, as they may be shown.
     let text: Vec<String> = text
         .split(|b| *b == b'\n')
         .filter(|line| !line.is_empty())

@@ -11,6 +11,7 @@ use rasterproof_verify::mistakes::Mistakes;
 /// How a step came out, with its smallest failing case and how to ask for it again.
 pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
     let Outcome { cases, wrong, .. } = outcome;
+    // Why the rest was not asked, if it was not.
     let late = match outcome {
         Outcome { out_of_time: true, .. } => ", and the time was up",
         Outcome { given_up: true, .. } => ", and it ended too often before it had answered",
@@ -24,13 +25,16 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
     let Some(failure) = &outcome.failure else { return Report { about, ..Report::default() } };
     let Failure { what, family, index, evidence, .. } = failure;
     let Exchanged { shrunk, exchanges, .. } = evidence;
+    // A case of one request can be asked again by hand; where several were needed, no single line shows it.
     let again = match &exchanges[..] {
         [Exchange { request, .. }] => format!("echo '{request}' | {command}"),
         _ => String::new(),
     };
+    // The case with its pixels, as the judge of programs shows it.
     let excerpt = judge_text::excerpt(failure, &["yours"], again);
     let title = format!("smallest found: {what} (from {family} #{index}, {})", shrunk.name());
     let mut notes = Vec::new();
+    // What was recognised of its answers, the most particular first.
     if let Some(misconception) = outcome.misconception {
         notes.push(format!("it looks as if {}", misconception.says));
         notes.push(format!("think about: {}", misconception.ask));
@@ -45,6 +49,7 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         notes.push("no known mistake explains its answers".to_owned());
         notes.extend(cause.iter().flat_map(|cause| cause.common.iter().cloned()));
     }
+    // The page of the first cause, which is the most likely one.
     if let Some(known) = cause.and_then(|cause| cause.causes.first()) {
         notes.push(format!("read: docs/{}.md", known.page));
     }

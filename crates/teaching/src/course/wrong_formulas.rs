@@ -1,37 +1,42 @@
 //! What a formula gives to those who believe something else: in floats, as a student computes it.
+//!
+//! Each formula has one function, which computes it with the mistakes that are known of it. A mistake is a line of a `match`.
 
 use rasterproof_verify::oracle::formula::Formula;
 
-/// The numbers that a misconception leads to; nothing where it says nothing.
-pub(super) type Wrong = fn(&[f64]) -> Option<Vec<f64>>;
+/// A mistake about one of the formulas, by the formula that it is about.
+#[derive(Clone, Copy)]
+pub(super) enum Wrong {
+    Project(Project),
+    Window(Window),
+    Winding(Winding),
+    Turn(Turn),
+    Normal(Normal),
+    Light(Light),
+    Texel(Texel),
+    Level(Level),
+}
 
-/// What a right program computes, changed afterwards.
+impl Wrong {
+    /// The numbers that the mistake leads to; nothing where a request is about another formula.
+    pub(super) fn of(self, formula: Formula, numbers: &[f64]) -> Option<Vec<f64>> {
+        match (self, formula) {
+            (Self::Project(how), Formula::Project) => project(how, numbers),
+            (Self::Window(how), Formula::Window) => window(how, numbers),
+            (Self::Winding(how), Formula::Winding) => winding(how, numbers),
+            (Self::Turn(how), Formula::Turn) => turned_point(how, numbers),
+            (Self::Normal(how), Formula::Normal) => normal(how, numbers),
+            (Self::Light(how), Formula::Light) => brightness(how, numbers),
+            (Self::Texel(how), Formula::Texel) => texels(how, numbers),
+            (Self::Level(how), Formula::Level) => level(how, numbers),
+            _ => None,
+        }
+    }
+}
+
+/// What a right program computes: the exact numbers, rounded to floats.
 fn right(formula: Formula, numbers: &[f64]) -> Option<Vec<f64>> {
     Some(formula.of(numbers)?.iter().map(|given| given.exact.to_f64()).collect())
-}
-
-pub(super) const UNDIVIDED: [Wrong; 2] = [
-    |numbers| project(numbers, |n, [x, y, z]| [n * x, n * y, z]),
-    |numbers| project(numbers, |_, point| point),
-];
-pub(super) const FILM_FORGOTTEN: [Wrong; 1] =
-    [|numbers| project(numbers, |_, [x, y, z]| [x / z, y / z, z])];
-pub(super) const BY_DISTANCE: [Wrong; 2] = [
-    |numbers| project(numbers, |n, point| by(n, point, point[2])),
-    |numbers| project(numbers, |n, point| by(n, point, length(point))),
-];
-pub(super) const W_LOST: [Wrong; 1] =
-    [|numbers| project(numbers, |n, [x, y, z]| [n * x / z, n * y / z, 1.0])];
-
-fn project(numbers: &[f64], of: fn(f64, [f64; 3]) -> [f64; 3]) -> Option<Vec<f64>> {
-    let &[n, x, y, z] = numbers else { return None };
-    Some(of(n, [x, y, z]).to_vec())
-}
-
-/// Divided by the length of the way from the eye, with this w.
-fn by(n: f64, [x, y, z]: [f64; 3], w: f64) -> [f64; 3] {
-    let far = length([x, y, z]);
-    [n * x / far, n * y / far, w]
 }
 
 fn length(vector: [f64; 3]) -> f64 {
@@ -42,65 +47,104 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) const SIZE_LESS_1: [Wrong; 1] = [|numbers| {
-    let mut numbers = numbers.to_vec();
-    numbers[0] -= 1.0;
-    numbers[1] -= 1.0;
-    window(&numbers, |place| place)
-}];
-pub(super) const Y_NOT_TURNED: [Wrong; 1] = [|numbers| {
-    let height = *numbers.get(1)?;
-    Some(
-        window(numbers, |place| place)?
-            .into_iter()
-            .zip(0..)
-            .map(|(v, i)| if i == 1 { height - v } else { v })
-            .collect(),
-    )
-}];
-pub(super) const DEPTH_NOT_HALVED: [Wrong; 1] =
-    [|numbers| window(numbers, |[x, y, d]| [x, y, 2.0 * d - 1.0])];
-pub(super) const LINEAR_DEPTH: [Wrong; 1] = [|numbers| {
-    let &[_, _, n, f, _, _, z] = numbers else { return None };
-    let mut place = window(numbers, |place| place)?;
-    place[2] = (z - n) / (f - n);
-    Some(place)
-}];
-pub(super) const FILM_AT_1: [Wrong; 1] = [|numbers| {
-    let n = *numbers.get(2)?;
-    let mut moved = numbers.to_vec();
-    moved[4] /= n;
-    moved[5] /= n;
-    window(&moved, |place| place)
-}];
-
-fn window(numbers: &[f64], of: fn([f64; 3]) -> [f64; 3]) -> Option<Vec<f64>> {
-    let &[width, height, n, f, x, y, z] = numbers else { return None };
-    let x_px = (n * x / z + 1.0) / 2.0 * width;
-    let y_px = (1.0 - n * y / z) / 2.0 * height;
-    let depth = (((f + n) * z - 2.0 * n * f) / (f - n) / z + 1.0) / 2.0;
-    Some(of([x_px, y_px, depth]).to_vec())
+/// Mistakes about a point on the film, and w.
+#[derive(Clone, Copy)]
+pub(super) enum Project {
+    /// x and y are multiplied by the distance of the film, and not divided.
+    TimesFilm,
+    AsItCame,
+    /// x and y are divided by z, and not multiplied by the distance of the film.
+    FilmForgotten,
+    /// The point is returned as it came: nothing is projected.
+    /// The divisor is the length of the way from the eye; w is z, as it should be.
+    ByWay,
+    /// The same, and w is that length too.
+    ByWayAsW,
+    /// The right place, with the w of a point that is not projected.
+    WLost,
 }
 
-pub(super) const UNSNAPPED: [Wrong; 1] = [|numbers| Some(vec![sign(twice_area(numbers)?, 0.0)])];
-pub(super) const WINDING_Y_UP: [Wrong; 1] =
-    [|numbers| Some(right(Formula::Winding, numbers)?.iter().map(|sign| 0.0 - sign).collect())];
-pub(super) const AREA_THRESHOLD: [Wrong; 6] = [
-    |numbers| Some(vec![sign(twice_area(&snapped(numbers))?, 1e-4)]),
-    |numbers| Some(vec![sign(twice_area(&snapped(numbers))?, 1e-3)]),
-    |numbers| Some(vec![sign(twice_area(&snapped(numbers))?, 1e-2)]),
-    |numbers| Some(vec![sign(twice_area(numbers)?, 1e-4)]),
-    |numbers| Some(vec![sign(twice_area(numbers)?, 1e-3)]),
-    |numbers| Some(vec![sign(twice_area(numbers)?, 1e-2)]),
-];
-pub(super) const AREA_RETURNED: [Wrong; 3] = [
-    |numbers| Some(vec![twice_area(numbers)?]),
-    |numbers| Some(vec![twice_area(&snapped(numbers))?]),
-    |numbers| Some(vec![twice_area(&snapped(numbers))? * 65536.0]),
-];
+fn project(how: Project, numbers: &[f64]) -> Option<Vec<f64>> {
+    let &[n, x, y, z] = numbers else { return None };
+    let way = length([x, y, z]);
+    let point = match how {
+        Project::TimesFilm => [n * x, n * y, z],
+        Project::AsItCame => [x, y, z],
+        Project::FilmForgotten => [x / z, y / z, z],
+        Project::ByWay => [n * x / way, n * y / way, z],
+        Project::ByWayAsW => [n * x / way, n * y / way, way],
+        Project::WLost => [n * x / z, n * y / z, 1.0],
+    };
+    Some(point.to_vec())
+}
 
-fn snapped(numbers: &[f64]) -> Vec<f64> {
-    numbers.iter().map(|px| (px * 256.0).round() / 256.0).collect()
+/// Mistakes about a place in the window, and the depth there.
+#[derive(Clone, Copy)]
+pub(super) enum Window {
+    SizeLess1,
+    YNotTurned,
+    DepthNotHalved,
+    LinearDepth,
+    FilmAt1,
+}
+
+/// A place in the window, and the depth there.
+fn window(how: Window, numbers: &[f64]) -> Option<Vec<f64>> {
+    let &[mut width, mut height, n, f, mut x, mut y, z] = numbers else { return None };
+    // Two of the mistakes change what the formula is computed from,
+    match how {
+        Window::SizeLess1 => {
+            width -= 1.0;
+            height -= 1.0;
+        }
+        Window::FilmAt1 => {
+            x /= n;
+            y /= n;
+        }
+        Window::YNotTurned | Window::DepthNotHalved | Window::LinearDepth => {}
+    }
+    let x_px = (n * x / z + 1.0) / 2.0 * width;
+    let mut y_px = (1.0 - n * y / z) / 2.0 * height;
+    let mut depth = (((f + n) * z - 2.0 * n * f) / (f - n) / z + 1.0) / 2.0;
+    // and the other three change one number of the result.
+    match how {
+        Window::YNotTurned => y_px = height - y_px,
+        Window::DepthNotHalved => depth = 2.0 * depth - 1.0,
+        Window::LinearDepth => depth = (z - n) / (f - n),
+        Window::SizeLess1 | Window::FilmAt1 => {}
+    }
+    Some(vec![x_px, y_px, depth])
+}
+
+/// Mistakes about the sign of an area.
+#[derive(Clone, Copy)]
+pub(super) enum Winding {
+    YUp,
+    /// The sign of the area before snapping, with a threshold below which an area counts as none.
+    AsGiven(f64),
+    /// The sign of the area of the snapped corners, with such a threshold.
+    Snapped(f64),
+    /// The area itself, with or without snapping, and in the square subpixels of the oracle.
+    Area,
+    AreaSnapped,
+    AreaInSubpixels,
+}
+
+/// The sign of the area, or what is taken for it.
+fn winding(how: Winding, numbers: &[f64]) -> Option<Vec<f64>> {
+    let given = twice_area(numbers)?;
+    let snapped: Vec<f64> = numbers.iter().map(|px| (px * 256.0).round() / 256.0).collect();
+    let snapped = twice_area(&snapped)?;
+    let number = match how {
+        // Not the negative number, which is -0 where there is no area.
+        Winding::YUp => 0.0 - right(Formula::Winding, numbers)?[0],
+        Winding::AsGiven(threshold) => sign(given, threshold),
+        Winding::Snapped(threshold) => sign(snapped, threshold),
+        Winding::Area => given,
+        Winding::AreaSnapped => snapped,
+        Winding::AreaInSubpixels => snapped * 65536.0,
+    };
+    Some(vec![number])
 }
 
 fn twice_area(numbers: &[f64]) -> Option<f64> {
@@ -113,130 +157,179 @@ fn sign(area: f64, threshold: f64) -> f64 {
     if area.abs() > threshold { area.signum() } else { 0.0 }
 }
 
-pub(super) const TURNED_BACK: [Wrong; 1] = [|numbers| turned(numbers, |_| -1.0, 1.0)];
-pub(super) const ABOUT_Y_BACK: [Wrong; 1] =
-    [|numbers| turned(numbers, |axis| if axis == 1.0 { -1.0 } else { 1.0 }, 1.0)];
-pub(super) const ABOUT_ORIGIN: [Wrong; 1] = [|numbers| turned(numbers, |_| 1.0, 0.0)];
-pub(super) const CENTRE_BACK: [Wrong; 1] = [|numbers| turned(numbers, |_| 1.0, -1.0)];
-pub(super) const NOT_MOVED_BACK: [Wrong; 1] = [|numbers| {
-    let mut point = turned(numbers, |_| 1.0, 1.0)?;
-    point.iter_mut().zip(&numbers[3..]).for_each(|(part, centre)| *part -= centre);
-    Some(point)
-}];
+/// Mistakes about a turn around a centre.
+#[derive(Clone, Copy)]
+pub(super) enum Turn {
+    Back,
+    AboutYBack,
+    AboutOrigin,
+    CentreBack,
+    NotMovedBack,
+}
 
-/// The turn with the sine and the centre multiplied.
-fn turned(numbers: &[f64], sine: fn(f64) -> f64, centre: f64) -> Option<Vec<f64>> {
-    let mut numbers = numbers.to_vec();
-    numbers[2] *= sine(*numbers.first()?);
-    numbers[3..6].iter_mut().for_each(|part| *part *= centre);
-    right(Formula::Turn, &numbers)
+fn turned_point(how: Turn, numbers: &[f64]) -> Option<Vec<f64>> {
+    let axis = *numbers.first()?;
+    let mut changed = numbers.to_vec();
+    // A turn the other way is one whose sine has the other sign.
+    if matches!(how, Turn::Back) || (matches!(how, Turn::AboutYBack) && axis == 1.0) {
+        changed[2] *= -1.0;
+    }
+    // Without its centre the turn is one about the origin.
+    for part in &mut changed[3..6] {
+        match how {
+            Turn::AboutOrigin => *part *= 0.0,
+            Turn::CentreBack => *part *= -1.0,
+            Turn::Back | Turn::AboutYBack | Turn::NotMovedBack => {}
+        }
+    }
+    let mut point = right(Formula::Turn, &changed)?;
+    if matches!(how, Turn::NotMovedBack) {
+        for (part, centre) in point.iter_mut().zip(&numbers[3..]) {
+            *part -= centre;
+        }
+    }
+    Some(point)
 }
 
 type Rows = [[f64; 3]; 3];
 
-pub(super) const NORMAL_AS_POINT: [Wrong; 1] = [|numbers| moved(numbers, Some)];
-pub(super) const TRANSPOSED_ALONE: [Wrong; 1] =
-    [|numbers| moved(numbers, |rows| Some(transposed(rows)))];
-pub(super) const INVERTED_ALONE: [Wrong; 1] =
-    [|numbers| moved(numbers, |rows| inverse_transposed(rows).map(transposed))];
-
-/// The normal, multiplied with what is made of the matrix.
-fn moved(numbers: &[f64], matrix: fn(Rows) -> Option<Rows>) -> Option<Vec<f64>> {
-    let row = |i: usize| <[f64; 3]>::try_from(numbers.get(3 * i..3 * i + 3)?).ok();
-    let normal = row(3)?;
-    Some(matrix([row(0)?, row(1)?, row(2)?])?.map(|row| dot(row, normal)).to_vec())
+/// Mistakes about which matrix takes a normal along. The right one is the inverse, transposed.
+#[derive(Clone, Copy)]
+pub(super) enum Normal {
+    AsPoint,
+    TransposedAlone,
+    InvertedAlone,
 }
 
-fn transposed(rows: Rows) -> Rows {
-    [0, 1, 2].map(|j| [0, 1, 2].map(|i: usize| rows[i][j]))
-}
-
-fn inverse_transposed(rows: Rows) -> Option<Rows> {
-    let numbers = rows.as_flattened();
-    let column = |normal: [f64; 3]| {
-        <[f64; 3]>::try_from(right(Formula::Normal, &[numbers, &normal].concat())?).ok()
+/// A normal after the surface was moved.
+fn normal(how: Normal, numbers: &[f64]) -> Option<Vec<f64>> {
+    let &[a, b, c, normal] = numbers.as_chunks().0 else { return None };
+    let [a, b, c] = match how {
+        Normal::AsPoint => [a, b, c],
+        Normal::TransposedAlone => transposed([a, b, c]),
+        Normal::InvertedAlone => transposed(inverse_transposed([a, b, c])?),
     };
-    let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Some(transposed([column(columns[0])?, column(columns[1])?, column(columns[2])?]))
+    Some(vec![dot(a, normal), dot(b, normal), dot(c, normal)])
 }
 
-pub(super) const DARK_LIGHT: [Wrong; 2] = [
-    |numbers| lit(numbers, |cosine, _, [a, k]| a + k * cosine),
-    |numbers| lit(numbers, |cosine, _, [a, k]| (a + k * cosine).max(0.0)),
-];
-pub(super) const LIT_BEHIND: [Wrong; 1] =
-    [|numbers| lit(numbers, |cosine, _, [a, k]| a + k * cosine.abs())];
-pub(super) const LONG_NORMAL: [Wrong; 2] = [
-    |numbers| lit(numbers, |_, dot, [a, k]| a + k * dot.max(0.0)),
-    |numbers| lit(numbers, |_, dot, [a, k]| a + k * dot.clamp(0.0, 1.0)),
-];
+fn transposed([a, b, c]: Rows) -> Rows {
+    [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]]
+}
 
-/// By the cosine between normal and light, and their dot product; a normal of length 0 has a cosine of 0.
-fn lit(numbers: &[f64], of: fn(f64, f64, [f64; 2]) -> f64) -> Option<Vec<f64>> {
-    let &[n0, n1, n2, l0, l1, l2, a, k] = numbers else { return None };
-    let (normal, light) = ([n0, n1, n2], [l0, l1, l2]);
-    let product = dot(normal, light);
+/// The matrix for normals, by the right formula: it takes each axis to one of the columns.
+fn inverse_transposed(rows: Rows) -> Option<Rows> {
+    let mut columns = [[0.0; 3]; 3];
+    for (axis, column) in columns.iter_mut().enumerate() {
+        let mut normal = [0.0; 3];
+        normal[axis] = 1.0;
+        let asked = [rows.as_flattened(), &normal].concat();
+        *column = right(Formula::Normal, &asked)?.try_into().ok()?;
+    }
+    Some(transposed(columns))
+}
+
+/// Mistakes about the cosine between normal and light.
+#[derive(Clone, Copy)]
+pub(super) enum Light {
+    Dark,
+    /// Dark, and cut only in the sum with the ambient light.
+    DarkCut,
+    LitBehind,
+    LongNormal,
+    LongNormalCut,
+}
+
+fn brightness(how: Light, numbers: &[f64]) -> Option<Vec<f64>> {
+    let &[n0, n1, n2, l0, l1, l2, ambient, diffuse] = numbers else { return None };
+    let normal = [n0, n1, n2];
+    let product = dot(normal, [l0, l1, l2]);
+    // A normal of length 0 has no direction, and its cosine counts as 0.
     let cosine = if length(normal) > 0.0 { product / length(normal) } else { 0.0 };
-    Some(vec![of(cosine, product, [a, k])])
+    Some(vec![match how {
+        Light::Dark => ambient + diffuse * cosine,
+        Light::DarkCut => (ambient + diffuse * cosine).max(0.0),
+        Light::LitBehind => ambient + diffuse * cosine.abs(),
+        Light::LongNormal => ambient + diffuse * product.max(0.0),
+        Light::LongNormalCut => ambient + diffuse * product.clamp(0.0, 1.0),
+    }])
 }
 
-pub(super) const TEXEL_CORNERS: [Wrong; 1] = [|numbers| read(numbers, |u, n| u * n, 0.0, repeat)];
-pub(super) const CLAMPED: [Wrong; 1] = [|numbers| read(numbers, |u, n| u * n, 0.5, clamp)];
-pub(super) const TEXELS_LESS_1: [Wrong; 2] = [
-    |numbers| read(numbers, |u, n| u * (n - 1.0), 0.5, repeat),
-    |numbers| read(numbers, |u, n| u * (n - 1.0), 0.0, repeat),
-];
+/// Mistakes about where the texels of a row are.
+#[derive(Clone, Copy)]
+pub(super) enum Texel {
+    /// A texel has its value at its left border.
+    Corners,
+    Clamped,
+    Less1,
+    Less1Corners,
+}
 
-/// Nearest and bilinear at a place, where a texel has its value so far from its left border.
-fn read(
-    numbers: &[f64],
-    place: fn(f64, f64) -> f64,
-    middle: f64,
-    at: fn(f64, usize) -> usize,
-) -> Option<Vec<f64>> {
+/// What the nearest and the bilinear look-up read.
+fn texels(how: Texel, numbers: &[f64]) -> Option<Vec<f64>> {
     let (&u, texels) = numbers.split_first()?;
-    let place = place(u, texels.len() as f64);
-    let texel = |index: f64| texels[at(index, texels.len())];
+    let count = texels.len() as f64;
+    let place = match how {
+        Texel::Less1 | Texel::Less1Corners => u * (count - 1.0),
+        Texel::Corners | Texel::Clamped => u * count,
+    };
+    // How far from its left border a texel has its value.
+    let middle = match how {
+        Texel::Corners | Texel::Less1Corners => 0.0,
+        Texel::Clamped | Texel::Less1 => 0.5,
+    };
+    // The bilinear look-up mixes the texel whose value lies at or to the left of the place with the next one.
     let left = (place - middle).floor();
     let share = place - middle - left;
-    let mixed = texel(left) + (texel(left + 1.0) - texel(left)) * share;
-    Some(vec![texel(place.floor()), mixed])
+    let [nearest, first, second] = [place.floor(), left, left + 1.0].map(|index| {
+        texels[match how {
+            Texel::Clamped => index.clamp(0.0, count - 1.0),
+            _ => index.rem_euclid(count),
+        } as usize]
+    });
+    Some(vec![nearest, first + (second - first) * share])
 }
 
-fn repeat(index: f64, count: usize) -> usize {
-    index.rem_euclid(count as f64) as usize
+/// Mistakes about the level at which a texture is read: the logarithm to the base 2 of the longer step in texels.
+#[derive(Clone, Copy)]
+pub(super) enum Level {
+    InWindow,
+    AcrossAlone,
+    DownAlone,
+    Shorter,
+    Sum,
+    NaturalLogarithm,
+    NoLogarithm,
+    SizeForgotten,
+    Floor,
+    Round,
+    NotBelow0,
 }
 
-fn clamp(index: f64, count: usize) -> usize {
-    index.clamp(0.0, count as f64 - 1.0) as usize
+fn level(how: Level, numbers: &[f64]) -> Option<Vec<f64>> {
+    let mut changed = numbers.to_vec();
+    match how {
+        // Without w, u and v change evenly in the window.
+        Level::InWindow => [4, 9, 14].into_iter().for_each(|w| changed[w] = 1.0),
+        // The step is then a part of the texture.
+        Level::SizeForgotten => changed[..2].fill(1.0),
+        _ => {}
+    }
+    // The right level of what is now asked, and the steps of what the program was asked.
+    let exact = right(Formula::Level, &changed)?;
+    let [across, down] = steps(numbers)?;
+    Some(match how {
+        Level::InWindow | Level::SizeForgotten => exact,
+        Level::AcrossAlone => level_of(across)?,
+        Level::DownAlone => level_of(down)?,
+        Level::Shorter => level_of(across.min(down))?,
+        Level::Sum => level_of(across + down)?,
+        Level::NaturalLogarithm => vec![libm::log(across.max(down))],
+        Level::NoLogarithm => vec![across.max(down)],
+        Level::Floor => vec![exact[0].floor()],
+        Level::Round => vec![exact[0].round()],
+        Level::NotBelow0 => vec![exact[0].max(0.0)],
+    })
 }
-
-pub(super) const LEVEL_IN_WINDOW: [Wrong; 1] = [|numbers| {
-    let mut flat = numbers.to_vec();
-    // Without w, u and v change evenly in the window.
-    [4, 9, 14].iter().for_each(|w| flat[*w] = 1.0);
-    right(Formula::Level, &flat)
-}];
-pub(super) const ONE_DIRECTION: [Wrong; 2] =
-    [|numbers| level_of(steps(numbers)?[0]), |numbers| level_of(steps(numbers)?[1])];
-pub(super) const SHORTER_DIRECTION: [Wrong; 2] = [
-    |numbers| level_of(steps(numbers)?.into_iter().fold(f64::INFINITY, f64::min)),
-    |numbers| level_of(steps(numbers)?.iter().sum()),
-];
-pub(super) const OTHER_LOGARITHM: [Wrong; 2] = [
-    |numbers| Some(vec![libm::log(steps(numbers)?.into_iter().fold(0.0, f64::max))]),
-    |numbers| Some(vec![steps(numbers)?.into_iter().fold(0.0, f64::max)]),
-];
-pub(super) const SIZE_FORGOTTEN: [Wrong; 1] = [|numbers| {
-    let mut small = numbers.to_vec();
-    small[..2].fill(1.0);
-    right(Formula::Level, &small)
-}];
-pub(super) const WHOLE_LEVEL: [Wrong; 3] = [
-    |numbers| Some(right(Formula::Level, numbers)?.iter().map(|level| level.floor()).collect()),
-    |numbers| Some(right(Formula::Level, numbers)?.iter().map(|level| level.round()).collect()),
-    |numbers| Some(right(Formula::Level, numbers)?.iter().map(|level| level.max(0.0)).collect()),
-];
 
 /// The level of a step in texels; nothing of one that has no length.
 fn level_of(step: f64) -> Option<Vec<f64>> {
@@ -245,23 +338,36 @@ fn level_of(step: f64) -> Option<Vec<f64>> {
 
 /// How many texels the place in the texture moves by a pixel to the right, and by a pixel downwards.
 fn steps(numbers: &[f64]) -> Option<[f64; 2]> {
-    let corner = |i: usize| <[f64; 5]>::try_from(numbers.get(2 + 5 * i..7 + 5 * i)?).ok();
-    let corners = [corner(0)?, corner(1)?, corner(2)?];
-    let [a, b, c] = corners;
+    let &[width, height, ref corners @ .., x, y] = numbers else { return None };
+    let corners: [[f64; 5]; 3] = corners.as_chunks().0.try_into().ok()?;
+    // 1/w, u/w and v/w are linear in the window,
+    let q = plane(&corners, corners.map(|[_, _, w, _, _]| 1.0 / w), [x, y]);
+    let u = plane(&corners, corners.map(|[_, _, w, u, _]| u / w), [x, y]);
+    let v = plane(&corners, corners.map(|[_, _, w, _, v]| v / w), [x, y]);
+    // and u and v are their quotients.
+    let by_x = [quotient_slope(u, q, u.by_x, q.by_x), quotient_slope(v, q, v.by_x, q.by_x)];
+    let by_y = [quotient_slope(u, q, u.by_y, q.by_y), quotient_slope(v, q, v.by_y, q.by_y)];
+    Some([by_x, by_y].map(|[u, v]| length([u * width, v * height, 0.0])))
+}
+
+/// A function that is linear in the window: its value at a place, and how much it grows by a pixel in x and in y.
+#[derive(Clone, Copy)]
+struct Plane {
+    value: f64,
+    by_x: f64,
+    by_y: f64,
+}
+
+/// The plane through the values at three corners.
+fn plane([a, b, c]: &[[f64; 5]; 3], values: [f64; 3], [x, y]: [f64; 2]) -> Plane {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    let plane = |f: [f64; 3]| {
-        let [df1, df2] = [f[1] - f[0], f[2] - f[0]];
-        let by_x = (df1 * (c[1] - a[1]) - df2 * (b[1] - a[1])) / area;
-        let by_y = (df2 * (b[0] - a[0]) - df1 * (c[0] - a[0])) / area;
-        [f[0] + by_x * (numbers[17] - a[0]) + by_y * (numbers[18] - a[1]), by_x, by_y]
-    };
-    let [q, u, v] = [
-        plane(corners.map(|corner| 1.0 / corner[2])),
-        plane(corners.map(|corner| corner[3] / corner[2])),
-        plane(corners.map(|corner| corner[4] / corner[2])),
-    ];
-    Some([1, 2].map(|slope: usize| {
-        let by = |over_w: [f64; 3]| (over_w[slope] - over_w[0] / q[0] * q[slope]) / q[0];
-        length([by(u) * numbers[0], by(v) * numbers[1], 0.0])
-    }))
+    let [to_b, to_c] = [values[1] - values[0], values[2] - values[0]];
+    let by_x = (to_b * (c[1] - a[1]) - to_c * (b[1] - a[1])) / area;
+    let by_y = (to_c * (b[0] - a[0]) - to_b * (c[0] - a[0])) / area;
+    Plane { value: values[0] + by_x * (x - a[0]) + by_y * (y - a[1]), by_x, by_y }
+}
+
+/// How much over / q grows in the direction in which the two grow by these slopes: the quotient rule.
+fn quotient_slope(over: Plane, q: Plane, over_slope: f64, q_slope: f64) -> f64 {
+    (over_slope - over.value / q.value * q_slope) / q.value
 }

@@ -2,6 +2,7 @@
 
 use super::{Language, Text};
 
+/// What is right, of one of three kinds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Right {
     /// One of the choices, counted from 0.
@@ -15,6 +16,7 @@ pub enum Right {
     },
 }
 
+/// An answer that was read, of the kind that the question has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// One of the choices, counted from 0.
@@ -66,6 +68,7 @@ impl Right {
             (Self::Choice(right), Given::Choice(i)) => i == right,
             (Self::Pixel(right), Given::Pixel(pixel)) => pixel == right,
             (Self::Number { value, decimals }, Given::Number(number)) => {
+                // A number that was rounded to the last digit is at most half a unit off, and a little more for rounding here.
                 let unit = 0.1f64.powi(decimals as i32);
                 (number - value).abs() <= if decimals == 0 { 0.0 } else { unit * 0.5000001 }
             }
@@ -83,6 +86,7 @@ impl Right {
         let remedy = match self {
             Self::Choice(_) => {
                 let last = letter(choices.len().saturating_sub(1));
+                // A choice that names a pixel may be given by that pixel, where it is no letter and no number.
                 let by_letter = (0..choices.len()).find(|&i| {
                     word.eq_ignore_ascii_case(&letter(i).to_string()) || word == (i + 1).to_string()
                 });
@@ -110,6 +114,7 @@ impl Right {
                     .map(str::to_owned),
             },
         };
+        // What would have been an answer, in the language of whoever gave this one.
         let remedy = &remedy[language as usize];
         Err(match language {
             Language::English => format!("'{word}' is no answer here; give {remedy}"),
@@ -118,6 +123,7 @@ impl Right {
     }
 }
 
+/// The letter of a choice: a for the first one.
 pub fn letter(choice: usize) -> char {
     (b'a' + choice as u8) as char
 }
@@ -130,6 +136,7 @@ pub(super) fn pixel(word: &str) -> Option<[i32; 2]> {
     Some([x.trim().parse().ok()?, y.trim().parse().ok()?])
 }
 
+/// A number, or a fraction of two; nothing for what is infinite or no number.
 fn number(word: &str) -> Option<f64> {
     let value = match word.split_once('/') {
         Some((over, under)) => {

@@ -38,6 +38,7 @@ pub fn exercises<'a>(
     }
 }
 
+/// The questions of chapters, numbered.
 pub fn list(chapters: &[&Chapter], language: Language) -> Report {
     let table = |chapter: &&Chapter| {
         let (word, exercises) = (chapter.word(), &chapter.exercises);
@@ -69,6 +70,7 @@ pub fn paper(
         ));
     }
     let seed = seed.map_or_else(String::new, |seed| format!(" {seed}"));
+    // The seed stands in the title, so that the same paper can be printed again.
     let head = match (language, is_key) {
         (Language::English, false) => format!("Paper{seed}: {count} questions"),
         (Language::English, true) => format!("Key of paper{seed}"),
@@ -77,6 +79,7 @@ pub fn paper(
     };
     let question = |(number, (chapter, exercise)): (usize, &(&Chapter, &Exercise))| {
         let solution = exercise.solution();
+        // The key has answers and reasons, and no questions.
         if is_key {
             let why = exercise.explanation(language, &solution);
             let title = format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.page);
@@ -90,6 +93,7 @@ pub fn paper(
     Ok(Report { about: head, excerpts, ..Report::default() })
 }
 
+/// A conversation: where answers come from, and where questions go.
 pub struct Quiz<'a> {
     pub input: &'a mut dyn BufRead,
     pub output: &'a mut dyn Write,
@@ -135,11 +139,13 @@ impl Quiz<'_> {
         let grid = choices(exercise, self.language).join("\n");
         let asked = Excerpt { title: format!("{head}\n{question}"), grid, ..Excerpt::default() };
         self.output.write_all(text::excerpt(&asked, text::WIDTH).as_bytes())?;
+        // Asks until there is an answer, an empty line, or the end of the input.
         let given = loop {
             if self.is_watched {
                 write!(self.output, "> ")?;
                 self.output.flush()?;
             }
+            // At the end of the input, the rest of the questions is not answered.
             let mut line = String::new();
             if self.input.read_line(&mut line)? == 0 {
                 writeln!(self.output)?;
@@ -161,6 +167,7 @@ impl Quiz<'_> {
                 }
             }
         };
+        // What was given is judged, and the right answer is said in any case.
         let [is_said_right, wrong, passed] = PHRASES[self.language as usize];
         let is_right = given.is_some_and(|given| solution.answer.accepts(given));
         let verdict = match given {
@@ -176,6 +183,7 @@ impl Quiz<'_> {
         };
         let (grid, notes) = (grids(&solution), legend(&solution, self.language));
         let notes = notes.map(str::to_owned).into_iter().collect();
+        // The reason follows the verdict, with the pixels that show it.
         let answered = Excerpt { title, grid, notes, ..Excerpt::default() };
         self.output.write_all(text::excerpt(&answered, text::WIDTH).as_bytes())?;
         Ok(Some(is_right))

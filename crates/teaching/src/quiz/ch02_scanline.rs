@@ -8,18 +8,21 @@ use rasterproof_core::raster::scanline::Scanline;
 
 solvers!(row, rows, middle);
 
+/// The pixels in one row of a triangle whose corners are centres.
 fn row(_: &[Text]) -> Solution {
     let drawn = truth(&[[[0.5, 0.5], [6.5, 0.5], [0.5, 6.5]]], PixelRect::window(8, 8));
     let pixels = drawn.row(2).iter().map(|&n| u64::from(n)).sum();
     Solution::count(pixels).grid("oracle", &drawn, &drawn)
 }
 
+/// The rows of a triangle that begins and ends at the height of centres: the first one has pixels and the last one has none.
 fn rows(_: &[Text]) -> Solution {
     let drawn = truth(&[[[0.0, 1.5], [8.0, 1.5], [0.0, 5.5]]], PixelRect::window(8, 8));
     let rows = drawn.rows().filter(|(_, row)| row.iter().any(|&n| n > 0)).count();
     Solution::count(rows as u64).grid("oracle", &drawn, &drawn)
 }
 
+/// A triangle whose middle corner is at the height of centres.
 const POINTED: Px = [[0.5, 0.5], [6.5, 3.5], [0.5, 6.5]];
 
 /// The spans of both parts of a triangle that is cut at its middle corner, where each part has its last row too.

@@ -9,6 +9,7 @@ use rasterproof_verify::oracle::values::{ExactTriangle, along_line};
 
 solvers!(rod, weight, outside, order);
 
+/// The value three eighths along a rod, by the oracle's formula.
 fn rod(_: &[Text]) -> Solution {
     let value = along_line([2.0, 10.0], 3, 8).to_f64();
     Solution::number(value, 0)
@@ -23,16 +24,17 @@ fn weights(x_px: i32, y_px: i32) -> [f64; 3] {
     exact.expect("it has an area").at(x_px, y_px).1.map(|weight| weight.to_f64())
 }
 
+/// The weight of the first corner; the others are figures of the reason.
 fn weight(_: &[Text]) -> Solution {
     let [a, b, c] = weights(1, 2);
     Solution::number(a, 2).figure(b).figure(c)
 }
 
+/// How many weights are negative at a pixel on the other side of one edge.
 fn outside(_: &[Text]) -> Solution {
-    let all = weights(6, 6);
-    let negative = all.iter().filter(|&&weight| weight < 0.0).count();
-    let solution = Solution::count(negative as u64);
-    all.into_iter().fold(solution, |solution, weight| solution.figure(weight))
+    let [a, b, c] = weights(6, 6);
+    let negative = [a, b, c].iter().filter(|&&weight| weight < 0.0).count();
+    Solution::count(negative as u64).figure(a).figure(b).figure(c)
 }
 
 /// Whether weights in the wrong order change a value, and whether they change a pixel.
@@ -48,6 +50,7 @@ fn is_noticed(values: [f64; 3]) -> (bool, bool) {
         values.map(|value| [value]),
     );
     let exact = exact.expect("it has an area");
+    // Its fragments against the exact values, and their number against that of the covered pixels.
     let (mut pixels, mut off) = ([0, 0], false);
     let window = PixelRect::window(11, 11);
     let emitted = SysuWeights.fragments(&triangle, window, &mut |f| {
@@ -62,6 +65,7 @@ fn is_noticed(values: [f64; 3]) -> (bool, bool) {
     (off, pixels[0] != pixels[1])
 }
 
+/// Equal values hide exchanged weights, and no coverage shows them.
 fn order(_: &[Text]) -> Solution {
     let (constant, _) = is_noticed([0.5; 3]);
     let (different, pixels) = is_noticed([0.0, 1.0, 3.0]);

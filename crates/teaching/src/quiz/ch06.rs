@@ -19,14 +19,17 @@ fn drawn(fragments: &[(u64, u8)]) -> u8 {
     target.pixel(0, 0)[0]
 }
 
+/// Of two fragments of one depth the first one stays: the test lets nearer ones pass, and not equal ones.
 fn equal(_: &[Text]) -> Solution {
     let shown = drawn(&[(7, 0), (7, 255)]);
     Solution::choice(&[shown == 0, shown == 255, shown == 128])
 }
 
+/// How many colours the six orders of three fragments lead to.
 fn order(_: &[Text]) -> Solution {
     let all = [(5, 50), (3, 30), (8, 80)];
     let mut shown = ORDERS.map(|order| drawn(&order.map(|i| all[i]))).to_vec();
+    // Equal colours become neighbours, of which one is kept.
     shown.sort_unstable();
     shown.dedup();
     Solution::count(shown.len() as u64)
@@ -39,16 +42,19 @@ fn depth(z: f64) -> f64 {
     (p.z / p.w + 1.0) / 2.0
 }
 
+/// The depth at twice the distance of the near plane.
 fn half(_: &[Text]) -> Solution {
     let solution = Solution::number(depth(0.2), 1);
     solution.figure(format!("{:.4}", depth(10.0)))
 }
 
+/// Which format tells two distances near the far plane apart.
 fn apart(choices: &[Text]) -> Solution {
-    let format = |text: &Text| DepthFormat::ALL.into_iter().find(|f| f.name() == text[0]);
-    let apart = |text| {
-        let format = format(text).expect("the choices are formats");
-        format.key(depth(990.0)) != format.key(depth(990.1))
-    };
-    Solution::choice(&choices.iter().map(apart).collect::<Vec<_>>())
+    let mut all = Vec::new();
+    for text in choices {
+        let format = DepthFormat::ALL.into_iter().find(|format| format.name() == text[0]);
+        let format = format.expect("the choices are formats");
+        all.push(format.key(depth(990.0)) != format.key(depth(990.1)));
+    }
+    Solution::choice(&all)
 }

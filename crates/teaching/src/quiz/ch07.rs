@@ -4,10 +4,11 @@ use glam::DVec4;
 
 use super::{Solution, Text};
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, clip, outcode};
+use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, clip, outcode};
 
 solvers!(share, corners, rejected, most);
 
+/// A vertex in clip space with one attribute.
 fn vertex(x: f64, y: f64, z: f64, w: f64, varying: f64) -> ClipVertex<f64> {
     ClipVertex { position: DVec4::new(x, y, z, w), varying }
 }
@@ -21,6 +22,7 @@ fn behind() -> [ClipVertex<f64>; 3] {
     ]
 }
 
+/// Where the edges cross the near plane, as a share of their length.
 fn share(_: &[Text]) -> Solution {
     let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
     // The attribute runs from 0 to 1 along the edge, so that it is t at the crossing.
@@ -28,6 +30,7 @@ fn share(_: &[Text]) -> Solution {
     Solution::number(t, 2)
 }
 
+/// A triangle with one corner cut off has four.
 fn corners(_: &[Text]) -> Solution {
     let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
     Solution::count(polygon.vertices().len() as u64)
@@ -40,12 +43,16 @@ const CASES: [[[f64; 2]; 3]; 3] = [
     [[-3.0, 0.0], [0.0, 3.0], [3.0, 0.0]],
 ];
 
+/// Which triangle is dropped by its outcodes alone: all three corners have the bit of one plane.
 fn rejected(_: &[Text]) -> Solution {
-    let codes = CASES.map(|case| case.map(|[x, y]| outcode(&vertex(x, y, 0.0, 1.0, 0.0))));
-    let rejected = codes.map(|code| code.iter().fold(Outcode::MAX, |all, code| all & code) != 0);
+    let rejected = CASES.map(|case| {
+        let [a, b, c] = case.map(|[x, y]| outcode(&vertex(x, y, 0.0, 1.0, 0.0)));
+        a & b & c != 0
+    });
     Solution::choice(&rejected)
 }
 
+/// Each plane adds at most one vertex to the three.
 fn most(_: &[Text]) -> Solution {
     Solution::count(MOST_VERTICES as u64).figure(ClipPlane::ALL.len())
 }

@@ -12,6 +12,7 @@ use rasterproof_render::pipeline::transform::frustum;
 
 solvers!(place, size, behind, middle);
 
+/// The column at which a point right of the middle is placed.
 fn place(_: &[Text]) -> Solution {
     let vertex = ClipVertex { position: DVec4::new(0.5, 0.0, 0.0, 1.0), varying: () };
     let placed = Viewport::new(PixelRect::window(8, 6)).place(&vertex).expect("within the window");
@@ -22,6 +23,7 @@ fn place(_: &[Text]) -> Solution {
 const SQUEEZED: [Px; 2] =
     [[[0.0, 3.0], [3.0, 3.0], [3.0, 1.0]], [[0.0, 3.0], [3.0, 1.0], [0.0, 1.0]]];
 
+/// How many pixels are left of a square that should fill the window.
 fn size(_: &[Text]) -> Solution {
     let window = PixelRect::window(4, 3);
     let whole = [[[0.0, 3.0], [4.0, 3.0], [4.0, 0.0]], [[0.0, 3.0], [4.0, 0.0], [0.0, 0.0]]];
@@ -31,6 +33,7 @@ fn size(_: &[Text]) -> Solution {
         .grid("size", &right, &right)
 }
 
+/// Whether a point behind the eye is inside: by the test before the division it is not, and after it, it would be.
 fn behind(_: &[Text]) -> Solution {
     let position = DVec4::new(0.5, 0.5, 0.5, -2.0);
     let inside = outcode(&ClipVertex { position, varying: 0.0 }) == 0;
@@ -38,6 +41,7 @@ fn behind(_: &[Text]) -> Solution {
     Solution::choice(&[inside, !inside]).figure(divided.x).figure(divided.y).figure(divided.z)
 }
 
+/// The distance whose depth is the middle of the cube, which the inverse matrix finds.
 fn middle(_: &[Text]) -> Solution {
     let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).expect("it is a frustum");
     let back = projection.inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);

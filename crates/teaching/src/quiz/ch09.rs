@@ -20,6 +20,7 @@ fn turns(triangle: Px) -> [bool; 3] {
 
 const RIGHT_ANGLE: Px = [[1.0, 1.0], [6.0, 1.0], [1.0, 6.0]];
 
+/// Which way a triangle runs, by the culling of the pipeline.
 fn winding(_: &[Text]) -> Solution {
     Solution::choice(&turns(RIGHT_ANGLE))
 }
@@ -30,17 +31,22 @@ fn area(_: &[Text]) -> Solution {
     Solution::number(value, 0)
 }
 
+/// Its third corner is less than half a subpixel from the first.
 const SLIVER: Px = [[1.0, 1.0], [1.0, 5.0], [1.001, 1.0]];
 
+/// A sliver has an area, and none after it is snapped.
 fn thin(_: &[Text]) -> Solution {
     Solution::choice(&turns(SLIVER)).figure(corners(SLIVER)[2].x)
 }
 
+/// How often the vertex stage runs for a cube of indexed vertices, and how often it would run for corners.
 fn shared(_: &[Text]) -> Solution {
+    // The bits of its number are the coordinates of a vertex.
     let cube: Vec<_> =
         (0..8).map(|i| DVec3::from([i & 1, i >> 1 & 1, i >> 2].map(f64::from)) / 2.0).collect();
     let faces =
         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    // Each face as two triangles, twelve in all.
     let triangles: Vec<[u32; 3]> =
         faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let (counters, _) = draw(&cube, &triangles, 4, Antialias::None);

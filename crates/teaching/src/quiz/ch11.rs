@@ -10,12 +10,14 @@ solvers!(away, short, beyond, between);
 
 const LIGHT: Light = Light { towards: DVec3::Z, ambient: 0.2, diffuse: 0.8 };
 
+/// A surface that faces away has the ambient light, and less than that without the bound at 0.
 fn away(_: &[Text]) -> Solution {
     let value = LIGHT.intensity(DVec3::NEG_Z);
     let without = LIGHT.ambient + LIGHT.diffuse * DVec3::NEG_Z.dot(LIGHT.towards);
     Solution::number(value, 1).figure(format!("{without:.1}"))
 }
 
+/// By how many percent the light is too weak where an interpolated normal is not made long again.
 fn short(_: &[Text]) -> Solution {
     let normal = (DVec3::X + DVec3::Z) / 2.0;
     let light = Light { ambient: 0.0, diffuse: 1.0, ..LIGHT };
@@ -30,11 +32,13 @@ fn two_texels() -> Texture {
     Texture::new(2, 1, &[[0; 3], [255; 3]]).expect("two texels")
 }
 
+/// What a repeating texture shows beyond its right border.
 fn beyond(_: &[Text]) -> Solution {
     let red = |u| two_texels().with(Filter::Nearest, Wrap::Repeat).at(DVec2::new(u, 0.5)).x;
     Solution::choice(&[red(1.1) == 0.0, red(1.1) == 1.0])
 }
 
+/// The mixture at the border of two texels, and at their middles.
 fn between(_: &[Text]) -> Solution {
     let smooth = two_texels().with(Filter::Bilinear, Wrap::Clamp);
     let at = |u| smooth.at(DVec2::new(u, 0.5)).x;

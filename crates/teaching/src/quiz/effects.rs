@@ -19,6 +19,7 @@ const SIDE: u32 = 16;
 
 /// A panel parallel to the screen, of one colour, from (x0, y0) to (x1, y1) in pixels.
 fn panel([x0, y0, x1, y1]: [f64; 4]) -> Item {
+    // From pixels to clip space, where y points up.
     let to_cube = |px: f64| px * 2.0 / f64::from(SIDE) - 1.0;
     let at = |x, y| DVec3::new(to_cube(x), -to_cube(y), 0.0);
     Item::new(
@@ -39,18 +40,19 @@ fn draw_scene(scene: &Scene, effects: &Effects, antialias: Antialias) -> Rendere
     Drawer::Scanline.render(scene, effects, &mut target).expect("a sound scene")
 }
 
+/// Which picture needs depth tests, by the plan.
 fn overlap(_: &[Text]) -> Solution {
-    let left = |end| panel([1.0, 1.0, end, 15.0]);
-    let right = || panel([8.0, 1.0, 15.0, 15.0]);
-    let frames = [vec![left(7.0)], vec![left(7.0), right()], vec![left(9.0), right()]];
-    let tests = |effects: Effects| {
-        let frames = frames.clone();
-        frames.map(|items| draw(items, &effects, Antialias::None).counters.depth_tests)
-    };
-    let planned = tests(Effects::PLANNED);
-    Solution::choice(&planned.map(|count| count > 0))
-        .figure(tests(Effects::ALWAYS)[1])
-        .figure(planned[1])
+    // One panel, two beside each other, and two that overlap.
+    let [short, long] = [7.0, 9.0].map(|end| panel([1.0, 1.0, end, 15.0]));
+    let right = panel([8.0, 1.0, 15.0, 15.0]);
+    let frames = [vec![short.clone()], vec![short, right.clone()], vec![long, right]];
+    let always = depth_tests(frames[1].clone(), &Effects::ALWAYS);
+    let planned = frames.map(|items| depth_tests(items, &Effects::PLANNED));
+    Solution::choice(&planned.map(|count| count > 0)).figure(always).figure(planned[1])
+}
+
+fn depth_tests(items: Vec<Item>, effects: &Effects) -> u64 {
+    draw(items, effects, Antialias::None).counters.depth_tests
 }
 
 /// A triangle in the window, of two or of one colour at its corners, with w = 1 + `slope` x.
@@ -62,6 +64,7 @@ fn leaning(slope: f64, colours: [DVec3; 3]) -> Item {
     item
 }
 
+/// Which triangle needs divisions: one whose w and whose colours both differ between its corners.
 fn divide(_: &[Text]) -> Solution {
     let (same, different) = ([DVec3::ONE; 3], [DVec3::X, DVec3::Y, DVec3::Z]);
     let cases = [(0.0, different), (0.001, same), (0.001, different)];
@@ -72,6 +75,7 @@ fn divide(_: &[Text]) -> Solution {
     Solution::choice(&divisions.map(|count| count > 0)).figure(divisions[2])
 }
 
+/// How many pixels of a panel get samples of their own: those on its border.
 fn samples(_: &[Text]) -> Solution {
     let items = vec![panel([2.5, 2.5, 13.5, 13.5])];
     let counters = draw(items, &Effects::PLANNED, Antialias::Supersample(4)).counters;
@@ -82,6 +86,7 @@ fn samples(_: &[Text]) -> Solution {
         .figure(SIDE * SIDE * 16)
 }
 
+/// How many triangles of a closed and opaque body the plan culls, if the material does not ask for it, and if it does.
 fn back(_: &[Text]) -> Solution {
     let centre = DVec3::new(0.0, 0.0, 4.0);
     let material =

@@ -18,6 +18,7 @@ fn times_shaded(antialias: Antialias) -> usize {
     places.into_iter().filter(|place| place.floor() == DVec2::splat(3.0)).count()
 }
 
+/// How often the colour of a pixel is computed by both kinds of samples.
 fn shaded(_: &[Text]) -> Solution {
     let counts = [Antialias::Supersample(2), Antialias::Multisample4].map(times_shaded);
     let all = [[4, 4], [4, 1], [1, 4], [1, 1]];
@@ -37,6 +38,7 @@ fn resolved(samples: [Option<Colour>; 4]) -> Colour {
     target.pixel(0, 0)
 }
 
+/// What a pixel shows of a green and three blue samples if all of them are averaged at the end.
 fn average(_: &[Text]) -> Solution {
     let (green, blue) = (Some([0, 255, 0, 255]), Some([0, 0, 255, 255]));
     let whole = resolved([green, blue, blue, blue]);
@@ -45,11 +47,13 @@ fn average(_: &[Text]) -> Solution {
     Solution::count(u64::from(whole[1])).figure(last[1]).figure(last[2])
 }
 
+/// Where a pixel beyond the right border lands in a list of rows.
 fn bounding_box(_: &[Text]) -> Solution {
     let (x, y) = games101_box::lands(11, 4, 8);
     Solution::new(Right::Pixel([x, y])).figure(4 * 8 + 11)
 }
 
+/// The depth halfway between two corners by the homework's formula.
 fn depth(_: &[Text]) -> Solution {
     let value = games101_depth::published([-1.0, 1.0], [1.0, 4.0], 0.5);
     Solution::number(value, 1)

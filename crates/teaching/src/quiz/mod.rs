@@ -52,11 +52,13 @@ use serde::Deserialize;
 
 use crate::spine;
 
+/// A text in both languages: English, Chinese.
 pub type Text = [String; 2];
 
 /// Computes the answer of an exercise from its choices.
 pub type Solve = fn(&[Text]) -> Solution;
 
+/// The language in which somebody is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
     English,
@@ -69,6 +71,7 @@ impl Language {
     }
 }
 
+/// A question of a page, with its choices and the reason of its answer.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exercise {
@@ -94,10 +97,12 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// An answer without figures and grids.
     fn new(answer: Right) -> Self {
         Self { answer, figures: Vec::new(), grids: Vec::new() }
     }
 
+    /// A number, asked to so many decimals.
     fn number(value: f64, decimals: usize) -> Self {
         Self::new(Right::Number { value, decimals })
     }
@@ -110,6 +115,7 @@ impl Solution {
         Self::new(Right::only(holds))
     }
 
+    /// Adds a number that the reason names.
     fn figure(mut self, figure: impl ToString) -> Self {
         self.figures.push(figure.to_string());
         self
@@ -136,6 +142,7 @@ impl Exercise {
         language.of(&self.question).to_owned() + &solution.answer.form(language)
     }
 
+    /// The reason, with the figures in their places.
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {
         let mut figures = solution.figures.iter();
         let mut parts = language.of(&self.why).split("{}");
@@ -180,6 +187,7 @@ const SOLVERS: &[(&str, &[(&str, Solve)])] = solvers_of!(
     stability
 );
 
+/// Reads the texts, and gives each exercise its function.
 fn chapters() -> Vec<Chapter> {
     #[derive(Deserialize)]
     struct Texts {
@@ -192,6 +200,7 @@ fn chapters() -> Vec<Chapter> {
         let module = chapter.module();
         let solvers = SOLVERS.iter().find(|(name, _)| *name == module);
         for exercise in &mut chapter.exercises {
+            // A name without a function stays without one, which a test finds.
             let named =
                 solvers.and_then(|(_, s)| s.iter().find(|(name, _)| *name == exercise.solve));
             exercise.solver = named.map(|(_, solve)| *solve);
@@ -231,6 +240,7 @@ pub fn chapter(word: &str) -> Option<&'static Chapter> {
 pub fn order(count: usize, seed: u64) -> Vec<usize> {
     let mut rng = Rng::new("quiz", seed, 0);
     let mut order: Vec<_> = (0..count).collect();
+    // The shuffle of Fisher and Yates: each order is equally likely.
     for last in (1..count).rev() {
         order.swap(last, rng.int(0, last as i64) as usize);
     }

@@ -9,6 +9,7 @@ use rasterproof_verify::judge::ascii;
 const PAGE_COLUMNS: usize = 130;
 const TERMINAL_COLUMNS: usize = 96;
 
+/// The heading of the section in both languages.
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
 
 /// The section of a chapter's page, from its heading to the page's end. A lesson gives the reasons of its answers, another page
@@ -20,6 +21,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         Language::Chinese => ("在终端里提出这些问题。", " --language zh"),
     };
     let intro = format!("`cargo run -- quiz {word}{extra}` {ask}");
+    // The engines compute the answers each time that the page is written.
     let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
     let axes = match language {
         Language::English => {
@@ -30,6 +32,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
             "网格里列向右、行向下，都从 0 数起；`#` 画了，`.` 没画，`-` 缺失，`+` 多余，`2` 画了两次。"
         }
     };
+    // The marks are explained where a page shows grids that have other marks than drawn and not drawn.
     let shows_grids = spine::number(&chapter.page).is_some();
     let axes = if shows_grids && solutions.iter().any(|s| legend(s, language).is_some()) {
         axes
@@ -50,6 +53,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
     if spine::number(&chapter.page).is_none() {
         return out + &answers_alone(word, &solutions, language);
     }
+    // Each answer has to be opened, and has its reason and its grids.
     for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(&solutions) {
         let word = ["Answer", "答案"][language as usize];
         let answer = solution.answer.text();
@@ -79,6 +83,7 @@ fn answers_alone(word: &str, solutions: &[Solution], language: Language) -> Stri
     format!("\n<details><summary>{summary}</summary>\n\n{answers}\n\n{reasons}\n\n</details>\n")
 }
 
+/// Text broken into the lines of a page.
 fn wrapped(text: &str, language: Language) -> String {
     match language {
         Language::English => ascii::lines(text, PAGE_COLUMNS, ascii::columns).join("\n"),

@@ -26,22 +26,23 @@ solvers!(decision, backwards, dropped, turned, corner);
 
 /// The rows of a line from (0, 0), one for each of its columns.
 fn rows(to: [i32; 2]) -> Vec<i32> {
-    let end = |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
+    let ends = [[0, 0], to].map(|[x, y]| LineEnd {
+        pixel: PixelPoint::new(x, y),
+        depth: 0.0,
+        varying: 0.0,
+    });
     let mut rows = Vec::new();
-    let line = ScreenLine { ends: [end([0, 0]), end(to)] };
-    Bresenham.draw(&line, PixelRect::window(16, 16), |f| rows.push(f.y_px));
+    Bresenham.draw(&ScreenLine { ends }, PixelRect::window(16, 16), |f| rows.push(f.y_px));
     rows
 }
 
+/// The decision variable of Bresenham's line in column 1, from the exact height of the line.
 fn decision(_: &[Text]) -> Solution {
-    let (dx, rows) = (8.0, rows([8, 3]));
-    // dx times the difference of the distances to the two rows, from the exact height.
-    let decision = |u: i32| {
-        let height = along_line([0.0, 3.0], u64::from(u.unsigned_abs()) + 1, 8).to_f64();
-        let lower = height - f64::from(rows[u as usize]);
-        dx * (lower - (1.0 - lower))
-    };
-    Solution::number(decision(1), 0).figure(rows[2])
+    let rows = rows([8, 3]);
+    // dx times the difference of the distances to the two rows of the next column.
+    let height = along_line([0.0, 3.0], 2, 8).to_f64();
+    let lower = height - f64::from(rows[1]);
+    Solution::number(8.0 * (lower - (1.0 - lower)), 0).figure(rows[2])
 }
 
 /// The row of column 1 on a line between (0, 0) and (2, 1), as published.
@@ -53,6 +54,7 @@ fn published_row(ends: [[f64; 2]; 2]) -> i32 {
     row.expect("every column is lit")
 }
 
+/// The pixel of the middle column on the way back.
 fn backwards(_: &[Text]) -> Solution {
     let (first, last) = ([0.5, 0.5], [2.5, 1.5]);
     let [there, back] = [[first, last], [last, first]].map(published_row);
@@ -64,6 +66,7 @@ fn backwards(_: &[Text]) -> Solution {
 /// Corners on the screen, where w is 1 and visible is -1 to 1.
 type Screen = [[f64; 2]; 3];
 
+/// The window lies inside the triangle, the triangle lies partly in the window, and it lies beside it.
 const AROUND: Screen = [[-9.0, -3.0], [9.0, -3.0], [0.0, 9.0]];
 const ACROSS: Screen = [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]];
 const BESIDE: Screen = [[2.0, 0.0], [3.0, 0.0], [2.0, 1.0]];
@@ -74,6 +77,7 @@ fn is_lost(triangle: Screen) -> bool {
         .map(|[x, y]| ClipVertex { position: DVec4::new(x, y, 0.0, 1.0), varying: DVec2::ZERO });
     let window = PixelRect::window(8, 8);
     let mut visible = false;
+    // The pipeline clips, and the oracle finds whether any of the pieces covers a pixel.
     let assembler = Assembler::new(window, Cull::None);
     let points = vertices.map(|v| assembler.point(v.position));
     assembler.assemble(
@@ -87,10 +91,12 @@ fn is_lost(triangle: Screen) -> bool {
     visible && sysu_simple_clip::kept(vertices).is_empty()
 }
 
+/// Which of three triangles is lost although it is seen.
 fn dropped(_: &[Text]) -> Solution {
     Solution::choice(&[ACROSS, AROUND, BESIDE].map(is_lost))
 }
 
+/// How many triangles of the book's cube are culled, of those that are tested.
 fn turned(_: &[Text]) -> Solution {
     let scene = chapters::scene("cube", 4.0 / 3.0, 0.0).expect("a scene of the book");
     let mut target =
@@ -100,22 +106,27 @@ fn turned(_: &[Text]) -> Solution {
     Solution::count(counters.culled).figure(counters.cull_tests)
 }
 
+/// Its third corner is the sample of a pixel.
 const COLOURED: Px = [[1.5, 9.5], [9.5, 8.5], [4.5, 1.5]];
 
+/// The published weight of a corner at the sample that is corner c.
+fn weight_at_c(corner: usize) -> f64 {
+    // An attribute that is 1 at this corner and 0 at the others.
+    let mut triangle = bare(COLOURED);
+    triangle[corner].varying = DVec2::X;
+    let mut value = None;
+    let drawn = SysuWeights.fragments(&triangle, PixelRect::window(11, 11), &mut |f| {
+        if (f.x_px, f.y_px) == (4, 1) {
+            value = Some(f.varying.x);
+        }
+    });
+    assert_eq!(drawn, Ok(()));
+    value.expect("the corner is a sample, and every edge counts as inside")
+}
+
+/// Whose colour corner c has as published.
 fn corner(_: &[Text]) -> Solution {
-    let at_c = |channel: usize| {
-        let mut triangle = bare(COLOURED);
-        triangle[channel].varying = DVec2::X;
-        let mut value = None;
-        let drawn = SysuWeights.fragments(&triangle, PixelRect::window(11, 11), &mut |f| {
-            if (f.x_px, f.y_px) == (4, 1) {
-                value = Some(f.varying.x);
-            }
-        });
-        assert_eq!(drawn, Ok(()));
-        value.expect("the corner is a sample, and every edge counts as inside")
-    };
-    let values = [0, 1, 2].map(at_c);
+    let values = [0, 1, 2].map(weight_at_c);
     assert_eq!(corners(COLOURED)[2].to_px(), (4.5, 1.5), "the corner is the sample");
     let strongest = values.into_iter().fold(0.0, f64::max);
     Solution::choice(&values.map(|value| value == strongest))

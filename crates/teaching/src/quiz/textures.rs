@@ -26,17 +26,20 @@ fn level(_: &[Text]) -> Solution {
     Solution::number(strip().level(DVec2::ZERO, 1.0), 0)
 }
 
+/// How many reads along the longer axis stand for one of a high level.
 fn reads(_: &[Text]) -> Solution {
     let taps = strip().taps(DVec2::ZERO, 1.0, 16);
     Solution::count(taps.count.into()).figure(taps.level)
 }
 
+/// What is read between two levels, and at both.
 fn between(_: &[Text]) -> Solution {
     let row = Texture::grey(4, 1, vec![0, 40, 80, 200]).expect("four texels").with_mip_map();
     let at = |level| (255.0 * row.at_level(DVec2::new(0.1, 0.5), level).x).round();
     Solution::number(at(1.5), 0).figure(at(1.0)).figure(at(2.0))
 }
 
+/// The level that a wrapped difference leads to at the seam, beside the right one.
 fn seam(_: &[Text]) -> Solution {
     let (left, right) = (0.99_f64, 1.01_f64);
     let level = |difference: f64| footprint(difference, 0.0, 512).level(DVec2::ZERO, 1.0);

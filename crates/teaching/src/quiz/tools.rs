@@ -15,12 +15,14 @@ use rasterproof_render::pipeline::target::{Antialias, Target, to_colour};
 use rasterproof_render::pipeline::{ClipVertex, Counters};
 use rasterproof_verify::oracle::Oracle;
 
+/// The corners of a triangle, in pixels.
 pub type Px = [[f64; 2]; 3];
 
 pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
 
+/// How often a rasterizer hits each pixel of a window.
 pub fn covered(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for &corners in triangles {
@@ -30,17 +32,17 @@ pub fn covered(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect
 }
 
 pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
-    covered(&Oracle, &triangles.iter().map(|&px| corners(px)).collect::<Vec<_>>(), window)
+    let triangles: Vec<_> = triangles.iter().map(|&px| corners(px)).collect();
+    covered(&Oracle, &triangles, window)
 }
 
 /// What a published algorithm covers; what it refuses stays empty.
 pub fn published(specimen: &dyn Published, triangles: &[Px], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for &triangle in triangles {
-        let mut hit =
-            |span: rasterproof_core::triangle::Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
-        // A refusal leaves the window empty.
-        let _ = specimen.cover(&bare(triangle), window, &mut hit);
+        let _ = specimen.cover(&bare(triangle), window, &mut |span| {
+            hits.hit(span.y_px, span.x0_px, span.x1_px);
+        });
     }
     hits
 }
@@ -59,6 +61,7 @@ pub fn fragments(triangle: [[f64; 4]; 3], window: PixelRect) -> Vec<Fragment<f64
     list
 }
 
+/// The fragment at one pixel; see [`fragments`].
 pub fn fragment(triangle: [[f64; 4]; 3], window: PixelRect, pixel: [i32; 2]) -> Fragment<f64> {
     let all = fragments(triangle, window);
     all.into_iter().find(|f| [f.x_px, f.y_px] == pixel).expect("exercises ask of covered pixels")
@@ -75,6 +78,7 @@ pub fn draw(
     let target =
         Target::new(side, side, antialias, Default::default()).expect("exercises are small");
     let mut renderer = Renderer::new(EdgeFunction, target);
+    // Each vertex has its place in the window as attribute, so that the fragment stage knows where it is.
     let half = f64::from(side) / 2.0;
     let vertex = |p: &DVec3| ClipVertex {
         position: p.extend(1.0),
@@ -85,6 +89,7 @@ pub fn draw(
         places.borrow_mut().push(*place);
         to_colour(DVec3::ONE)
     };
+    // The whole pipeline, as a scene goes through it.
     let drawn = renderer.draw(positions, triangles, vertex, fragment);
     assert_eq!(drawn, Ok(()), "exercises name vertices that are there");
     (renderer.counters, places.into_inner())

@@ -9,7 +9,6 @@ use std::collections::BTreeSet;
 
 use image::{Rgb, RgbImage};
 
-use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
@@ -40,9 +39,11 @@ const BEYOND: Colour = [40, 170, 60];
 /// Largest side of a panel, in pixels of the sheet, with its border.
 const PANEL: u32 = 161;
 
+/// What a card shows: both versions of a picture, and how they are shown.
 struct Panels {
     published: Image,
     repaired: Image,
+    /// The colour of pixels that neither version draws.
     background: Colour,
     outline: Vec<Segment>,
     has_samples: bool,
@@ -66,10 +67,11 @@ pub fn alone(card: &Card) -> RgbImage {
 
 /// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
 pub fn views(taken: &[String]) -> Vec<PictureView> {
-    let view = |card: &Card| {
-        let Panels { published, repaired, .. } = versions(card)?;
+    let mut views = Vec::new();
+    for card in CARDS {
+        let Some(Panels { published, repaired, .. }) = versions(card) else { continue };
         let is_taken = taken.iter().any(|name| name == card.name);
-        Some(PictureView {
+        views.push(PictureView {
             name: format!("{}{}", card.name, if is_taken { " picture" } else { "" }),
             chapter: chapter_of_source(card.source),
             about: format!("{}: {}; cure: {}", card.source, card.fault, card.cure),
@@ -78,42 +80,65 @@ pub fn views(taken: &[String]) -> Vec<PictureView> {
                 PictureLayer::new("published", &picture::of_frame(&published)),
                 PictureLayer::new("repaired", &picture::of_frame(&repaired)),
             ],
-        })
-    };
-    CARDS.iter().filter_map(view).collect()
+        });
+    }
+    views
 }
 
 /// What the colours mean that occur.
 fn legend(shown: &[Panels]) -> Vec<Entry> {
-    let colours =
-        |image: &Image| image.rows().flat_map(|(_, row)| row.to_vec()).collect::<Vec<_>>();
-    let differences: BTreeSet<_> = shown.iter().flat_map(|one| colours(&difference(one))).collect();
-    let of_values = shown.iter().filter(|one| one.has_values);
-    let of_values = of_values.flat_map(|one| [&one.published, &one.repaired]);
-    let values: BTreeSet<_> = of_values.flat_map(colours).collect();
-    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
-    let differs = |colour: Rgb<u8>| differences.contains(&colour.0);
-    let has_outline = shown.iter().any(|one| !one.outline.is_empty());
-    let entries = [
-        (differs(AGREES), vec![AGREES], "right"),
-        (differs(MISSING), vec![MISSING], "missing"),
-        (differs(EXTRA), vec![EXTRA], "extra"),
-        (differs(TWICE), vec![TWICE], "drawn twice"),
-        (differs(WRONG), vec![WRONG], "drawn, but not alike"),
-        (has_outline, vec![EDGE], "outline"),
-        (shown.iter().any(|one| one.has_samples), vec![SAMPLE], "sample"),
-        (!values.is_empty(), shades.to_vec(), "values from 0 to 1"),
-        (values.contains(&BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
-        (values.contains(&BLACK), vec![Rgb(BLACK)], "not a number"),
-    ];
-    let occurring = entries.into_iter().filter(|(occurs, ..)| *occurs);
-    occurring.map(|(_, colours, text)| (colours, text.to_owned())).collect()
+    // The colours of the differences, and those of values, whose panels use other colours for other things.
+    let (mut differences, mut values) = (BTreeSet::new(), BTreeSet::new());
+    for panels in shown {
+        collect_colours(&difference(panels), &mut differences);
+        if panels.has_values {
+            collect_colours(&panels.published, &mut values);
+            collect_colours(&panels.repaired, &mut values);
+        }
+    }
+    let mut entries = Vec::new();
+    for (colour, text) in [
+        (AGREES, "right"),
+        (MISSING, "missing"),
+        (EXTRA, "extra"),
+        (TWICE, "drawn twice"),
+        (WRONG, "drawn, but not alike"),
+    ] {
+        if differences.contains(&colour.0) {
+            entries.push((vec![colour], text.to_owned()));
+        }
+    }
+    if shown.iter().any(|panels| !panels.outline.is_empty()) {
+        entries.push((vec![EDGE], "outline".to_owned()));
+    }
+    if shown.iter().any(|panels| panels.has_samples) {
+        entries.push((vec![SAMPLE], "sample".to_owned()));
+    }
+    if !values.is_empty() {
+        let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
+        entries.push((shades.to_vec(), "values from 0 to 1".to_owned()));
+    }
+    for (colour, text) in [(BEYOND, "beyond the corners' values"), (BLACK, "not a number")] {
+        if values.contains(&colour) {
+            entries.push((vec![Rgb(colour)], text.to_owned()));
+        }
+    }
+    entries
+}
+
+/// Adds the colours that occur in a picture.
+fn collect_colours(image: &Image, colours: &mut BTreeSet<Colour>) {
+    for (_, row) in image.rows() {
+        colours.extend(row);
+    }
 }
 
 /// Published, repaired and their difference, below the name, the fault and its cure.
 fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
+    // Both versions in windows of the same size, and where they differ.
     let Some(panels) = versions(card) else { return RgbImage::new(1, 1) };
     let bounds = panels.published.bounds();
+    // A pixel is a square of whole pixels of the sheet, and the largest panel fits.
     let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
     let outline = scaled(&panels.outline, bounds, zoom);
     let difference = difference(&panels);
@@ -136,19 +161,23 @@ fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
 /// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
 fn difference(panels: &Panels) -> Image {
     image_of(panels.published.bounds(), |x, y| {
-        let [published, repaired] = [&panels.published, &panels.repaired]
-            .map_array(|image| image.get(x, y).unwrap_or_default());
-        match (published, repaired) {
-            (p, r) if p == r && r == panels.background => BACKGROUND,
-            (p, r) if p == r => AGREES,
-            (p, _) if p == panels.background => MISSING,
-            (p, _) if p == TWICE.0 => TWICE,
-            (_, r) if r == panels.background => EXTRA,
-            _ => WRONG,
+        let published = panels.published.get(x, y).unwrap_or_default();
+        let repaired = panels.repaired.get(x, y).unwrap_or_default();
+        if published == repaired {
+            if repaired == panels.background { BACKGROUND } else { AGREES }
+        } else if published == panels.background {
+            MISSING
+        } else if published == TWICE.0 {
+            TWICE
+        } else if repaired == panels.background {
+            EXTRA
+        } else {
+            WRONG
         }
     })
 }
 
+/// A picture of this colour at each pixel.
 fn image_of(bounds: PixelRect, colour: impl Fn(i32, i32) -> Rgb<u8>) -> Image {
     let mut image = Frame::new(bounds, BACKGROUND.0);
     for y in bounds.y0..bounds.y1 {
@@ -159,9 +188,11 @@ fn image_of(bounds: PixelRect, colour: impl Fn(i32, i32) -> Rgb<u8>) -> Image {
     image
 }
 
+/// What a card shows; nothing where its published code draws nothing at all.
 fn versions(card: &Card) -> Option<Panels> {
     let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
     match (&card.exhibit, specimen) {
+        // A scene has no triangles of its own in the window, so there is nothing to outline.
         (Exhibit::Scene(_, draw), _) => Some(Panels {
             published: draw(Version::Published, Setting::Exposing),
             repaired: draw(Version::Repaired, Setting::Exposing),
@@ -180,6 +211,7 @@ fn versions(card: &Card) -> Option<Panels> {
     }
 }
 
+/// A picture of hits: none, one, or more than one.
 fn hits_image(hits: &Coverage) -> Image {
     image_of(hits.bounds(), |x, y| match hits.get(x, y) {
         None | Some(0) => BACKGROUND,
@@ -188,10 +220,12 @@ fn hits_image(hits: &Coverage) -> Image {
     })
 }
 
+/// A line as published, and as the oracle draws it.
 fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {
     let Shape::Lines(lines) = &case.shape else { return None };
     let mut truth = Coverage::new(case.window, 0);
     Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
+    // What the published code refuses to draw is shown as an empty panel.
     let hits = specimen_line_coverage(specimen, lines, case.window);
     Some(Panels {
         published: hits_image(&hits.unwrap_or_else(|_| Coverage::new(case.window, 0))),
@@ -203,9 +237,11 @@ fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {
     })
 }
 
+/// Triangles as published and repaired: their pixels, or their values where the case is one of values.
 fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) -> Panels {
     let window = PixelRect::window(case.side_px, case.side_px);
     let triangles = real_triangles(case);
+    // Corners of equal values say nothing about interpolation: their case is one of coverage.
     let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
     let has_values = shows_values && specimen.has_values();
     let (published, repaired) = if has_values {
@@ -217,21 +253,28 @@ fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) ->
         let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
         (hits_image(&hits), hits_image(&free_truth(&triangles, window)))
     };
-    let corners = |t: &RealTriangle| edges(t.each_ref().map(|v| v.position_px.to_array()));
-    let outline = triangles.iter().flat_map(corners).collect();
+    // The edges lie where the corners were given, not where they were snapped.
+    let mut outline = Vec::new();
+    for triangle in &triangles {
+        outline.extend(edges(triangle.each_ref().map(|v| v.position_px.to_array())));
+    }
     Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
 }
 
 /// Values as colours: blue at 0, through white, to red at 1; green beyond either; black for what is
 /// no number.
 fn shade(value: f64) -> Colour {
-    let part = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
-    match value {
-        v if !v.is_finite() => BLACK,
-        v if !(-0.02..=1.02).contains(&v) => BEYOND,
-        v if v < 0.5 => [part(0.2 + 1.6 * v), part(0.2 + 1.6 * v), 255],
-        v => [255, part(1.8 - 1.6 * v), part(1.8 - 1.6 * v)],
+    if !value.is_finite() {
+        return BLACK;
     }
+    // Rounding may leave the range by a little.
+    if !(-0.02..=1.02).contains(&value) {
+        return BEYOND;
+    }
+    let is_low = value < 0.5;
+    let part = if is_low { 0.2 + 1.6 * value } else { 1.8 - 1.6 * value };
+    let part = (part * 255.0).round().clamp(0.0, 255.0) as u8;
+    if is_low { [part, part, 255] } else { [255, part, part] }
 }
 
 /// The attribute, or the depth stretched so that the corners' range is 0 to 1, in colours.
@@ -241,17 +284,17 @@ fn value_images(
     triangles: &[RealTriangle],
     window: PixelRect,
 ) -> (Image, Image) {
-    let depths = triangles.iter().flatten().map(|v| specimen.depth_of(v.depth, v.w));
-    let low = depths.clone().fold(f64::INFINITY, f64::min);
-    let high = depths.fold(f64::NEG_INFINITY, f64::max);
-    let shown = |f: &Fragment<DVec2>| {
-        shade(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for v in triangles.iter().flatten() {
+        let depth = specimen.depth_of(v.depth, v.w);
+        (low, high) = (low.min(depth), high.max(depth));
+    }
+    let put = |image: &mut Image, f: &Fragment<DVec2>| {
+        let value = if by_depth { (f.depth - low) / (high - low) } else { f.varying.x };
+        image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shade(value);
     };
     let mut published: Image = Frame::new(window, BACKGROUND.0);
     let mut repaired = published.clone();
-    let put = |image: &mut Image, f: &Fragment<DVec2>| {
-        image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
-    };
     for triangle in triangles {
         // What is refused stays empty.
         let _ = specimen.fragments(triangle, window, &mut |f| put(&mut published, &f));
