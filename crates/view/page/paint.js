@@ -136,20 +136,9 @@ export function paintGrid(sheet) {
   const { g, unit, width, height } = sheet;
   if (unit < 4) return;
   const [left, top, right, bottom] = seenOf(sheet);
-  g.strokeStyle = colours.grid;
-  g.lineWidth = 1;
-  g.beginPath();
-  for (let x = left; x <= right; x += 1) {
-    const at = Math.round((x - sheet.x0) * unit) + 0.5;
-    g.moveTo(at, 0);
-    g.lineTo(at, height);
-  }
-  for (let y = top; y <= bottom; y += 1) {
-    const at = Math.round((y - sheet.y0) * unit) + 0.5;
-    g.moveTo(0, at);
-    g.lineTo(width, at);
-  }
-  g.stroke();
+  g.fillStyle = colours.grid;
+  for (let x = left; x <= right; x += 1) g.fillRect(Math.round((x - sheet.x0) * unit), 0, 1, height);
+  for (let y = top; y <= bottom; y += 1) g.fillRect(0, Math.round((y - sheet.y0) * unit), width, 1);
 }
 
 /** Smaller pixels have no room for a dot. */

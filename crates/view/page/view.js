@@ -199,17 +199,16 @@ class View extends HTMLElement {
 
   /** Paints panels until a time. Those that are left are the first ones in the next frame of the drag, or come when it pauses. */
   paintWaiting(end) {
-    const grips = this.grips();
     for (const shown of this.waiting) {
       this.waiting.delete(shown);
-      this.paintPanel(shown, grips);
+      this.paintPanel(shown);
       if (performance.now() > end) break;
     }
     if (this.waiting.size > 0) whenIdle(() => this.paintWaiting(Infinity));
   }
 
   /** A panel is a drawing of its own (`svg`), or layers over one another, each {mark | image, from, to, veil}: from one column to another, the next over the last through a veil. */
-  paintPanel(shown, grips) {
+  paintPanel(shown) {
     const { canvas, frame, above, beside, of: panel } = shown;
     const [width, height] = this.size;
     const [x0, y0, x1, y1] = this.seen;
@@ -243,7 +242,7 @@ class View extends HTMLElement {
     if (panel.hasGrid !== false && !(this.source.isPicture && this.unit < 6)) paintGrid(sheet);
     for (const outline of panel.outlines ?? []) paintOutline(sheet, outline);
     if (panel.samples) paintSamples(sheet, panel.samples);
-    for (const { from, x, y, view } of grips) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
+    for (const { from, x, y, view } of this.grips()) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
     panel.over?.(sheet);
     if (this.source.cursor) paintCursor(sheet, this.source.cursor);
     if (panel.corners) paintCorners(sheet, panel.corners);

@@ -21,9 +21,9 @@ async function drag(x, y, isBusy) {
     drawn += 1;
     once[1]();
   };
-  view.paintPanel = (shown, ...more) => {
+  view.paintPanel = (shown) => {
     painted[view.shown.indexOf(shown)] += 1;
-    once[2].call(view, shown, ...more);
+    once[2].call(view, shown);
   };
   frame.getBoundingClientRect = () => {
     boxes += 1;
