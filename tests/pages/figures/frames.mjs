@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 
 import { answer, gripOf, inFigure } from '../driver/figures.mjs';
-import { layouts, p95, workOfFrames } from '../driver/frames.mjs';
+import { layouts, p95, RATES, workOfFrames } from '../driver/frames.mjs';
 
 /** For the page: moves a grip in a circle for 120 frames; how often the figure was drawn, and what was between two frames. */
 async function drag(figure, x, y) {
@@ -34,7 +34,7 @@ export default {
   page: 'made figures en',
   async check(tab) {
     await tab.call('Performance.enable');
-    for (const [name, rate] of [['one-sample', 4], ['weights', 4], ['row-span', 4], ['one-sample', 1], ['weights', 1]]) {
+    for (const [name, rate] of RATES.flatMap((rate) => ['one-sample', 'weights', 'row-span'].map((name) => [name, rate]))) {
       await tab.call('Emulation.setCPUThrottlingRate', { rate: 1 });
       await tab.open();
       await answer(tab, name);
