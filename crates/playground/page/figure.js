@@ -74,6 +74,14 @@ const watching = new IntersectionObserver((entries) => {
 }, { rootMargin: '100% 0px' });
 const live = new Set();
 
+// A text that a drag changes keeps the lines that it once had: the page below it stays where it is.
+const keepingLines = new ResizeObserver((entries) => {
+  for (const { target, contentRect } of entries) target.style.minHeight = `${contentRect.height}px`;
+});
+addEventListener('resize', () => {
+  for (const { question, says } of live) for (const text of [question, says]) text.style.minHeight = '';
+});
+
 /** The numbers in the prose of the page that belong to a figure, each behind a comment `n NAME.VALUE`. */
 function numbersOf(name) {
   const comments = document.createTreeWalker(document.body, NodeFilter.SHOW_COMMENT);
@@ -120,6 +128,7 @@ class Figure extends HTMLElement {
     this.covers = [];
     this.isAnswered = this.hasAttribute('open');
     watching.observe(this);
+    for (const text of [this.question, this.says]) keepingLines.observe(text);
     const before = this.previousElementSibling;
     if (!before?.matches('script[type="application/json"]')) return;
     this.first = JSON.parse(before.textContent);

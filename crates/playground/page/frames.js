@@ -24,7 +24,7 @@ function drawFrame() {
   explainSoon(answer, asked);
 }
 
-/** What is said beside the panels. Tables take longer than pixels, so they come behind the frame, each behind another one, and follow a drag some times a second. */
+/** What is said beside the panels. Tables take longer than pixels, so they follow a drag some times a second, where frames leave time for them. */
 const explainSoon = paced(explain, 100);
 function explain(answer, frames) {
   last.look = null;
@@ -33,8 +33,11 @@ function explain(answer, frames) {
     last.look = look.error ? null : look;
   }
   const beside = scene().look && !answer.error ? scene().look(answer) : [];
+  renew($('look'), beside);
+  pressTools();
+  drawCorners();
   // What is read aloud holds the tables, too, so it is said after them.
-  [() => renew($('look'), beside), pressTools, drawCorners, () => settleLater(() => settled(frames), 100)].forEach((act, i) => setTimeout(act, 20 * (i + 1)));
+  settleLater(() => settled(frames), 100);
 }
 
 const isStill = () => asked === told;

@@ -41,8 +41,7 @@ function drawBreak() {
     if (name) load(ask({ ask: 'named', name }), { named: name });
   });
   const by = select(who, defaults.by, () => {}, { id: 'who' });
-  const ofFamily = choice('family', word('family'), options(families), defaults.family);
-  const family = ofFamily.list;
+  const { list: family, parts } = choice('family', word('family'), options(families), defaults.family);
   const says = make('p', { id: 'hunt', role: 'status' });
   const show = (found, index) => {
     load(found, { generated: { family: family.value, seed: 1, index } });
@@ -51,7 +50,7 @@ function drawBreak() {
   };
   fill($('break'), [
     make('h2', { id: 'break-title' }, word('breakIt')),
-    make('div', { className: 'form' }, ...named.parts, make('label', { htmlFor: 'who' }, word('who')), by, ...ofFamily.parts),
+    make('div', { className: 'form' }, ...named.parts, make('label', { htmlFor: 'who' }, word('who')), by, ...parts),
     make('p', {},
       button(word('search'), () => search(by.value, family.value, says, show), { id: 'search' }), ' ',
       button(word('random'), () => {

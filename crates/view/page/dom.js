@@ -102,7 +102,16 @@ export function delayed() {
   };
 }
 
-/** What does a thing soon, but not again before so many milliseconds are over: then as it was asked for last. */
+/** Does a thing when half of a frame is left for it; Safari does not say what is left, so there it is done at once. */
+export function whenIdle(act) {
+  if (globalThis.requestIdleCallback) requestIdleCallback((rest) => (rest.timeRemaining() > 8 ? act() : whenIdle(act)));
+  else act();
+}
+
+/**
+ * What does a thing soon, but not again before so many milliseconds are over: then as it was asked for last. A drag on a slow machine leaves
+ * no time between its frames: what only goes with the picture waits there until the drag pauses.
+ */
 export function paced(act, ms) {
   let [due, asked] = [0, null];
   const run = () => {
@@ -111,7 +120,7 @@ export function paced(act, ms) {
     act(...now);
   };
   return (...next) => {
-    if (!asked) setTimeout(run, Math.max(0, due - performance.now()));
+    if (!asked) setTimeout(() => whenIdle(run), Math.max(0, due - performance.now()));
     asked = next;
   };
 }

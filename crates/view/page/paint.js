@@ -78,15 +78,18 @@ export function paintMarks(sheet, markAt) {
   const image = new ImageData(width, height);
   const data = new Uint32Array(image.data.buffer);
   const signs = [];
-  for (let i = 0; i < data.length; i += 1) {
-    const [x, y] = [left + (i % width), top + Math.floor(i / width)];
-    const mark = markAt(x, y);
-    if (!mark) continue;
-    const fill = colours[mark.fill] ?? mark.fill;
-    if (fill) data[i] = bitsOf(fill);
-    // A wrong pixel that is smaller than one of the screen is still seen.
-    const isLost = unit < 2 && ['missing', 'extra', 'twice'].includes(mark.fill);
-    if (mark.ring || isLost || (mark.glyph && unit > 7)) signs.push([x, y, mark]);
+  let [before, seen] = [null, 0];
+  for (let y = top; y < bottom; y += 1) {
+    for (let x = left; x < right; x += 1) {
+      const mark = markAt(x, y);
+      if (!mark) continue;
+      // Neighbours are mostly alike.
+      if (mark !== before) [before, seen] = [mark, mark.fill ? bitsOf(colours[mark.fill] ?? mark.fill) : 0];
+      data[(y - top) * width + x - left] = seen;
+      // A wrong pixel that is smaller than one of the screen is still seen.
+      const isLost = unit < 2 && ['missing', 'extra', 'twice'].includes(mark.fill);
+      if (mark.ring || isLost || (mark.glyph && unit > 7)) signs.push([x, y, mark]);
+    }
   }
   small ??= make('canvas').getContext('2d');
   Object.assign(small.canvas, { width, height });
@@ -133,20 +136,9 @@ export function paintGrid(sheet) {
   const { g, unit, width, height } = sheet;
   if (unit < 4) return;
   const [left, top, right, bottom] = seenOf(sheet);
-  g.strokeStyle = colours.grid;
-  g.lineWidth = 1;
-  g.beginPath();
-  for (let x = left; x <= right; x += 1) {
-    const at = Math.round((x - sheet.x0) * unit) + 0.5;
-    g.moveTo(at, 0);
-    g.lineTo(at, height);
-  }
-  for (let y = top; y <= bottom; y += 1) {
-    const at = Math.round((y - sheet.y0) * unit) + 0.5;
-    g.moveTo(0, at);
-    g.lineTo(width, at);
-  }
-  g.stroke();
+  g.fillStyle = colours.grid;
+  for (let x = left; x <= right; x += 1) g.fillRect(Math.round((x - sheet.x0) * unit), 0, 1, height);
+  for (let y = top; y <= bottom; y += 1) g.fillRect(0, Math.round((y - sheet.y0) * unit), width, 1);
 }
 
 /** Smaller pixels have no room for a dot. */

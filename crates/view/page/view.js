@@ -10,7 +10,7 @@
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
 //   high      the largest share of the window's height, and `most`, the largest pixel
-import { arrowOf, become, button, clamp, fill, make, mark, paced, pageLanguage, say } from './dom.js';
+import { arrowOf, become, button, clamp, fill, make, mark, paced, pageLanguage, say, whenIdle } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
 /** Pixels along the longer side, from the nearest view to the farthest. */
@@ -33,13 +33,15 @@ export const viewWords = () => VIEW_WORDS[pageLanguage()];
 
 /** How long what is said stays, at least. */
 const TELLS_MS = 100;
+/** How long a frame of a drag paints panels, at most, and at least one of them. */
+const DRAGGED_MS = 3;
 
 const sideOf = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
 
 class View extends HTMLElement {
   connectedCallback() {
     if (this.body) return;
-    Object.assign(this, { shown: [], seen: null, source: null, laidOut: '', isWide: false, tellSoon: paced(() => this.tell(), TELLS_MS) });
+    Object.assign(this, { shown: [], seen: null, source: null, laidOut: '', isWide: false, isHeld: false, waiting: new Set(), tellSoon: paced(() => this.tell(), TELLS_MS) });
     const act = (word, label, then) => button(label, then, { 'data-tool': word });
     this.scale = make('output', { 'aria-live': 'off' });
     this.larger = act('enlarge', '\u2922', () => this.enlarge());
@@ -59,7 +61,7 @@ class View extends HTMLElement {
       const panel = this.shown.find(({ frame }) => frame.contains(event.target));
       if (!panel || !(event.ctrlKey || panel.frame.contains(document.activeElement))) return;
       event.preventDefault();
-      this.zoom(event.deltaY > 0 ? 1 : -1, this.at(panel, event));
+      this.zoom(event.deltaY > 0 ? 1 : -1, this.at(panel.frame.getBoundingClientRect(), event));
     }, { passive: false });
   }
 
@@ -182,7 +184,7 @@ class View extends HTMLElement {
     const canMove = !bounds || this.seen[0] > bounds[0] || this.seen[1] > bounds[1] || this.seen[2] < bounds[2] || this.seen[3] < bounds[3];
     this.shown.forEach((shown, i) => {
       shown.frame.style.touchAction = canMove ? 'none' : 'pan-y';
-      this.paintPanel(shown, grips);
+      this.waiting.add(shown);
       const own = grips.flatMap((grip, index) => (grip.view === shown.of.view ? [{ grip, index }] : []));
       // The keyboard stops at a grip once, on the first panel that shows it.
       const isFirst = this.shown.findIndex(({ of }) => of.view === shown.of.view) === i;
@@ -192,10 +194,21 @@ class View extends HTMLElement {
       this.over(element, x, y);
       Object.assign(element.style, { width: `${width * this.unit}px`, height: `${height * this.unit}px` });
     }
+    this.paintWaiting(this.isHeld ? performance.now() + DRAGGED_MS : Infinity);
+  }
+
+  /** Paints panels until a time. Those that are left are the first ones in the next frame of the drag, or come when it pauses. */
+  paintWaiting(end) {
+    for (const shown of this.waiting) {
+      this.waiting.delete(shown);
+      this.paintPanel(shown);
+      if (performance.now() > end) break;
+    }
+    if (this.waiting.size > 0) whenIdle(() => this.paintWaiting(Infinity));
   }
 
   /** A panel is a drawing of its own (`svg`), or layers over one another, each {mark | image, from, to, veil}: from one column to another, the next over the last through a veil. */
-  paintPanel(shown, grips) {
+  paintPanel(shown) {
     const { canvas, frame, above, beside, of: panel } = shown;
     const [width, height] = this.size;
     const [x0, y0, x1, y1] = this.seen;
@@ -229,7 +242,7 @@ class View extends HTMLElement {
     if (panel.hasGrid !== false && !(this.source.isPicture && this.unit < 6)) paintGrid(sheet);
     for (const outline of panel.outlines ?? []) paintOutline(sheet, outline);
     if (panel.samples) paintSamples(sheet, panel.samples);
-    for (const { from, x, y, view } of grips) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
+    for (const { from, x, y, view } of this.grips()) if (from && view === panel.view) paintOutline(sheet, [from, [x, y]]);
     panel.over?.(sheet);
     if (this.source.cursor) paintCursor(sheet, this.source.cursor);
     if (panel.corners) paintCorners(sheet, panel.corners);
@@ -251,7 +264,9 @@ class View extends HTMLElement {
       const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { role: 'slider', 'aria-valuenow': 0 })));
       const className = ['knob', grip.nudge && 'is-value', grip.isPainted && 'is-painted'].filter(Boolean).join(' ');
       const attributes = { class: className, 'data-name': grip.name, 'data-label': own.length > 26 ? '' : grip.name, 'data-index': index, tabindex: tabIndex };
-      for (const [name, value] of Object.entries(attributes)) mark(made, name, value);
+      const is = Object.values(attributes).join();
+      if (made.is !== is) for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+      made.is = is;
       this.over(made, grip.x, grip.y);
     });
   }
@@ -323,9 +338,8 @@ class View extends HTMLElement {
 
   // ---- Hands ----
 
-  /** Where on the plane an event lies. */
-  at({ frame }, event) {
-    const box = frame.getBoundingClientRect();
+  /** Where on the plane an event lies, on a panel whose frame has this box. */
+  at(box, event) {
     return [this.seen[0] + (event.clientX - box.left - 1) / this.unit, this.seen[1] + (event.clientY - box.top - 1) / this.unit];
   }
 
@@ -345,24 +359,27 @@ class View extends HTMLElement {
     const fingers = new Map();
     let held = null; // {index, dx, dy} of a grip, or {pan, moved}
     let pinched = null; // {apart, side, about}: how two fingers began
+    let box = null; // of the frame when the last finger came: to read it at each move would lay the page out each time
     const apart = ([a, b]) => Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY));
     frame.addEventListener('pointerdown', (event) => {
       if (event.target.closest('button')) return;
       const grip = event.target.closest('.knob');
       frame.setPointerCapture(event.pointerId);
+      box = frame.getBoundingClientRect();
       fingers.set(event.pointerId, event);
       if (fingers.size === 2) {
         const [a, b] = [...fingers.values()];
-        const about = this.at(panel, { clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 });
+        const about = this.at(box, { clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 });
         pinched = { apart: apart([a, b]), side: sideOf(this.seen), about };
         held = null;
         return;
       }
-      const [x, y] = this.at(panel, event);
+      const [x, y] = this.at(box, event);
       if (grip) {
         const index = Number(grip.dataset.index);
         const taken = this.grips()[index];
         held = { index, dx: taken.x - x, dy: taken.y - y };
+        this.isHeld = true;
         this.source.onHold?.(index);
         grip.focus({ preventScroll: true, focusVisible: false });
       } else held = { pan: [x, y], moved: false };
@@ -377,7 +394,8 @@ class View extends HTMLElement {
         if (b) this.zoomTo(this.source.bounds ? wanted : SIDES.reduce((best, one) => (steps(one, best) ? one : best)), pinched.about);
         return;
       }
-      const [x, y] = this.at(panel, event);
+      if (!held) box = frame.getBoundingClientRect();
+      const [x, y] = this.at(box, event);
       if (held?.index !== undefined) this.grips()[held.index]?.place(x + held.dx, y + held.dy);
       else if (held) {
         const moved = [held.pan[0] - x, held.pan[1] - y].map((d) => (this.source.bounds ? d : Math.round(d)));
@@ -387,13 +405,14 @@ class View extends HTMLElement {
     });
     const release = (event) => {
       fingers.delete(event.pointerId);
+      this.isHeld = false;
       if (pinched) {
         if (fingers.size === 0) pinched = null;
         return;
       }
       if (event.type === 'pointerup' && held?.pan && !held.moved) {
         canvas.focus({ preventScroll: true });
-        this.point(this.at(panel, event), false);
+        this.point(this.at(box, event), false);
         this.source.onTap?.(event.pointerType);
       }
       held = null;

@@ -14,7 +14,7 @@ const FAULTS = [
   ['if (byKeys) this.pan', 'if (false) this.pan'],
   ['const isLost = unit < 2 &&', 'const isLost = false &&'],
   ["this.classList.toggle('is-wide', this.isWide);", ''],
-  ['this.at(panel, { clientX: (a.clientX + b.clientX) / 2,', 'this.at(panel, { clientX: 0,'],
+  ['this.at(box, { clientX: (a.clientX + b.clientX) / 2,', 'this.at(box, { clientX: 0,'],
   ['if (!panel || !(event.ctrlKey', 'if (!panel || !(true'],
   ['isFirst ? 0 : -1', 'isFirst ? 0 : 0'],
   ['    this.tellSoon();\n', ''],

@@ -21,14 +21,19 @@ const held = () => {
 };
 
 export default {
-  says: 'Figures stand there before the engines are loaded, and nothing moves when these have come',
+  says: 'Figures stand there before the engines are loaded, which are not before one comes near, and nothing moves when these have come',
   page: 'nothing',
   async check(tab) {
     await tab.call('Page.addScriptToEvaluateOnNewDocument', { source: `(${held})()` });
+    let far = 0;
     for (const width of [360, 1280]) {
       for (const page of ['en/index.html', 'en/ch02.html', 'zh/ch06.html']) {
         await tab.resize(width, 740);
         await tab.go(inSite(page));
+        await tab.draw();
+        const [isFar, isAsked] = await tab.value(() => [document.querySelector('rp-figure').getBoundingClientRect().top > 2 * innerHeight, window.held !== undefined]);
+        assert(!isFar || !isAsked, `${page} at ${width} px loads engines for a figure that is far away`);
+        far += isFar;
         await tab.value('document.querySelector("rp-figure").scrollIntoView({ block: "center", behavior: "instant" })');
         await tab.when('window.held?.length === 1');
         const first = await tab.value(() => {
@@ -44,5 +49,6 @@ export default {
         assert(sum < 0.02, `${page} at ${width} px moves by ${sum}: ${JSON.stringify(moved)}`);
       }
     }
+    assert(far > 0, 'no figure is far away');
   },
 };

@@ -15,6 +15,7 @@ export default {
         list: document.querySelector('#text > ul').getBoundingClientRect().bottom,
       }));
       assert.deepEqual([sentences, ways], [2, 3]);
+      assert.doesNotMatch(await tab.value('document.title'), /chapters/i);
       assert(picture <= height, `${width}: the picture ends at ${picture} px`);
       assert(!isWide || list <= height, `the ways in end at ${list} px`);
     }

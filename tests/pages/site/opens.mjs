@@ -13,7 +13,7 @@ const wanted = (page) => {
 };
 
 export default {
-  says: 'Every page opens at 360 and 1280 pixels without a complaint, loads little and nothing from elsewhere, and leads to its other language',
+  says: 'Every page opens at 360 and 1280 pixels without a complaint, cuts no table at the latter, loads little and nothing from elsewhere, and leads to its other language',
   page: 'nothing',
   async check(tab) {
     const wrong = [];
@@ -34,6 +34,8 @@ export default {
       const weight = weighed.reduce((sum, file) => sum + fs.statSync(file).size, 0);
       if (isBook && weight > heaviest.weight) heaviest = { weight, page };
       await tab.resize(1280, 900);
+      const cut = await tab.value(() => Math.max(0, ...[...document.querySelectorAll('.table-wrapper')].map((table) => table.scrollWidth - table.clientWidth)));
+      if (cut > 0) wrong.push(`${page} cuts ${cut} pixels of a table at 1280`);
       wrong.push(...tab.complaints.splice(0).map((complaint) => `${page}: ${complaint}`));
       const others = await tab.value(() => [...document.querySelectorAll('.site-links a')].filter((link) => link.offsetWidth)
         .map((link) => link.href.replace(/^file:..|#.*/g, '')).join());

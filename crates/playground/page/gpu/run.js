@@ -61,24 +61,22 @@ async function causeOf(api, title) {
 /** What was judged of an interface so far. The browser keeps it, so that a page that was closed goes on from there. */
 const keptBy = (name) => `rasterproof-your-gpu-${name}`;
 
-/** What was kept of the same batches on the same renderer; nothing where the browser keeps nothing. */
-function keptBefore(name, of) {
+/** What the browser's memory answers; nothing where it keeps nothing: then the page judges all the same. */
+function inMemory(act) {
   try {
-    const before = JSON.parse(localStorage.getItem(keptBy(name)));
-    return before?.of === of ? before : null;
+    return act(localStorage);
   } catch {
     return null;
   }
 }
 
-function keep(name, judged) {
-  try {
-    if (judged) localStorage.setItem(keptBy(name), JSON.stringify(judged));
-    else localStorage.removeItem(keptBy(name));
-  } catch {
-    // It is judged all the same.
-  }
+/** What was kept of the same batches on the same renderer. */
+function keptBefore(name, of) {
+  const before = inMemory((memory) => JSON.parse(memory.getItem(keptBy(name))));
+  return before?.of === of ? before : null;
 }
+
+const keep = (name, judged) => inMemory((memory) => memory.setItem(keptBy(name), JSON.stringify(judged)));
 
 /** Says what is done, and lets the page draw it. */
 async function tell(text, part = 1) {
@@ -147,7 +145,7 @@ async function judgeApi(name, { check: alone = null, only, bits = null, shrinks 
       at -= 1;
     }
   }
-  keep(name, null);
+  inMemory((memory) => memory.removeItem(keptBy(name)));
   result.seconds = (performance.now() - start) / 1000;
   for (const [check, row] of Object.entries(result.rows)) {
     result.triangles += check === 'lines' || check === 'twice' ? 0 : (row.tally?.shapes ?? 0) * (check === 'order' ? 6 : 1);

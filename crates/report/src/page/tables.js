@@ -32,8 +32,7 @@ const runsOfRow = (item, layer, y) => {
     if (last && last.hits === hits && last.to === x) last.to += 1;
     else if (hits > 0) runs.push({ from: x, to: x + 1, hits });
   }
-  const text = ({ from, to, hits }) =>
-    `${from}${to - from > 1 ? ` to ${to - 1}` : ''}${hits > 1 ? ` (${hits} hits)` : ''}`;
+  const text = ({ from, to, hits }) => `${from}${to - from > 1 ? ` to ${to - 1}` : ''}${hits > 1 ? ` (${hits} hits)` : ''}`;
   return runs.map(text).join(', ');
 };
 
