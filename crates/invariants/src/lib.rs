@@ -32,6 +32,7 @@ use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 pub type Outcome = Result<u64, String>;
 
 #[derive(Clone, Copy)]
+/// How an invariant is checked, by what its check gets.
 pub enum Predicate {
     Triangle(fn(&Implementations, &TriangleInput) -> Outcome),
     Quad(fn(&Implementations, &Quad) -> Outcome),
@@ -71,6 +72,7 @@ pub struct Trial {
 pub type Failure = judge::Failure<Input, ()>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What is said of an invariant after all of its cases.
 pub enum Ruling {
     /// Something was compared, and nothing is wrong.
     Holds,
@@ -185,6 +187,7 @@ impl Invariant {
         report
     }
 
+    /// A failure with the smallest input that was found for which the check still fails.
     fn shrunk(&self, subject: &Implementations, seed: u64, index: u64, message: String) -> Failure {
         let input = self.input(subject, seed, index);
         let input = source::smallest(input, |input| self.judge(subject, input).is_err());
@@ -222,16 +225,19 @@ pub fn drawn(subject: &Implementations, input: &Input) -> Option<String> {
     Some(ascii::beside(&names, &drawn, &expected, 78))
 }
 
+/// The invariant of this name.
 pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)
 }
 
+/// The components that the invariants of a group look at: a mutant of another one leaves them as they are.
 const ENGINE: &[Component] = &[Component::Engine];
 const JUDGED: &[Component] = &[Component::Engine, Component::Oracle];
 const DRAWER: &[Component] = &[Component::Drawer];
 const CLIP: &[Component] = &[Component::Clip];
 const FORMULAS: &[Component] = &[Component::Formulas];
 
+/// A row of the catalogue.
 const fn invariant(
     number: u32,
     name: &'static str,
@@ -244,6 +250,7 @@ const fn invariant(
 }
 
 #[rustfmt::skip]
+/// All invariants, in the order of their numbers.
 pub const CATALOGUE: &[Invariant] = &[
     invariant(1, "engines-agree",
         "Scanline, edge functions, tiles and oracle hit every pixel the same number of times.",

@@ -21,6 +21,7 @@ pub(super) fn one_by_one(subject: &Implementations, input: &TriangleInput) -> Ou
     subject.lists.iter().map(|(name, lists)| compare(name, &**lists, &list, window, &truth)).sum()
 }
 
+/// Compares what a list of triangles covers with what the oracle says.
 fn compare(
     name: &str,
     lists: &dyn CoverList,

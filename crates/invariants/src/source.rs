@@ -11,6 +11,7 @@ use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle, named
 
 use super::implementations::MakeCase;
 
+/// The side of the windows of inputs that are made here, in pixels and in subpixels.
 const SIDE_PX: u32 = 24;
 const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
 
@@ -83,13 +84,12 @@ impl Fan {
     /// The fan with these reaches in half subpixels; `every` 1 takes all directions, 2 every other
     /// one.
     pub fn new(centre: SubpixelPoint, reach: [u16; 16], every: usize, apex: SubpixelPoint) -> Self {
-        let spokes = DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2));
-        let tip = |([dx, dy], reach): (&[i32; 2], u16)| {
+        let mut ring = Vec::with_capacity(16);
+        for ([dx, dy], reach) in DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2)) {
             // At least one subpixel, or the polygon would not go round its centre.
             let reach = i32::from(reach).max(1);
-            SubpixelPoint::new(centre.x + dx * reach, centre.y + dy * reach)
-        };
-        let ring = spokes.map(tip).collect();
+            ring.push(SubpixelPoint::new(centre.x + dx * reach, centre.y + dy * reach));
+        }
         Self { centre, ring, apex, window: PixelRect::window(SIDE_PX, SIDE_PX) }
     }
 }
@@ -101,6 +101,7 @@ pub struct LineInput {
     pub window: PixelRect,
 }
 
+/// A coordinate that is snapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
     pub px: f64,
@@ -125,6 +126,7 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
+/// What a check gets, by its kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
@@ -147,6 +149,7 @@ fn pick(families: &[Family], make_case: MakeCase, seed: u64, index: u64) -> (Cas
     (make_case(family, seed, number), number as usize)
 }
 
+/// A triangle of the families in turn.
 pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::triangles::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Triangles { list, .. } } = case else {
@@ -199,6 +202,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
+/// A line of the families in turn.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {
@@ -257,6 +261,7 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
     }
 }
 
+/// The same for a triangle: first without what else there is to choose, then smaller.
 fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -> Input {
     // Simple values and choices first, if they fail too.
     let plain = named::plain_triangle(input.triangle.corners());
@@ -300,6 +305,7 @@ fn size(input: &Input) -> (usize, f64) {
     }
 }
 
+/// Inputs that are one step smaller.
 fn neighbours(input: &Input) -> Vec<Input> {
     let by_px = |p: SubpixelPoint, dx: i32, dy: i32| {
         SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS)

@@ -66,6 +66,7 @@ impl Saves {
 }
 
 #[derive(Clone, Debug, serde::Serialize)]
+/// What planning one effect saves.
 pub struct Saving {
     pub effect: Effect,
     /// Of a frame that pays for everything: it alone is planned.
@@ -77,6 +78,7 @@ pub struct Saving {
 }
 
 #[derive(Clone, Debug, serde::Serialize)]
+/// What planning saves, as a whole and by effect.
 pub struct Savings {
     pub everything: Measured,
     pub usual: Measured,
@@ -93,6 +95,7 @@ pub struct Savings {
 }
 
 impl Savings {
+    /// The three whole frames, then the mixtures.
     pub fn all(&self) -> impl Iterator<Item = &Measured> {
         [&self.everything, &self.usual, &self.planned].into_iter().chain(&self.mixtures)
     }
@@ -124,6 +127,7 @@ pub fn measure(
     is_whole: bool,
     drawn: &dyn Fn(),
 ) -> Result<(Savings, [Rendered; 2]), BadScene> {
+    // Each mixture is drawn once for its picture and its counters before any is timed.
     let mut draw = |effects: &Effects| {
         let rendered = drawer.render(scene, effects, target)?;
         drawn();
@@ -168,6 +172,7 @@ pub fn measure(
             compared(format!("planned,+{name}"), PLANNED, last)?,
         ]);
     }
+    // All frames take turns in the same rounds, and are compared by pairs.
     let share = if is_whole { 0.5 } else { 1.0 };
     let rounds = rounds.map(|rounds| rounds as usize);
     let timing = Timing { rounds, ..PLAN }.within(share);
@@ -182,6 +187,7 @@ pub fn measure(
             &|_| drawn(),
         )
     };
+    // From here on nothing is timed: pairs of frames become ratios.
     let all: Vec<Measured> = timed.iter().zip(&times).map(Measured::new).collect();
     let over = |[a, b]: Pair| all[a].over(&all[b]);
     let mut savings = Vec::new();

@@ -10,6 +10,7 @@ use rasterproof_report::words::{number, thousands};
 
 use crate::hard::{HardCases, Kind};
 
+/// What was found in one view.
 #[derive(serde::Serialize)]
 struct Turned {
     /// By how many degrees the model is turned about its vertical axis.

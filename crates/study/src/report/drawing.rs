@@ -125,6 +125,7 @@ pub struct ByGrid {
 }
 
 impl ByGrid {
+    /// Compares the picture on the usual grid with a drawing on another one.
     pub fn between((usual, usual_target): (&Frame<Colour>, &Target), drawing: &Drawing) -> Self {
         let (picture, target) = (&drawing.rendered.picture, &drawing.target);
         let compared = frame_comparison::compare((usual, usual_target), (picture, target), None);

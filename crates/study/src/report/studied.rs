@@ -25,6 +25,7 @@ pub struct Studied<'a> {
 }
 
 impl<'a> Studied<'a> {
+    /// Takes a scene apart and finds its hard cases, which need depths: what is drawn from back to front is refused.
     pub fn new(
         scene: Scene,
         origins: &'a [Origin],
@@ -42,6 +43,7 @@ impl<'a> Studied<'a> {
         Ok(Self { scene, origins, sampled, hard })
     }
 
+    /// The scene for a report, whose triangles `inspect` makes a command for.
     pub fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Places<'s> {
         Places { scene: &self.scene, origins: self.origins, inspect }
     }
