@@ -45,8 +45,8 @@ pub fn edges([a, b, c]: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
     [edge(*b, *c, x, y), edge(*c, *a, x, y), edge(*a, *b, x, y)]
 }
 
-#[must_use]
 /// Whether a triangle of either winding owns the centre of a pixel, by the rule that a nudge of the samples stands for.
+#[must_use]
 pub fn owns(corners: &Corners, x_px: i32, y_px: i32, nudge: Nudge) -> bool {
     let Some([a, b, c]) = clockwise(corners) else { return false };
     let side = |a: SubpixelPoint, b: SubpixelPoint| {

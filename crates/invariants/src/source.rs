@@ -307,63 +307,68 @@ fn size(input: &Input) -> (usize, f64) {
 
 /// Inputs that are one step smaller.
 fn neighbours(input: &Input) -> Vec<Input> {
-    let by_px = |p: SubpixelPoint, dx: i32, dy: i32| {
-        SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS)
-    };
     match input {
-        Input::Quad(quad) => {
-            let moved = |dx: i32, dy: i32| {
-                let corners = quad.corners.map(|p| by_px(p, dx, dy));
-                corners
-                    .iter()
-                    .all(|p| p.x >= 0 && p.y >= 0)
-                    .then(|| Input::Quad(Quad { corners, ..quad.clone() }))
-            };
-            [(8, 0), (0, 8), (1, 0), (0, 1)].into_iter().filter_map(|(x, y)| moved(x, y)).collect()
-        }
-        Input::Fan(fan) => {
-            let fewer = (0..fan.ring.len()).filter(|_| fan.ring.len() > 8).map(|i| {
-                let mut ring = fan.ring.clone();
-                ring.remove(i);
-                Input::Fan(Fan { ring, ..fan.clone() })
-            });
-            let halved = Fan {
-                ring: fan
-                    .ring
-                    .iter()
-                    .map(|p| {
-                        let half = |p: i32, c: i32| c + (p - c) / 2;
-                        SubpixelPoint::new(half(p.x, fan.centre.x), half(p.y, fan.centre.y))
-                    })
-                    .collect(),
-                ..fan.clone()
-            };
-            // Halved spokes must still be spokes.
-            let distinct = halved.ring.iter().all(|p| {
-                (p.x - fan.centre.x).abs().max((p.y - fan.centre.y).abs()) >= SUBPIXELS / 8
-            });
-            fewer.chain(distinct.then_some(Input::Fan(halved))).collect()
-        }
+        Input::Quad(quad) => smaller_quads(quad),
+        Input::Fan(fan) => smaller_fans(fan),
         Input::Position(p) => {
-            let mut found = vec![Position { shift_px: p.shift_px / 2, ..*p }];
             let whole = p.px.trunc();
-            found.push(Position { px: p.px - whole, ..*p });
-            found.push(Position { px: p.px - (whole / 2.0).trunc(), ..*p });
-            found.into_iter().map(Input::Position).collect()
+            vec![
+                Input::Position(Position { shift_px: p.shift_px / 2, ..*p }),
+                Input::Position(Position { px: p.px - whole, ..*p }),
+                Input::Position(Position { px: p.px - (whole / 2.0).trunc(), ..*p }),
+            ]
         }
-        Input::Clip(clip) => (0..12)
-            .flat_map(|i| {
-                let moved = |to: fn(i32) -> i32| {
+        Input::Clip(clip) => {
+            let mut found = Vec::new();
+            for i in 0..12 {
+                let number = clip.vertices[i / 4][i % 4];
+                for smaller in [0, number / 2, number - number.signum()] {
                     let mut vertices = clip.vertices;
-                    let number = &mut vertices[i / 4][i % 4];
-                    *number = to(*number);
-                    Input::Clip(ClipInput { vertices })
-                };
-                [moved(|_| 0), moved(|v| v / 2), moved(|v| v - v.signum())]
-            })
-            .collect(),
+                    vertices[i / 4][i % 4] = smaller;
+                    found.push(Input::Clip(ClipInput { vertices }));
+                }
+            }
+            found
+        }
         _ => Vec::new(),
     }
+}
+
+/// The same quadrilateral nearer to the origin by whole pixels, in the window still.
+fn smaller_quads(quad: &Quad) -> Vec<Input> {
+    let mut found = Vec::new();
+    for (dx, dy) in [(8, 0), (0, 8), (1, 0), (0, 1)] {
+        let corners =
+            quad.corners.map(|p| SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS));
+        if corners.iter().all(|p| p.x >= 0 && p.y >= 0) {
+            found.push(Input::Quad(Quad { corners, ..quad.clone() }));
+        }
+    }
+    found
+}
+
+/// Fans with one spoke fewer, while eight are left, and the one with spokes half as long.
+fn smaller_fans(fan: &Fan) -> Vec<Input> {
+    let mut found = Vec::new();
+    if fan.ring.len() > 8 {
+        for i in 0..fan.ring.len() {
+            let mut ring = fan.ring.clone();
+            ring.remove(i);
+            found.push(Input::Fan(Fan { ring, ..fan.clone() }));
+        }
+    }
+    let mut halved = fan.clone();
+    let mut shortest = i32::MAX;
+    for p in &mut halved.ring {
+        let (dx, dy) = ((p.x - fan.centre.x) / 2, (p.y - fan.centre.y) / 2);
+        *p = SubpixelPoint::new(fan.centre.x + dx, fan.centre.y + dy);
+        shortest = shortest.min(dx.abs().max(dy.abs()));
+    }
+    // Halved spokes must still be spokes.
+    if shortest >= SUBPIXELS / 8 {
+        found.push(Input::Fan(halved));
+    }
+    found
 }
 
 impl fmt::Display for Input {

@@ -291,6 +291,7 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     if turn == 0 {
         return Ok(0);
     }
+    // The point that is k steps along the edge from the sample, and l steps away from it.
     let at =
         |k: i32, l: i32| SubpixelPoint::new(sample.x + k * dx + l * ex, sample.y + k * dy + l * ey);
     let (back, ahead) = (1 + (input.salt >> 12 & 3) as i32, 1 + (input.salt >> 14 & 3) as i32);

@@ -223,6 +223,7 @@ const CHUNK: usize = 256;
 /// Both groups of coverage: all pieces against the oracle, as they are and snapped; times of a sample, in the same rounds.
 fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
     let window = sampled.window;
+    // Pieces are judged in chunks on all threads, before anything is timed.
     let chunks: Vec<&[Piece]> =
         sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
     let (plural, unit) = (sampled.counted(), sampled.unit());
@@ -365,6 +366,7 @@ fn interpolation_board(
     use interpolation::{HALF_STEP, SAMPLES, choices, input};
     // Every choice is judged by the same pieces, which all of them can draw.
     let taken: Vec<Piece> = pieces.iter().filter(|piece| has_values(piece)).cloned().collect();
+    // Three inputs of the same choices: one to judge, one to time, and one of hard cases to judge closely.
     let sample = Sample::new(&taken, window, TIMED_PX / 4);
     let judged = input(&class(&taken, window).0, SAMPLES);
     let to_time = input(&class(sample.of(&taken), window).0, 0);
@@ -483,6 +485,7 @@ pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
     let mut error = Frame::new(window, 0.0);
     let mut seen = Frame::new(window, NOTHING);
     for (number, piece) in pieces.iter().enumerate() {
+        // The depths of the engine, which are within this bound of the exact ones.
         let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);
         let bound = SCANLINE.depth.at(depths);
         Scanline.runs(&piece.depth_only(), window, true, &mut |run| {
@@ -534,6 +537,7 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Bo
             cells.push(Ok((run, Some(frame_pass((scene, drawer), effects, &target)))));
         }
     }
+    // Tiles have their own samples: with none that are the target's they are left out.
     let samples = match antialias {
         Antialias::None => Some(frames::Samples::One),
         Antialias::Multisample4 => Some(frames::Samples::Four),

@@ -62,8 +62,8 @@ pub enum Adds {
 }
 
 impl Need {
-    #[must_use]
     /// What changes pixels is called for, also where the plan leaves it out, since the plan of an item may leave it out in others.
+    #[must_use]
     pub fn state(&self) -> State {
         match (self.is_paid_for, self.wrong) {
             (_, 1..) => State::CalledFor,
@@ -106,8 +106,8 @@ pub struct Fineness {
     pub far: Vec<(&'static str, u64)>,
 }
 
-#[derive(Clone, Debug)]
 /// What was found of all effects, and of the textures.
+#[derive(Clone, Debug)]
 pub struct Needs {
     pub needs: Vec<Need>,
     /// The time of the planned frame, in the same rounds as all others.

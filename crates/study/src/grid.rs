@@ -307,7 +307,7 @@ pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<Gri
     // The pixels that were covered, so that no pass is left out as idle.
     let covered = Cell::new(0);
     let add = |pixels: usize| covered.set(covered.get() + pixels);
-    // Two passes for each grid, whose times come back in this order.
+    // Two passes for each grid, whose times come back in this order. None is compared with another one: medians are enough.
     let mut passes = Vec::new();
     for outlines in &outlines {
         passes.push(Pass::new(move || add(outlines.covered(&Scanline, &ScanlineExact, window))));

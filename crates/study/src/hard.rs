@@ -156,8 +156,8 @@ impl HardCases {
         self.cases.iter().filter(|case| case.in_view > 0)
     }
 
-    #[must_use]
     /// What was found of a kind; none where it does not occur.
+    #[must_use]
     pub fn of(&self, kind: Kind) -> Option<&HardCase> {
         self.cases.iter().find(|case| case.kind == kind)
     }
@@ -211,6 +211,7 @@ pub fn find(
         found: Vec::new(),
     };
     // What the mesh shows wherever it is seen from takes about as long as what this view shows, so both are looked for at once.
+    // Edges and faces are noted after that, since they need the shape as well as what is seen.
     let drawn = || {
         // The first step finds out which triangles are seen, which the steps after it use.
         let classes = search.look();
@@ -374,6 +375,7 @@ impl Search<'_> {
 
     /// Notes triangles with how bad each is, in any order; `note` gets that of the worst one.
     fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
+        // The sort is stable: of equally bad ones the first in drawing order stays in front.
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
         let worst = found.first().map_or(0.0, |(worst, _)| *worst);
         let all = &mut found.iter().map(|(_, triangle)| *triangle);
@@ -449,6 +451,7 @@ impl Search<'_> {
 
     /// Notes pairs of faces, which are seen where both compete for a sample.
     fn pairs(&mut self, shape: &Shape, origins: &[Origin]) {
+        // First which pairs compete anywhere: by order, by rounding or with equal depths.
         let kinds = [(Kind::Duplicate, &shape.duplicates), (Kind::Overlap, &shape.overlaps)];
         let mut is_seen = kinds.map(|(_, pairs)| vec![false; pairs.len()]);
         for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
@@ -468,6 +471,7 @@ impl Search<'_> {
             });
         }
         for ((kind, pairs), is_seen) in kinds.into_iter().zip(&is_seen) {
+            // Then a note about the first pair that is seen, or about the first one of all.
             let what = if kind == Kind::Duplicate { "has the corners of" } else { "overlaps" };
             let first = is_seen.iter().position(|is| *is).unwrap_or(0);
             let mut note = String::new();
@@ -497,6 +501,7 @@ impl Search<'_> {
         let most = shape.crowded.first().map_or(0, |edge| edge.triangles.len());
         let crowded = format!("the most crowded one has {most}");
         let near = format!("at most {:.1e} apart", shape.near_apart);
+        // An edge has no pixels of its own, so it is drawn as a line, and seen where one of its triangles is seen beside it.
         let place = Place::new(self.scene, self.sampled.size);
         for (kind, edges, note) in [
             (Kind::TJunction, &shape.t_junctions, String::new()),
@@ -710,6 +715,7 @@ impl Search<'_> {
         picture: &Frame<Colour>,
         target: &mut Target,
     ) -> Result<(), BadScene> {
+        // Where the order does not matter, both pictures have the same colour.
         let mut other = turned(self.scene);
         let turned = draw(&other, target)?;
         let mut pixels: Vec<_> = differing(picture, &turned, 0).collect();
@@ -804,6 +810,7 @@ impl Search<'_> {
         if !is_rounded {
             return Ok(0);
         }
+        // The pieces of both scenes are in drawing order, so that those of one triangle are found side by side.
         let moved = pieces(&rounded, self.sampled.size)?;
         let mut after = moved.as_slice();
         let mut far: Vec<(f64, u32)> = Vec::new();

@@ -65,8 +65,8 @@ impl Saves {
     }
 }
 
-#[derive(Clone, Debug, serde::Serialize)]
 /// What planning one effect saves.
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Saving {
     pub effect: Effect,
     /// Of a frame that pays for everything: it alone is planned.
@@ -77,8 +77,8 @@ pub struct Saving {
     pub wrong_without: u64,
 }
 
-#[derive(Clone, Debug, serde::Serialize)]
 /// What planning saves, as a whole and by effect.
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Savings {
     pub everything: Measured,
     pub usual: Measured,
@@ -178,18 +178,17 @@ pub fn measure(
     let timing = Timing { rounds, ..PLAN }.within(share);
     let times = {
         let target = RefCell::new(&mut *target);
-        let pass = |mixture: &Mixture| frame_pass((scene, drawer), mixture.effects, &target);
-        let mut passes: Vec<Pass<'_>> = timed.iter().map(pass).collect();
-        compare(
-            &mut passes,
-            timing,
-            &pairs.iter().map(|pair| pair.to_vec()).collect::<Vec<_>>(),
-            &|_| drawn(),
-        )
+        let mut passes: Vec<Pass<'_>> = Vec::with_capacity(timed.len());
+        for mixture in &timed {
+            passes.push(frame_pass((scene, drawer), mixture.effects, &target));
+        }
+        let sets: Vec<Vec<usize>> = pairs.iter().map(|pair| pair.to_vec()).collect();
+        compare(&mut passes, timing, &sets, &|_| drawn())
     };
     // From here on nothing is timed: pairs of frames become ratios.
     let all: Vec<Measured> = timed.iter().zip(&times).map(Measured::new).collect();
     let over = |[a, b]: Pair| all[a].over(&all[b]);
+    // Last, a picture without each effect, which says whether it was needed at all.
     let mut savings = Vec::new();
     for (&effect, of_both) in effects.iter().zip(found) {
         let without = drawer.render_without(scene, effect, target)?;

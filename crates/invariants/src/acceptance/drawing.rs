@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_faults::published::{Published, from_screen};
@@ -101,9 +101,8 @@ impl Rasterizer {
     /// Whether a scene is within its domain: f32 does not hold every w that f64 holds.
     #[must_use]
     pub fn can_draw(&self, scene: &Scene) -> bool {
-        let fits = |inv_w: f64| (1e-30..1e30).contains(&inv_w);
-        let vertices = || scene.triangles.iter().flat_map(|triangle| &triangle.vertices);
-        !self.is_single() || vertices().all(|vertex| fits(vertex.inv_w))
+        let mut vertices = scene.triangles.iter().flat_map(|triangle| &triangle.vertices);
+        !self.is_single() || vertices.all(|vertex| (1e-30..1e30).contains(&vertex.inv_w))
     }
 
     /// The fill rule that a right rasterizer declares; the default one of all others.
@@ -117,13 +116,12 @@ impl Rasterizer {
     /// The triangle with its corners on the grid of the device, halves rounded towards larger coordinates.
     pub fn placed(&self, triangle: &Triangle) -> Triangle {
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits());
-        let snap = |v: i32| {
-            let snapped = (i64::from(v) + step / 2).div_euclid(step) * step;
-            snapped.clamp(i32::MIN.into(), i32::MAX.into()) as i32
-        };
         let mut placed = *triangle;
         for vertex in &mut placed.vertices {
-            vertex.position = SubpixelPoint::new(snap(vertex.position.x), snap(vertex.position.y));
+            for at in [&mut vertex.position.x, &mut vertex.position.y] {
+                let snapped = (i64::from(*at) + step / 2).div_euclid(step) * step;
+                *at = snapped.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+            }
         }
         placed
     }

@@ -41,8 +41,8 @@ impl Scene {
         Self { name, of_suites, paint, window, triangles, fills_window, depth_test }
     }
 
-    #[must_use]
     /// Whether its colours depend on interpolated values.
+    #[must_use]
     pub fn shows_values(&self) -> bool {
         matches!(self.paint, Paint::Values | Paint::Checker)
     }

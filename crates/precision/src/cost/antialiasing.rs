@@ -31,6 +31,7 @@ impl Input {
     }
 }
 
+/// A choice with so many samples in a pixel.
 fn entry<A: Antialias + 'static>(
     name: &'static str,
     about: &'static str,
@@ -75,31 +76,41 @@ struct Truth {
     pixels: u64,
 }
 
+/// The shares of all triangles added up, as the choices do that draw them one after the other.
 fn truth(triangles: &[Corners], bounds: PixelRect) -> Truth {
     let (mut shares, mut on_edge) = (Frame::new(bounds, 0.0), Frame::new(bounds, false));
     let mut sum = 0.0;
     for corners in triangles {
         area::shares(corners, bounds, |Range { start, end }, y_px, share| {
-            shares.span_mut(y_px, start, end).iter_mut().for_each(|sum| *sum += share);
-            on_edge.span_mut(y_px, start, end).iter_mut().for_each(|on| *on |= share < 1.0);
+            for sum in shares.span_mut(y_px, start, end) {
+                *sum += share;
+            }
+            // A pixel that a triangle covers in part is one that an edge passes through.
+            for on_edge in on_edge.span_mut(y_px, start, end) {
+                *on_edge |= share < 1.0;
+            }
             sum += share * f64::from(end - start);
         });
     }
     Truth { shares, on_edge, pixels: sum as u64 }
 }
 
+/// How far shares are from the exact ones, over the pixels on an edge.
 fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     let (mut sum, mut count) = (0.0, 0u64);
     for (y_px, row) in truth.on_edge.rows() {
         let pairs = actual.row(y_px).iter().zip(truth.shares.row(y_px));
-        for ((actual, exact), _) in pairs.zip(row).filter(|(_, on_edge)| **on_edge) {
-            sum += (actual - exact) * (actual - exact);
-            count += 1;
+        for ((actual, exact), on_edge) in pairs.zip(row) {
+            if *on_edge {
+                sum += (actual - exact) * (actual - exact);
+                count += 1;
+            }
         }
     }
     (sum / count.max(1) as f64).sqrt()
 }
 
+/// The classes of scenes, without those that differ in w alone.
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     classes(options, (256, [8_000, 30_000]), |scene| {
         scene.is_of_coverage()?;

@@ -35,10 +35,12 @@ fn input(scene: &Scene) -> Input {
     of(drawn, scene.bounds)
 }
 
+/// Triangles with the exact levels at the usual number of samples.
 fn of(drawn: Vec<CoveredTriangle<Textured>>, bounds: PixelRect) -> Input {
     Input::new(drawn, bounds, SAMPLES, |&of| Some(move |x_px, y_px| exact(&of, x_px, y_px)))
 }
 
+/// A float as the quotient that it is.
 fn exactly(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap_or_else(BigRational::zero)
 }
@@ -49,31 +51,38 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
         [corner.x, corner.y].map_array(|sub| exactly(f64::from(sub) / f64::from(SUBPIXELS)))
     });
     let [a, b, c] = &px;
-    let edge = |p: &[BigRational; 2]| [&p[0] - &a[0], &p[1] - &a[1]];
-    let (to_b, to_c) = (edge(b), edge(c));
-    let to = edge(&[x_px, y_px].map_array(|px| exactly(f64::from(px) + 0.5)));
+    // From the first corner to both others, and to the pixel.
+    let (to_b, to_c) = (difference(b, a), difference(c, a));
+    let to = difference(&[x_px, y_px].map_array(|px| exactly(f64::from(px) + 0.5)), a);
     let area = &to_b[0] * &to_c[1] - &to_b[1] * &to_c[0];
     // The value at the pixel and the slopes of what is linear.
-    let plane = |of: &dyn Fn(usize) -> BigRational| {
-        let (first, b, c) = (of(0), of(1) - of(0), of(2) - of(0));
+    let plane = |[first, b, c]: [BigRational; 3]| {
+        let (b, c) = (b - &first, c - &first);
         let by_x = (&b * &to_c[1] - &c * &to_b[1]) / &area;
         let by_y = (&c * &to_b[0] - &b * &to_c[0]) / &area;
         [first + &by_x * &to[0] + &by_y * &to[1], by_x, by_y]
     };
-    let inv = plane(&|i| exactly(inv_w[i]));
-    let square = |axis: usize| {
-        let along = |coordinate: usize| {
-            let over = plane(&|i| exactly(uv[i][coordinate] * SIDE) * exactly(inv_w[i]));
-            let numerator = &over[axis] * &inv[0] - &over[0] * &inv[axis];
-            numerator / (&inv[0] * &inv[0])
-        };
-        let (u, v) = (along(0), along(1));
-        &u * &u + &v * &v
-    };
-    let square = square(1).max(square(2)).to_f64()?;
+    // Texture coordinates times 1/w are linear, and 1/w is; the quotient rule makes slopes of the texture of them.
+    let [inv, inv_by_x, inv_by_y] = plane(inv_w.map_array(exactly));
+    let inv_squared = &inv * &inv;
+    let (mut by_x, mut by_y) = (BigRational::zero(), BigRational::zero());
+    for coordinate in 0..2 {
+        let [over, over_by_x, over_by_y] =
+            plane([0, 1, 2].map_array(|i| exactly(uv[i][coordinate] * SIDE) * exactly(inv_w[i])));
+        let along_x = (over_by_x * &inv - &over * &inv_by_x) / &inv_squared;
+        let along_y = (over_by_y * &inv - &over * &inv_by_y) / &inv_squared;
+        by_x += &along_x * &along_x;
+        by_y += &along_y * &along_y;
+    }
+    let square = by_x.max(by_y).to_f64()?;
     (square > 0.0).then(|| 0.5 * libm::log2(square))
 }
 
+fn difference(p: &[BigRational; 2], q: &[BigRational; 2]) -> [BigRational; 2] {
+    [&p[0] - &q[0], &p[1] - &q[1]]
+}
+
+/// A choice of levels, which promises nothing.
 fn entry(
     name: &'static str,
     about: &'static str,
@@ -82,6 +91,7 @@ fn entry(
     sampled::entry(Choice::new(name, about, &[]), body, judge)
 }
 
+/// The worst and the mean error of a choice, in levels.
 fn judge(input: &Input, choice: Emit<'_, Textured>) -> Run {
     let (mut worst, mut sum) = (0f64, 0.0);
     input.at_samples(choice, &mut |_, exact, _, level| {
@@ -94,6 +104,7 @@ fn judge(input: &Input, choice: Emit<'_, Textured>) -> Run {
     Run::of(vec![Some(worst), Some(sum / input.judged().part.max(1) as f64)])
 }
 
+/// The choices of the group, from the cheapest idea to the most accurate one.
 pub(super) fn choices() -> Vec<Entry<Input>> {
     vec![
         entry("one a triangle", "by the areas in texels and in pixels", OfTriangle),
@@ -108,6 +119,7 @@ pub(super) fn choices() -> Vec<Entry<Input>> {
     ]
 }
 
+/// All classes of scenes: a level depends on the shape of a triangle as well as on its w.
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     classes(options, (512, [20_000, 200_000]), |scene| Ok(input(scene).counted()))
 }

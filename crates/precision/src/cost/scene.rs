@@ -10,6 +10,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::FreeCorners;
 
+/// Triangles that every choice of a group is measured on.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: &'static str,
@@ -64,6 +65,7 @@ const CLASSES: [Class; 12] = [
 
 const MESH: &str = "a net of shared edges, many through or past a sample by an ulp of f32 or f64";
 
+/// All classes, of one size.
 pub fn scenes(seed: u64, size: Size) -> Vec<Scene> {
     CLASSES.iter().map(|class| scene(class, seed, size)).collect()
 }
@@ -75,12 +77,16 @@ fn scene(&(name, about, ratio, make): &Class, seed: u64, size: Size) -> Scene {
     let has_ties = matches!(name, "tie" | "mesh");
     let round = |v: f64| if has_ties { v } else { f32_of(v) };
     let to = offset + size.side_px as i32;
-    let triangles: Vec<_> = corners
-        .into_iter()
-        .map(|corners| corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset)))))
-        .filter_map(|corners| FreeCorners::new(corners).ok())
-        .collect();
-    let w = triangles.iter().map(|_| [(); 3].map_array(|()| spread(&mut rng, ratio))).collect();
+    let mut triangles = Vec::with_capacity(corners.len());
+    for corners in corners {
+        let corners = corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset))));
+        triangles.extend(FreeCorners::new(corners).ok());
+    }
+    // All corners are drawn before all w, so that a class with another ratio has the same triangles.
+    let mut w = Vec::with_capacity(triangles.len());
+    for _ in &triangles {
+        w.push([(); 3].map_array(|()| spread(&mut rng, ratio)));
+    }
     Scene {
         name,
         about,
@@ -92,6 +98,7 @@ fn scene(&(name, about, ratio, make): &Class, seed: u64, size: Size) -> Scene {
     }
 }
 
+/// How far from the origin the window of the class `far` begins.
 const FAR_PX: i32 = 1 << 14;
 
 /// A w in [1, ratio], often one of the ends, since the whole ratio is the danger.
@@ -103,10 +110,12 @@ fn spread(rng: &mut Rng, ratio: f64) -> f64 {
     }
 }
 
+/// The nearest number of 24 bits.
 fn f32_of(v: f64) -> f64 {
     f64::from(v as f32)
 }
 
+/// Triangles of a tenth of the window each.
 fn large(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = f64::from(size.side_px);
     compact(rng, size, side * side / 10.0)
@@ -120,10 +129,12 @@ fn small(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     })
 }
 
+/// Triangles of 1000 px each.
 fn thousand(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     compact(rng, size, 1000.0)
 }
 
+/// As many triangles of an area as cover about the pixels that are asked for, at least two.
 fn compact(rng: &mut Rng, size: &Size, area_px: f64) -> Vec<Corners> {
     let count = (size.pixels / area_px as u64).max(2);
     placed(rng, size, count, |rng| shape(rng, area_px))
@@ -149,19 +160,21 @@ fn placed(
     count: u64,
     shape: impl Fn(&mut Rng) -> Corners,
 ) -> Vec<Corners> {
-    let place = |_| {
+    let room = f64::from(size.side_px) - 2.0;
+    let mut placed = Vec::with_capacity(count as usize);
+    for _ in 0..count {
         let shape = shape(rng);
-        let mut offset = |axis: usize| {
+        let [dx, dy] = [0, 1].map_array(|axis| {
             let [a, b, c] = shape.map_array(|p| p[axis]);
             let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-            1.0 - min + rng.unit() * (f64::from(size.side_px) - 2.0 - (max - min)).max(0.0)
-        };
-        let (dx, dy) = (offset(0), offset(1));
-        shape.map_array(|[x, y]| [x + dx, y + dy])
-    };
-    (0..count).map(place).collect()
+            1.0 - min + rng.unit() * (room - (max - min)).max(0.0)
+        });
+        placed.push(shape.map_array(|[x, y]| [x + dx, y + dy]));
+    }
+    placed
 }
 
+/// Triangles half a window long and 1/2 to 2 px wide.
 fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let length = f64::from(size.side_px) / 2.0;
     // A quarter of the pixels: the bounding box of a sliver holds many times more.
@@ -181,16 +194,17 @@ fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 
 /// Corners on centres within a box of 32 px.
 fn half(rng: &mut Rng, size: &Size) -> Vec<Corners> {
-    (0..size.pixels / 80)
-        .map(|_| {
-            let shape = [(); 3].map_array(|()| [(); 2].map_array(|()| rng.int(0, 31) as f64));
-            let mut corner = || rng.int(1, i64::from(size.side_px) - 34) as f64 + 0.5;
-            let (dx, dy) = (corner(), corner());
-            shape.map_array(|[x, y]| [x + dx, y + dy])
-        })
-        .collect()
+    let most = i64::from(size.side_px) - 34;
+    let mut corners = Vec::new();
+    for _ in 0..size.pixels / 80 {
+        let shape = [(); 3].map_array(|()| [rng.int(0, 31) as f64, rng.int(0, 31) as f64]);
+        let (dx, dy) = (rng.int(1, most) as f64 + 0.5, rng.int(1, most) as f64 + 0.5);
+        corners.push(shape.map_array(|[x, y]| [x + dx, y + dy]));
+    }
+    corners
 }
 
+/// The float that a corner is rounded to, and by whose steps it is nudged.
 #[derive(Clone, Copy)]
 enum Grain {
     F32,
@@ -228,26 +242,30 @@ impl Grain {
     }
 }
 
+/// Triangles of which one edge runs through a sample, or past it by a step of a float.
 fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = i64::from(size.side_px);
-    (0..size.pixels / 130)
-        .map(|_| {
-            let s = [(); 2].map_array(|()| rng.int(26, side - 27) as f64 + 0.5);
-            let grain = Grain::any(rng);
-            let near =
-                |rng: &mut Rng, reach: f64| s.map_array(|v| grain.round(v + reach * rng.signed()));
-            let a = near(rng, 12.0);
-            let times = rng.int(1, 2) as f64;
-            let b = grain.mirror(rng, a, s, times);
-            let mut corners = [a, b, near(rng, 24.0)];
-            corners.rotate_left(rng.int(0, 2) as usize);
-            corners
-        })
-        .collect()
+    let mut all = Vec::new();
+    for _ in 0..size.pixels / 130 {
+        let s = [(); 2].map_array(|()| rng.int(26, side - 27) as f64 + 0.5);
+        let grain = Grain::any(rng);
+        let near =
+            |rng: &mut Rng, reach: f64| s.map_array(|v| grain.round(v + reach * rng.signed()));
+        let a = near(rng, 12.0);
+        let times = rng.int(1, 2) as f64;
+        // The edge from a to b runs through the sample, but for a nudge of b.
+        let b = grain.mirror(rng, a, s, times);
+        let mut corners = [a, b, near(rng, 24.0)];
+        corners.rotate_left(rng.int(0, 2) as usize);
+        all.push(corners);
+    }
+    all
 }
 
+/// The side of a cell of the net.
 const CELL_PX: f64 = 16.0;
 
+/// How many cells the net has on a side.
 fn cells(size: &Size) -> usize {
     let most = f64::from(size.side_px.max(48) - 16) / CELL_PX;
     ((size.pixels as f64).sqrt() / CELL_PX).clamp(2.0, most) as usize

@@ -29,6 +29,7 @@ pub fn tables(board: &Board) -> Vec<Table> {
         tables.extend(times(board));
     }
     tables.extend(work(board));
+    // A count of work that no choice of a group does has no table.
     tables.retain(|table| !table.rows.is_empty());
     if let (Some(first), title) = (tables.first_mut(), board.ladder.title()) {
         first.caption = format!("{title}: {}", first.caption);
@@ -145,6 +146,7 @@ fn block(
     caption: String,
     cell: &dyn Fn(usize, usize) -> Option<(f64, Mark)>,
 ) -> Table {
+    // Only columns in which any choice has a number are shown, and only choices that have one in any of them.
     let choices = 0..board.choices.len();
     let width = cell_width(board);
     let applies = |&column: &usize| choices.clone().any(|choice| cell(choice, column).is_some());

@@ -111,13 +111,16 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
 
 /// A face, with what the file says of it where the scene is of one.
 fn face(subject: &Places<'_>, triangle: u32) -> Value {
-    let origin = triangle_of(subject.scene, triangle)
-        .and_then(|(item, number)| Some((subject.origins.get(item)?, number)));
+    let (mut line, mut part, mut material) = (None, None, None);
+    if let Some((item, number)) = triangle_of(subject.scene, triangle)
+        && let Some(origin) = subject.origins.get(item)
+    {
+        line = origin.lines.get(number);
+        (part, material) = (Some(&origin.part), Some(&origin.material));
+    }
     json!({
         "face": face_of(subject.scene, subject.origins, triangle),
-        "line": origin.and_then(|(origin, number)| origin.lines.get(number)),
-        "part": origin.map(|(origin, _)| &origin.part),
-        "material": origin.map(|(origin, _)| &origin.material),
+        "line": line, "part": part, "material": material,
         "command": subject.command(triangle),
     })
 }

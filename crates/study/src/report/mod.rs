@@ -102,6 +102,7 @@ fn compared_in(costs: &[Board]) -> Option<String> {
 /// What is said of all hard cases together, a line each.
 fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> Vec<String> {
     let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
+    // Kinds that do not occur are named, so that a reader knows that they were looked for.
     let missing = Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none());
     let missing: Vec<&str> = missing.map(Kind::name).collect();
     if !missing.is_empty() && !found.cases.is_empty() {
@@ -221,6 +222,7 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
         let none = "No choice of coverage that is exact for every model takes these triangles.";
         return [none.to_owned(), String::new()];
     };
+    // The sentence names the cheapest of those that are exact by promise, against the cheapest of all.
     let unit = unit(cheapest.board);
     let is_snapped = certain.promises(1);
     let snapped = if is_snapped { " once its corners are snapped" } else { "" };
@@ -452,6 +454,7 @@ fn exact_first(costs: &[Board]) -> Table {
 
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
 fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
+    // All exact choices of all boards compete; without times there is no cheapest one.
     let exact: Vec<_> = boards.iter().flat_map(|board| board.exact(0, measure)).collect();
     let best = Cheapest::of(&exact).and_then(|best| Some((best.choice.times()?, best)));
     let Some((times, Cheapest { choice: best, equal, undecided })) = best else {
@@ -461,6 +464,7 @@ fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
         let none = if is_compared { "none" } else { "no pixel was compared" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
+    // Choices that cannot be told from the best one by their times are counted behind its name.
     let rivals = equal.len() + undecided.len();
     let mut name = best.name().to_owned();
     if boards.len() > 1 {
@@ -477,6 +481,7 @@ fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
 pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
     let Some(sampling) = board.columns[0].sampling else { return Vec::new() };
+    // First the choice to make, by each measure of the error.
     let mut lines = Vec::new();
     for (number, measure) in board.measures.iter().enumerate() {
         match board.compared(0, number) {
@@ -494,6 +499,7 @@ pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
         let [part, of] = [sampling.judged.part, sampling.judged.of].map(thousands);
         lines.push(format!("exact and wrong are of a sample: {part} of {of} px were compared"));
     }
+    // Then choices that tempt: those that are exact here and might not be, and those that are cheaper and wrong.
     for choice in board.ran(0) {
         let ratio = limit.and_then(|limit| choice.over(&limit));
         let is_cheaper =
@@ -536,6 +542,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
     let Cheapest { choice, equal, undecided } = best;
     let board = choice.board;
     let short = &board.measures[measure].short;
+    // If all exact choices take the same time, none of them is the cheapest.
     let timed = board.exact(0, measure).filter(|one| one.times().is_some());
     if !equal.is_empty() && timed.count() == equal.len() + 1 {
         let all = names(&[&[*choice], &equal[..]].concat()).join(", ");
@@ -626,6 +633,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
             idle.join(", ")
         ));
     }
+    // A line for each textured material, with what more samples change and take where its texture is fine.
     let time = |name: &str| Some(needs.antialiasing.iter().find(|(other, _)| *other == name)?.1);
     for texture in &needs.textures {
         let name = printable_short(&texture.material, 40);
@@ -725,6 +733,7 @@ const EQUAL: Rgb<u8> = Rgb([190, 80, 220]);
 /// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
 fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     let mut marked = picture.clone();
+    // Half as bright, so that the marks are seen on any picture.
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
     }
@@ -742,6 +751,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
         if near > MARK_PX {
             continue;
         }
+        // A ring of about five pixels, by the squares of its inner and its outer radius.
         for [dx, dy] in around_a_pixel() {
             let at = [x_px + dx, y_px + dy].map(u32::try_from);
             if (17..=26).contains(&(dx * dx + dy * dy))
@@ -769,12 +779,14 @@ pub fn report(
     commands: [String; 3],
     command: String,
 ) -> Report {
+    // The tables from the model to the machine: hard cases, effects by their state, costs, grids.
     let classes = &found.hard.classes;
     let mut hard = hard_cases(subject, found.hard, found.costs);
     hard.notes.push(ties(subject, classes));
     let mut tables = vec![hard];
     tables.extend(State::ALL.map(|state| needs_table(found.needs, state)));
     tables.retain(|table| !table.rows.is_empty() || !table.notes.is_empty());
+    // What is said of all effects together stands under the last of their tables.
     if let Some(effects) = tables.last_mut() {
         effects.notes.extend(effects_advice(found.needs));
         if !found.not_drawn.is_empty() {

@@ -68,6 +68,7 @@ fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
         }
         line.items.extend(new.items);
     }
+    // The sort is stable, so that lines of one effect stay in the order of their decisions.
     lines.sort_by_key(|line| line.effect);
     lines
 }
@@ -146,6 +147,7 @@ impl Measurement<'_> {
 
     /// What the measurement comes to, on the screen and in the data.
     fn outcome(&self) -> Outcome {
+        // Two empty frames are the same whatever the plan does, so that says nothing.
         let same = self.is_same();
         if same && self.frames[0].is_blank() {
             return Outcome::nothing_drawn();
@@ -165,6 +167,7 @@ impl Measurement<'_> {
                 paid.insert(decision.effect);
             }
         }
+        // The first sentence is about the plan, the second about what would change without it.
         let (paid, all) = (paid.len(), Effect::ALL.len());
         let mut sentence =
             format!("{paid} of {all} effects are paid for in this view, as planned.");
@@ -174,6 +177,7 @@ impl Measurement<'_> {
             let are = count(called as u64, "is called for", "are called for");
             sentence += &format!(" Of all, {are}: without it pixels change.");
         }
+        // Both ratios are those of the same rounds.
         let [everything, usual] = self.savings.times.map(|ratio| ratio.words("fast"));
         let time = if self.frames[0].counters.fragments == 0 {
             "No triangle covers a pixel, so times say nothing of effects.".to_owned()
@@ -189,6 +193,7 @@ impl Measurement<'_> {
     /// The tables of the plan, and the frames as layers where there is a page.
     pub fn report(&self, command: String, is_page: bool) -> Report {
         let Self { scene, kind, frames, savings, survey_us, is_whole } = *self;
+        // From what was decided to what it saves: decisions, counted work, single effects, the whole.
         let mut tables = vec![table(&frames[1].plan.decisions), counts(frames)];
         tables.extend((!savings.effects.is_empty()).then(|| of_each(savings)));
         tables.push(whole(savings, survey_us, is_whole));
@@ -208,6 +213,7 @@ impl Measurement<'_> {
     /// The data of the report, with a plan that holds its scene, so that `render --plan` can draw by it.
     pub fn data(&self) -> Value {
         let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
+        // A plan for `render --plan` names its scene, so that it is not followed for another one.
         let is_compared = !everything.is_blank() || !self.is_same();
         let Outcome { word, sentence, .. } = self.outcome();
         value(&Data {
