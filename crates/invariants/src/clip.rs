@@ -77,6 +77,7 @@ pub(super) fn planes(subject: &Implementations, input: &ClipInput) -> Outcome {
     if clipped.len() > MOST_VERTICES {
         return Err(format!("{} vertices", clipped.len()));
     }
+    // A vertex of the triangle may lie anywhere inside; any other one is where an edge meets a plane.
     let old = triangle.map_array(|vertex| bits(&vertex));
     for vertex in &clipped {
         let mut is_on_a_plane = false;
@@ -121,6 +122,7 @@ pub(super) fn coverage(subject: &Implementations, input: &ClipInput) -> Outcome 
     }
     let fan = (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]);
     let drawn = hits(&*subject.oracle, fan, window);
+    // A triangle that is seen from its edge has no sides, and nothing of it is drawn.
     let Some(lines) = lines(input) else { return Ok(0) };
     let mut compared = 0;
     for (y_px, row) in drawn.rows() {

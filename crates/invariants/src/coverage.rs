@@ -262,6 +262,7 @@ fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec
 /// 8: two fans over one outline, one of them turned inside out, are closed; one of them is a disk,
 /// folded where the apex lies outside.
 pub(super) fn signed_hit_count(subject: &Implementations, input: &Fan) -> Outcome {
+    // Signed hits of the closed mesh cancel, wherever both apexes lie.
     let disk = fan_triangles(input.apex, &input.ring);
     let mut closed = disk.clone();
     for [a, b, c] in fan_triangles(input.centre, &input.ring) {
@@ -287,6 +288,7 @@ pub(super) fn signed_hit_count(subject: &Implementations, input: &Fan) -> Outcom
 pub(super) fn contiguous_rows(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
         let hits = engine.hits(input.triangle.corners(), input.window);
+        // Runs come row by row, so that two of one row follow each other.
         let mut last_row = None;
         for (y_px, ..) in hits.runs() {
             if last_row.replace(y_px) == Some(y_px) {
@@ -319,6 +321,7 @@ fn holds([a, b, c]: &Corners, p: SubpixelPoint) -> bool {
 /// 10: nothing outside the snapped box, everything strictly inside.
 pub(super) fn inside_the_box(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // Without an area there is no inside, and the box alone is checked.
     let (columns, rows) = box_of(&corners);
     let oriented = exact::clockwise(&corners);
     subject.each_engine(|engine| {
@@ -406,6 +409,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
 /// 13: a triangle and the same one seen from behind.
 pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, c], window) = (input.triangle.corners(), input.window);
+    // Culling sees the sign of the area alone; coverage does not see it.
     let sign = twice_area(&[a, b, c]).signum();
     for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
         let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
@@ -709,6 +713,7 @@ pub(super) fn supersampling(subject: &Implementations, input: &TriangleInput) ->
     if !corners.iter().all(|p| small(p.x) && small(p.y)) || !small(window.x0 * SUBPIXELS) {
         return Ok(0);
     }
+    // Sample (i, j) of a pixel is pixel (n x + i, n y + j) of the larger triangle.
     let scaled = corners.map_array(|p| SubpixelPoint::new(p.x * n, p.y * n));
     let there =
         PixelRect { x0: window.x0 * n, y0: window.y0 * n, x1: window.x1 * n, y1: window.y1 * n };

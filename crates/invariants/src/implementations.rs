@@ -28,6 +28,7 @@ use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::oracle::Oracle;
 
+/// A rasterizer of triangles, with values of two numbers, and of three for its weights.
 pub trait Fill: Sync {
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
     fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
@@ -64,6 +65,7 @@ impl<R: Interpolate + Sync> Fill for R {
     }
 }
 
+/// A drawer of lines, with values of two numbers.
 pub trait Stroke: Sync {
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
 }
@@ -181,14 +183,12 @@ impl Implementations {
     /// Everything as this project has it.
     pub fn real() -> Self {
         Self {
-            engines: engines::Engine::CHOICES
-                .into_iter()
-                .map(|engine| Engine {
-                    name: engine.name(),
-                    fill: Box::new(engine),
-                    tolerance: engine.tolerance(),
-                })
-                .collect(),
+            engines: Vec::from(engines::Engine::CHOICES.map(|engine| Engine {
+                name: engine.name(),
+                fill: Box::new(engine),
+                tolerance: engine.tolerance(),
+            })),
+            // Tiles with each set of vector instructions that this machine has.
             lists: Tiles::levels()
                 .into_iter()
                 .map(|tiles| (tiles.instructions(), Box::new(tiles) as Box<dyn CoverList + Sync>))

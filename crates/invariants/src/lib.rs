@@ -111,6 +111,7 @@ impl Invariant {
 
     /// Checks one input; an input of another kind is nothing to compare.
     pub fn judge(&self, subject: &Implementations, input: &Input) -> Outcome {
+        // A panic of an implementation is something that is wrong, like any other.
         let outcome = caught(|| match (self.check, input) {
             (Predicate::Triangle(check), Input::Triangle(input)) => check(subject, input),
             (Predicate::Quad(check), Input::Quad(input)) => check(subject, input),
@@ -152,6 +153,7 @@ impl Invariant {
         if matches!(self.check, Predicate::Run(..) | Predicate::Matrix) {
             return None;
         }
+        // The first input to which the check applies; a failure is one, too.
         let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
         (0..MOST_LOOKED_THROUGH).find(|&index| fits(index)).map(|index| index + 1)
     }

@@ -52,6 +52,7 @@ impl Matrix {
         // While the question is open, let this row pass, and so the column of 42.
         own[meta] = true;
         blinded.rows.push((BLIND.to_owned(), own.clone()));
+        // A check that always passes is a column without a mark, under a number that no invariant has.
         let number = self.columns.iter().max().copied().unwrap_or(0) + 1;
         blinded.columns.push(number);
         for (_, marks) in &mut blinded.rows {

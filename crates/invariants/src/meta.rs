@@ -124,6 +124,7 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
             return Err(format!("{name}#{index} of seed {seed} is another case next time"));
         }
     }
+    // Then whole verdicts, in pools of one thread and of three.
     let options = Options::default().seed(seed).cases(cases.min(4));
     let verdict = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -186,6 +187,7 @@ pub(super) fn metrics_report_only(subject: &Implementations, seed: u64, cases: u
         let by = if is_covered && index % 8 < 4 { -1 } else { 1 };
         let what = format!("pixel {at:?} of {side} x {side}, hits off by {by}");
 
+        // First two coverages that differ in that pixel, then a judge who gets the engine that draws it.
         let target = oracle_coverage(&[triangle], window);
         let mut actual = Coverage::new(window, 0);
         let planted = OneWrong { at, by };

@@ -164,6 +164,7 @@ pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
 /// Quadrilaterals, half of them with corners on centres.
 pub(super) fn quad(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("quad", seed, index);
+    // Corners on centres make ties at every edge that runs along an axis.
     let on_centres = rng.chance(2);
     let align = |v: i64| if on_centres { v / 256 * 256 + 128 } else { v };
     let (left, top) = (align(rng.int(0, SIDE / 2)), align(rng.int(0, SIDE / 2)));
@@ -190,6 +191,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     } else {
         SubpixelPoint::new(align(x), align(y))
     };
+    // Spokes of whole half pixels often end on centres, where the centre of the fan is one.
     let whole = rng.chance(2);
     let most = 1 << rng.int(2, 11);
     let reach = [(); 16].map(|()| {

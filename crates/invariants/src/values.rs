@@ -168,6 +168,7 @@ pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> O
     let Some(exact) = ExactTriangle::new(&t.corners(), depths_of(t), inv_w, attributes) else {
         return Ok(0);
     };
+    // A few fragments of each triangle are enough, since exact values take long.
     let judge = |tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
         let bounds = [0, 1].map_array(|k| tolerance.attribute.at(values_of(t, k)));
         let depth_bound = tolerance.depth.at(depths_of(t));
@@ -244,6 +245,7 @@ pub(super) fn equal_w(subject: &Implementations, input: &TriangleInput) -> Outco
 /// 27: a power of two moves the exponent of every w and of nothing else.
 pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
+        // The same values come out, whatever the unit of w is.
         let still = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for power in [-150, -3, 1, 40, 150] {
@@ -415,6 +417,7 @@ pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcom
         [f64::MIN_POSITIVE, -f64::MIN_POSITIVE, 0.0],
         [-MAX_VALUE, f64::MIN_POSITIVE / 4.0, 1.0],
     ];
+    // The salt picks one of all pairs of the two lists.
     let inv_w = inv_ws[input.salt as usize % inv_ws.len()];
     let value = values[input.salt as usize / inv_ws.len() % values.len()];
     let extreme = with(&input.triangle, |i, vertex| {

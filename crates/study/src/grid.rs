@@ -183,17 +183,17 @@ impl<'a> Builder<'a> {
         let mesh = &self.item.mesh;
         let shares = cell.map_array(|value| value.varying.to_array());
         let of = cut.corners;
-        self.colours.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.colour))));
+        self.colours.push(mixed(shares, of.map_array(|of| of.colour)));
         let normals = match self.item.material.shading {
             Shading::Flat => [mesh.face_normal(of.map_array(|of| of.position)); 3],
             _ => of.map_array(|of| of.normal),
         };
-        self.normals.push(shares.map_array(|shares| mix(shares, normals)));
-        self.uvs.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.uv))));
+        self.normals.push(mixed(shares, normals));
+        self.uvs.push(mixed(shares, of.map_array(|of| of.uv)));
         let (tangents, uvs) =
             (mesh.triangles.tangents(cut.number), mesh.triangles.second_uvs(cut.number));
-        self.tangents.push(shares.map_array(|shares| mix(shares, tangents)));
-        self.second_uvs.push(shares.map_array(|shares| mix(shares, uvs)));
+        self.tangents.push(mixed(shares, tangents));
+        self.second_uvs.push(mixed(shares, uvs));
     }
 
     /// The item with its cells in place of its triangles: three corners of their own for each.
@@ -260,12 +260,12 @@ fn product(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     ax.mul_add(by, -second) + rounded
 }
 
-/// A sum of three values by their shares.
-fn mix<V>([p, q, r]: [f64; 3], [a, b, c]: [V; 3]) -> V
+/// For each corner of a cell the sum of three values by their shares there.
+fn mixed<V>(shares: [[f64; 3]; 3], [a, b, c]: [V; 3]) -> [V; 3]
 where
-    V: std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
+    V: Copy + std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
 {
-    a * p + b * q + c * r
+    shares.map_array(|[p, q, r]| a * p + b * q + c * r)
 }
 
 /// What a grid changes in a view, and how long the coverage of all triangles takes on it.

@@ -165,19 +165,24 @@ impl HardCases {
     /// Whether a hard case is seen in a pixel.
     #[must_use]
     pub fn touches(&self, x_px: i32, y_px: i32) -> bool {
-        self.touched.get(x_px, y_px).is_some_and(|bits| bits != 0)
+        self.touched.get(x_px, y_px).unwrap_or(0) != 0
     }
 
     /// Whether a triangle has a part in a hard case of any kind.
     #[must_use]
     pub fn is_hard(&self, triangle: u32) -> bool {
-        self.marks.get(triangle as usize).is_some_and(|marks| *marks != 0)
+        self.marks_of(triangle) != 0
     }
 
     /// Whether a triangle has a part in a hard case of a kind.
     #[must_use]
     pub fn is(&self, triangle: u32, kind: Kind) -> bool {
-        self.marks.get(triangle as usize).is_some_and(|marks| marks & kind.bit() != 0)
+        self.marks_of(triangle) & kind.bit() != 0
+    }
+
+    /// The kinds of a triangle as bits; none beyond the last one.
+    fn marks_of(&self, triangle: u32) -> u32 {
+        self.marks.get(triangle as usize).copied().unwrap_or(0)
     }
 }
 
@@ -377,7 +382,7 @@ impl Search<'_> {
     fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
         // The sort is stable: of equally bad ones the first in drawing order stays in front.
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let worst = found.first().map_or(0.0, |(worst, _)| *worst);
+        let (worst, _) = found.first().copied().unwrap_or_default();
         let all = &mut found.iter().map(|(_, triangle)| *triangle);
         self.note_triangles(kind, all, note(&short(worst)));
     }

@@ -139,6 +139,7 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Op
         let view = View { scene, seen: &seen, right: &right, drawn, subject };
         RULES.iter().map(|rule| rule.accepts(&view)).collect()
     };
+    // A rule that refuses the right picture is of no use in this scene.
     let usable = accepts(&Rasterizer::Reference, &right);
     let mut all = Vec::new();
     for subject in subjects {

@@ -119,8 +119,8 @@ impl Flip {
         });
         // What is left of it is looked at as a picture again.
         let mut colours = Vec::with_capacity(pixels.len());
-        for p in 0..pixels.len() {
-            let [y, cx, cz] = [channels[0][p], channels[1][p], channels[2][p]];
+        let [lightness, reds, blues] = &channels;
+        for ((y, cx), cz) in lightness.iter().zip(reds).zip(blues) {
             let y = (y + 16.0) / 116.0;
             let rgb =
                 from_xyz([y + cx / 500.0, y, y - cz / 200.0]).map_array(|v| v.clamp(0.0, 1.0));

@@ -32,6 +32,7 @@ pub struct RightPicture {
 
 impl RightPicture {
     pub fn new(scene: &Scene, right: &Rendering) -> Self {
+        // Only pictures of white triangles are judged by kinds of pixels.
         let covers = (scene.paint == Paint::White)
             .then(|| [8, 4].map(|bits| deqp::covers(&scene.triangles, scene.window, bits)));
         let flip = perceptual::Flip::new(right.width, &right.pixels);

@@ -552,7 +552,7 @@ fn labelled(
                 return false;
             }
             let clear = |other: &Area| {
-                !overlap(&area, other) && !(strict && crosses(label.leader(place), other))
+                !(overlap(&area, other) || strict && crosses(label.leader(place), other))
             };
             !overlap(&area, &own) && taken.iter().filter(|one| **one != own).all(clear)
         };
