@@ -82,13 +82,8 @@ fn truth(triangles: &[Corners], bounds: PixelRect) -> Truth {
     let mut sum = 0.0;
     for corners in triangles {
         area::shares(corners, bounds, |Range { start, end }, y_px, share| {
-            for sum in shares.span_mut(y_px, start, end) {
-                *sum += share;
-            }
-            // A pixel that a triangle covers in part is one that an edge passes through.
-            for on_edge in on_edge.span_mut(y_px, start, end) {
-                *on_edge |= share < 1.0;
-            }
+            shares.span_mut(y_px, start, end).iter_mut().for_each(|sum| *sum += share);
+            on_edge.span_mut(y_px, start, end).iter_mut().for_each(|on| *on |= share < 1.0);
             sum += share * f64::from(end - start);
         });
     }
@@ -100,11 +95,9 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     let (mut sum, mut count) = (0.0, 0u64);
     for (y_px, row) in truth.on_edge.rows() {
         let pairs = actual.row(y_px).iter().zip(truth.shares.row(y_px));
-        for ((actual, exact), on_edge) in pairs.zip(row) {
-            if *on_edge {
-                sum += (actual - exact) * (actual - exact);
-                count += 1;
-            }
+        for ((actual, exact), _) in pairs.zip(row).filter(|(_, on_edge)| **on_edge) {
+            sum += (actual - exact) * (actual - exact);
+            count += 1;
         }
     }
     (sum / count.max(1) as f64).sqrt()

@@ -96,11 +96,7 @@ fn gap<F: Format>(z: f64) -> f64 {
 /// The largest gap near a distance: a gap depends on where in a step of the format it begins.
 fn step<F: Format>(z: f64) -> f64 {
     // Whole numbers over a number that no power of two divides hit all phases of a step.
-    let mut largest: f64 = 0.0;
-    for i in 0..1000 {
-        largest = largest.max(gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0)));
-    }
-    largest
+    (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
 }
 
 /// Layers at a distance from the eye.

@@ -51,35 +51,30 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
         [corner.x, corner.y].map_array(|sub| exactly(f64::from(sub) / f64::from(SUBPIXELS)))
     });
     let [a, b, c] = &px;
-    // From the first corner to both others, and to the pixel.
-    let (to_b, to_c) = (difference(b, a), difference(c, a));
-    let to = difference(&[x_px, y_px].map_array(|px| exactly(f64::from(px) + 0.5)), a);
+    let edge = |p: &[BigRational; 2]| [&p[0] - &a[0], &p[1] - &a[1]];
+    let (to_b, to_c) = (edge(b), edge(c));
+    let to = edge(&[x_px, y_px].map_array(|px| exactly(f64::from(px) + 0.5)));
     let area = &to_b[0] * &to_c[1] - &to_b[1] * &to_c[0];
     // The value at the pixel and the slopes of what is linear.
-    let plane = |[first, b, c]: [BigRational; 3]| {
-        let (b, c) = (b - &first, c - &first);
+    let plane = |of: &dyn Fn(usize) -> BigRational| {
+        let (first, b, c) = (of(0), of(1) - of(0), of(2) - of(0));
         let by_x = (&b * &to_c[1] - &c * &to_b[1]) / &area;
         let by_y = (&c * &to_b[0] - &b * &to_c[0]) / &area;
         [first + &by_x * &to[0] + &by_y * &to[1], by_x, by_y]
     };
     // Texture coordinates times 1/w are linear, and 1/w is; the quotient rule makes slopes of the texture of them.
-    let [inv, inv_by_x, inv_by_y] = plane(inv_w.map_array(exactly));
-    let inv_squared = &inv * &inv;
-    let (mut by_x, mut by_y) = (BigRational::zero(), BigRational::zero());
-    for coordinate in 0..2 {
-        let [over, over_by_x, over_by_y] =
-            plane([0, 1, 2].map_array(|i| exactly(uv[i][coordinate] * SIDE) * exactly(inv_w[i])));
-        let along_x = (over_by_x * &inv - &over * &inv_by_x) / &inv_squared;
-        let along_y = (over_by_y * &inv - &over * &inv_by_y) / &inv_squared;
-        by_x += &along_x * &along_x;
-        by_y += &along_y * &along_y;
-    }
-    let square = by_x.max(by_y).to_f64()?;
+    let inv = plane(&|i| exactly(inv_w[i]));
+    let square = |axis: usize| {
+        let along = |coordinate: usize| {
+            let over = plane(&|i| exactly(uv[i][coordinate] * SIDE) * exactly(inv_w[i]));
+            let numerator = &over[axis] * &inv[0] - &over[0] * &inv[axis];
+            numerator / (&inv[0] * &inv[0])
+        };
+        let (u, v) = (along(0), along(1));
+        &u * &u + &v * &v
+    };
+    let square = square(1).max(square(2)).to_f64()?;
     (square > 0.0).then(|| 0.5 * libm::log2(square))
-}
-
-fn difference(p: &[BigRational; 2], q: &[BigRational; 2]) -> [BigRational; 2] {
-    [&p[0] - &q[0], &p[1] - &q[1]]
 }
 
 /// A choice of levels, which promises nothing.

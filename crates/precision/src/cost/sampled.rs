@@ -22,16 +22,15 @@ pub(super) fn dress<T>(
     scene: &Scene,
     make: impl Fn(usize, Corners, [f64; 3]) -> T,
 ) -> Vec<CoveredTriangle<T>> {
-    let mut dressed = Vec::new();
-    for (number, (corners, w)) in scene.triangles.iter().zip(&scene.w).enumerate() {
-        let Some(corners) = snap(corners) else { continue };
+    let triangles = scene.triangles.iter().zip(&scene.w).enumerate();
+    let dressed = triangles.filter_map(|(number, (corners, w))| {
+        let corners = snap(corners)?;
         let mut spans = Vec::new();
         Scanline.cover(corners, scene.bounds, |span| spans.push(span));
-        // As f32, so that no choice starts with a rounding of its input.
         let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
-        dressed.push(CoveredTriangle { number, triangle: make(number, corners, inv_w), spans });
-    }
-    dressed
+        Some(CoveredTriangle { number, triangle: make(number, corners, inv_w), spans })
+    });
+    dressed.collect()
 }
 
 /// The value that is right at a pixel.
@@ -71,12 +70,11 @@ impl<T, E> Input<T, E> {
             // What is right in a triangle is set up at its first sample, since most triangles have none.
             let mut exact_at = None;
             for (number, (x_px, y_px)) in pixels.enumerate() {
-                if !(before + number).is_multiple_of(stride) {
-                    continue;
-                }
-                let exact_at = exact_at.get_or_insert_with(|| exact(of));
-                if let Some(exact) = exact_at.as_ref().and_then(|at| at(x_px, y_px)) {
-                    input.samples.push(Sample { triangle, number, exact });
+                if (before + number).is_multiple_of(stride) {
+                    let exact_at = exact_at.get_or_insert_with(|| exact(of));
+                    let exact = exact_at.as_ref().and_then(|at| at(x_px, y_px));
+                    let sample = |exact| Sample { triangle, number, exact };
+                    input.samples.extend(exact.map(sample));
                 }
             }
             before += spans.iter().map(Span::pixels).sum::<usize>();

@@ -77,16 +77,12 @@ fn scene(&(name, about, ratio, make): &Class, seed: u64, size: Size) -> Scene {
     let has_ties = matches!(name, "tie" | "mesh");
     let round = |v: f64| if has_ties { v } else { f32_of(v) };
     let to = offset + size.side_px as i32;
-    let mut triangles = Vec::with_capacity(corners.len());
-    for corners in corners {
-        let corners = corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset))));
-        triangles.extend(FreeCorners::new(corners).ok());
-    }
-    // All corners are drawn before all w, so that a class with another ratio has the same triangles.
-    let mut w = Vec::with_capacity(triangles.len());
-    for _ in &triangles {
-        w.push([(); 3].map_array(|()| spread(&mut rng, ratio)));
-    }
+    let triangles: Vec<_> = corners
+        .into_iter()
+        .map(|corners| corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset)))))
+        .filter_map(|corners| FreeCorners::new(corners).ok())
+        .collect();
+    let w = triangles.iter().map(|_| [(); 3].map_array(|()| spread(&mut rng, ratio))).collect();
     Scene {
         name,
         about,
@@ -160,18 +156,17 @@ fn placed(
     count: u64,
     shape: impl Fn(&mut Rng) -> Corners,
 ) -> Vec<Corners> {
-    let room = f64::from(size.side_px) - 2.0;
-    let mut placed = Vec::with_capacity(count as usize);
-    for _ in 0..count {
+    let place = |_| {
         let shape = shape(rng);
-        let [dx, dy] = [0, 1].map_array(|axis| {
+        let mut offset = |axis: usize| {
             let [a, b, c] = shape.map_array(|p| p[axis]);
             let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-            1.0 - min + rng.unit() * (room - (max - min)).max(0.0)
-        });
-        placed.push(shape.map_array(|[x, y]| [x + dx, y + dy]));
-    }
-    placed
+            1.0 - min + rng.unit() * (f64::from(size.side_px) - 2.0 - (max - min)).max(0.0)
+        };
+        let (dx, dy) = (offset(0), offset(1));
+        shape.map_array(|[x, y]| [x + dx, y + dy])
+    };
+    (0..count).map(place).collect()
 }
 
 /// Triangles half a window long and 1/2 to 2 px wide.
@@ -194,14 +189,14 @@ fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 
 /// Corners on centres within a box of 32 px.
 fn half(rng: &mut Rng, size: &Size) -> Vec<Corners> {
-    let most = i64::from(size.side_px) - 34;
-    let mut corners = Vec::new();
-    for _ in 0..size.pixels / 80 {
-        let shape = [(); 3].map_array(|()| [rng.int(0, 31) as f64, rng.int(0, 31) as f64]);
-        let (dx, dy) = (rng.int(1, most) as f64 + 0.5, rng.int(1, most) as f64 + 0.5);
-        corners.push(shape.map_array(|[x, y]| [x + dx, y + dy]));
-    }
-    corners
+    (0..size.pixels / 80)
+        .map(|_| {
+            let shape = [(); 3].map_array(|()| [(); 2].map_array(|()| rng.int(0, 31) as f64));
+            let mut corner = || rng.int(1, i64::from(size.side_px) - 34) as f64 + 0.5;
+            let (dx, dy) = (corner(), corner());
+            shape.map_array(|[x, y]| [x + dx, y + dy])
+        })
+        .collect()
 }
 
 /// The float that a corner is rounded to, and by whose steps it is nudged.
@@ -245,21 +240,20 @@ impl Grain {
 /// Triangles of which one edge runs through a sample, or past it by a step of a float.
 fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = i64::from(size.side_px);
-    let mut all = Vec::new();
-    for _ in 0..size.pixels / 130 {
-        let s = [(); 2].map_array(|()| rng.int(26, side - 27) as f64 + 0.5);
-        let grain = Grain::any(rng);
-        let near =
-            |rng: &mut Rng, reach: f64| s.map_array(|v| grain.round(v + reach * rng.signed()));
-        let a = near(rng, 12.0);
-        let times = rng.int(1, 2) as f64;
-        // The edge from a to b runs through the sample, but for a nudge of b.
-        let b = grain.mirror(rng, a, s, times);
-        let mut corners = [a, b, near(rng, 24.0)];
-        corners.rotate_left(rng.int(0, 2) as usize);
-        all.push(corners);
-    }
-    all
+    (0..size.pixels / 130)
+        .map(|_| {
+            let s = [(); 2].map_array(|()| rng.int(26, side - 27) as f64 + 0.5);
+            let grain = Grain::any(rng);
+            let near =
+                |rng: &mut Rng, reach: f64| s.map_array(|v| grain.round(v + reach * rng.signed()));
+            let a = near(rng, 12.0);
+            let times = rng.int(1, 2) as f64;
+            let b = grain.mirror(rng, a, s, times);
+            let mut corners = [a, b, near(rng, 24.0)];
+            corners.rotate_left(rng.int(0, 2) as usize);
+            corners
+        })
+        .collect()
 }
 
 /// The side of a cell of the net.
