@@ -481,6 +481,7 @@ fn wrongly_seen(sampled: &Sampled, truths: &[Frame<u32>], format: DepthFormat) -
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
 pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
+    // For each pixel the depth of the piece that is the nearest so far, by how much it may be off, and which piece it is.
     let mut nearest = Frame::new(window, f64::INFINITY);
     let mut error = Frame::new(window, 0.0);
     let mut seen = Frame::new(window, NOTHING);

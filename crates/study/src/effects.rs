@@ -181,6 +181,7 @@ pub fn survey(
     let planned = set_times(scene, &mut needs, target, timing);
     let mut found = Needs { needs, planned, textures: Vec::new(), antialiasing: Vec::new() };
     found.textures = textures(scene, &names, pieces, seen);
+    // More samples are tried only where a texture is so fine that one sample for each pixel misses some of it.
     if found.textures.iter().any(|texture| texture.texels > FINE) {
         antialias(scene, &names, (&items, &mut found), target, timing)?;
     }
@@ -396,6 +397,7 @@ fn antialias(
     // The picture with the most samples is the one that all others are compared with.
     let Some((_, finest)) = pictures.pop() else { return Ok(()) };
     for (name, picture) in &pictures {
+        // Pixels are counted by the material that is seen at their centres.
         let mut far: BTreeMap<&str, u64> = BTreeMap::new();
         for (x, y) in differing(picture, &finest, FAR) {
             if let Some(of) = items.get(x, y).and_then(|item| names.get(item as usize)) {

@@ -437,6 +437,7 @@ impl Search<'_> {
             }
             first += item.mesh.triangles.len() as u32;
         }
+        // The triangles of one face are one case, and stand side by side.
         let mut noted = Noted::new(Kind::Concave);
         let face = |triangle: &u32| shape.face_of[*triangle as usize];
         for of_face in concave.chunk_by(|a, b| face(a) == face(b)) {
@@ -518,6 +519,7 @@ impl Search<'_> {
             let is_a_place = [Kind::TJunction, Kind::Near].contains(&kind);
             let mut noted = Noted::new(kind);
             for edge in edges {
+                // An edge outside of the window has no line, and is counted as not seen.
                 let mut in_view = false;
                 if let Some(line) = place.line(edge) {
                     Bresenham.draw(&line, self.sampled.size, |f| {
@@ -576,6 +578,7 @@ impl Search<'_> {
                 of.push(number);
             }
         }
+        // Seen by the same camera, it has pieces at the same samples as the scene.
         let mesh = Mesh { positions: positions.into(), triangles: triangles.into_iter().collect() };
         let mut closing = self.scene.clone();
         let model = Place::new(self.scene, self.sampled.size).model;
@@ -590,6 +593,7 @@ impl Search<'_> {
                     Scanline.cover(piece.corners(), closing.window, |span| {
                         for x in span.x0_px..span.x1_px {
                             let sample = [x, span.y_px];
+                            // Open is where nothing is seen, or only what certainly lies behind.
                             let before = surfaces.before(piece, sample);
                             let is_open = before.is_none_or(|[by, off]| by < -off);
                             samples.push((sample, is_open));
@@ -662,6 +666,7 @@ impl Search<'_> {
     /// Triangles that snapping turns over or flattens.
     fn turned(&mut self) {
         let mut noted = Noted::new(Kind::Turned);
+        // Triangles are counted at pixel centres, whatever samples the picture has.
         let mut flat = 0;
         let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
         for (piece, change) in snapping::turned(pieces, lost, self.sampled.grid) {
@@ -854,6 +859,7 @@ struct Place {
 impl Place {
     /// For points as the shape of the scene has them.
     fn new(scene: &Scene, window: PixelRect) -> Self {
+        // The shape has points of the world only where items are moved differently.
         let mut models = scene.items.iter().map(|item| item.model);
         let first = models.next().unwrap_or(DMat4::IDENTITY);
         let model = if models.all(|model| model == first) { first } else { DMat4::IDENTITY };

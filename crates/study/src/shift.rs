@@ -102,6 +102,7 @@ fn attributes(
 ) {
     let [a, b, c] = corners;
     let moved = snapped - given;
+    // Everything that is linear in the shares moves by the difference of corners times that of the shares.
     if let Some(texture) = &item.material.texture {
         let (width, height) = texture.size();
         let uv = ((b.uv - a.uv) * moved.x + (c.uv - a.uv) * moved.y).abs();

@@ -132,7 +132,7 @@ pub(crate) struct Cut<'a, V> {
 
 /// A vertex of a clipped triangle, in pixels and snapped.
 #[derive(Clone, Copy)]
-struct Placed<V> {
+struct PlacedVertex<V> {
     px: [f64; 2],
     w: f64,
     snapped: ScreenVertex<V>,
@@ -156,6 +156,7 @@ pub(crate) fn each_cut<V: Varying>(
             position: points[corners[i].position as usize],
             varying: varying(&corners[i], i),
         });
+        // A triangle with all corners outside of one plane has no part in the window.
         let [a, b, c] = vertices.map_array(|vertex| outcode(&vertex));
         if a & b & c != 0 {
             continue;
@@ -168,7 +169,7 @@ pub(crate) fn each_cut<V: Varying>(
             let Ok(snapped) = viewport.place(vertex) else { continue };
             let DVec4 { x, y, w, .. } = vertex.position;
             let px = [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height];
-            let next = Placed { px, w, snapped };
+            let next = PlacedVertex { px, w, snapped };
             if let (Some(first), Some(previous)) = (first, previous) {
                 let of = [first, previous, next];
                 let triangle = ScreenTriangle { vertices: of.map_array(|one| one.snapped) };

@@ -149,6 +149,7 @@ pub type Bar = (f64, Ink, String);
 
 /// Rows of bars below each other, each row with its name, under a legend of their colours.
 pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], width: f64) -> Drawing {
+    // The head is as high as its lines: of the title, then of the legend.
     let titles = wrapped(title, width - 24.0);
     let mut lines = Vec::new();
     for (ink, words) in legend {
@@ -171,6 +172,7 @@ pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], widt
     let room = width - left - labels - 18.0;
     let heights = rows.iter().map(|(_, bars)| down + ROW * bars.len() as f64 + 6.0);
     let mut drawing = Drawing::new(title, [width, head + heights.sum::<f64>() + 6.0]);
+    // Everything is drawn from the top down; y is where the next line begins.
     let mut y = 16.0;
     for text in &titles {
         drawing.text([12.0, y], text, INK);
@@ -287,6 +289,7 @@ fn drawn(
     let titles = wrapped(title, width - 24.0);
     let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
     let rows = panels.len().div_ceil(in_row) as f64;
+    // Title and legend share one list of lines, and the panels follow from left to right, row by row.
     let mut drawing = Drawing::new(title, [width, head + rows * panel_height]);
     for (line, text) in titles.iter().chain(&legend).enumerate() {
         let ink = if line < titles.len() { INK } else { SOFT };
@@ -329,6 +332,7 @@ fn dots(board: &Board, column: usize, best: &[JudgedChoice<'_>]) -> Vec<Dot> {
             true => choice.times()?.spread().times(1e-6),
             false => choice.run.time.as_ref()?.pixel_ns,
         };
+        // Without an error by the first measure there is no place for it.
         let first = choice.error(0)?;
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
         // vertices as given is the error of snapping, of classes of scenes a line of its own.
@@ -376,6 +380,7 @@ impl Axis {
     /// Where a value lies in the drawing.
     fn place(&self, value: f64) -> f64 {
         let [low, high] = self.values;
+        // An axis with one value has no length; the value is then drawn at its beginning.
         let t = (value.log10() - low) / (high - low).max(1e-9);
         self.places[0] + (self.places[1] - self.places[0]) * t
     }
@@ -409,6 +414,7 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     let (x0, x1) = (left + AXIS + 6.0, end - 10.0);
     let (y0, y1) = (top + HEAD, top + HEAD + SCATTER);
     let bottom = y1 + shelf;
+    // Texts around the plot first: its name, and what grows upwards and to the right.
     let dots = &panel.dots;
     for (line, text) in wrapped(&panel.head, x1 - left - 14.0).iter().take(2).enumerate() {
         drawing.text([left + 12.0, top + 14.0 + 14.0 * line as f64], text, INK);
@@ -420,6 +426,7 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     let right = format!("right: {}", panel.right);
     drawing.text_before([x1, y1 + shelf + 24.0], &right, SOFT);
     drawing.filled_box([x0, y1], [x1 - x0, shelf], SHELF);
+    // Axes that hold all quartiles and all errors, with a margin.
     let times = dots.iter().flat_map(|dot| dot.time);
     let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
     let snapping = panel.snapping;
@@ -442,9 +449,11 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     if shelf > 0.0 {
         drawing.text_before([x0 - 4.0, y1 + shelf / 2.0], "0", GREEN);
     }
+    // The frame: the floor of the errors, that of the shelf, and the axis on the left.
     drawing.line([x0, y1], [x1, y1], SOFT);
     drawing.line([x0, bottom], [x1, bottom], SOFT);
     drawing.line([x0, y0], [x0, bottom], SOFT);
+    // What is best at each price lies under the dots, and the error of snapping between both.
     let placed = places(dots, [&time, &error], y1);
     frontier(drawing, &placed);
     let mut taken = Vec::new();

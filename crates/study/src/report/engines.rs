@@ -35,11 +35,11 @@ pub fn report(
     let mut findings = Vec::new();
     for &engine in &judged.triangles {
         let snapped = |chunk: &[&Piece]| snapped_case(chunk, window);
-        findings.push(Finding::new(engine.name(), &judgeable, &engine.into(), &snapped));
+        findings.push(JudgedEngine::new(engine.name(), &judgeable, &engine.into(), &snapped));
     }
     for &engine in &judged.unsnapped {
         let unsnapped = |chunk: &[&Piece]| unsnapped_case(chunk, window);
-        findings.push(Finding::new(engine.name(), &judgeable, &engine.into(), &unsnapped));
+        findings.push(JudgedEngine::new(engine.name(), &judgeable, &engine.into(), &unsnapped));
     }
     // To draw nothing where nothing is expected shows nothing of an engine.
     let expects = judgeable.iter().any(|piece| has_pixel(piece, window));
@@ -55,6 +55,7 @@ pub fn report(
         engines.push(finding.data(subject));
     }
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
+    // What the engines refuse is counted, so that nobody takes it for judged.
     let mut table = Table::new("", "~engine 1 | ~found 1 | first fault", rows).judged();
     if left > 0 {
         let why = "whose texture coordinates are too large for the engines";
@@ -107,12 +108,12 @@ fn unsnapped_case(pieces: &[&Piece], window: PixelRect) -> Case {
 }
 
 /// What was found of an engine.
-struct Finding {
+struct JudgedEngine {
     engine: &'static str,
     fault: Option<Fault>,
 }
 
-impl Finding {
+impl JudgedEngine {
     fn new(
         engine: &'static str,
         pieces: &[&Piece],

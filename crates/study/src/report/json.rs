@@ -32,7 +32,7 @@ pub fn cost(recorded: &Recorded) -> Value {
 fn verdict(board: &Board, measure: usize) -> Value {
     let mut best = Vec::new();
     for column in board.columns_run() {
-        // A column without times has no fastest choice.
+        // Without times there is no fastest choice, and nothing is said of the column.
         let Some(fastest_of_all) = fastest(board.ran(column)) else { continue };
         let good = board.cheapest_exact(column, measure);
         let certain = fastest(board.ran(column).filter(|choice| choice.promises(measure)));
@@ -176,6 +176,7 @@ fn choice(subject: &Places<'_>, board: &Board, number: usize) -> Value {
         let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
         json!({ "pixel": [x, y], "face": face })
     });
+    // A file of recorded boards holds no rounds.
     let rounds = run.time.as_ref().and_then(|time: &Time| time.rounds.as_ref());
     let exact: Vec<_> =
         board.ranking().filter(|measure| board.meets(number, 0, *measure)).collect();

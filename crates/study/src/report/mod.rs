@@ -342,6 +342,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
 /// What the view calls for, and what it costs to pay for everything.
 fn effects(found: &StudyFindings<'_>) -> String {
     let all = &found.needs.needs;
+    // How many are needed, and the one that would be missed most.
     let called: Vec<_> = all.iter().filter(|need| need.state() == State::CalledFor).collect();
     let mut sentence = format!("{} of {} effects are called for.", called.len(), all.len());
     let of_pixels = called.iter().filter(|need| need.pixels.is_some());
@@ -382,6 +383,7 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
 
 /// The hard cases with the most pixels.
 fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
+    // The sort is stable: kinds with as many pixels stay in the order of the kinds.
     let mut seen: Vec<_> = hard.in_view().collect();
     seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
     let (mut rows, mut broken) = (Vec::new(), Vec::new());
@@ -398,6 +400,7 @@ fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
     }
     let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
     let mut table = first_rows(columns, rows);
+    // What this view does not show may be seen from another side.
     let mut hidden = Vec::new();
     for case in &hard.cases {
         if case.in_view == 0 {
@@ -855,6 +858,7 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> T
         if !case.note.is_empty() {
             let _ = write!(place, "; {}", case.note);
         }
+        // Which choices of arithmetic fail on just these triangles.
         let wrong = match wrong_on(found, case.kind, costs).as_slice() {
             [] => String::new(),
             choices => format!("wrong on such triangles:\n  {}", choices.join("\n  ")),
