@@ -9,7 +9,7 @@ use rasterproof_core::raster::scanline::probe::first_centre;
 use super::edges::Edges;
 use super::lines::Lines;
 use super::triangles::Triangles;
-use super::{EXAMPLES, Enumeration as _, Plan, Tally};
+use super::{EXAMPLES, Enumeration as _, Example, Plan, Tally};
 
 /// Bits of the sublattice of triangles on which the oracle's own code judges too.
 const ORACLE_BITS: u32 = 2;
@@ -30,11 +30,13 @@ pub struct Counts {
 
 impl Sum for Counts {
     fn sum<I: Iterator<Item = Self>>(counts: I) -> Self {
-        counts.fold(Self::default(), |a, b| Self {
-            cases: a.cases + b.cases,
-            comparisons: a.comparisons + b.comparisons,
-            oracle_checks: a.oracle_checks + b.oracle_checks,
-        })
+        let mut sum = Self::default();
+        for one in counts {
+            sum.cases += one.cases;
+            sum.comparisons += one.comparisons;
+            sum.oracle_checks += one.oracle_checks;
+        }
+        sum
     }
 }
 
@@ -171,14 +173,17 @@ impl Tally {
         if stated as u64 != expected {
             return Err(format!("it lists {stated} examples, where {expected} belong"));
         }
-        let is_of_a_chunk = |number: u64| chunks.clone().any(|chunk| chunk == number);
-        if let Some(example) = self.examples.iter().find(|example| !is_of_a_chunk(example.chunk)) {
-            let chunk = example.chunk;
-            return Err(format!("it lists an example of chunk {chunk}, which is no part of it"));
+        for Example { chunk, .. } in &self.examples {
+            if !chunks.clone().any(|one| one == *chunk) {
+                return Err(format!(
+                    "it lists an example of chunk {chunk}, which is no part of it"
+                ));
+            }
         }
-        let place = |at: usize| (self.examples[at].chunk, self.examples[at].number);
-        if (1..self.examples.len()).any(|at| place(at - 1) >= place(at)) {
-            return Err("its examples are not in their order".to_owned());
+        for pair in self.examples.windows(2) {
+            if (pair[0].chunk, pair[0].number) >= (pair[1].chunk, pair[1].number) {
+                return Err("its examples are not in their order".to_owned());
+            }
         }
         Ok(())
     }

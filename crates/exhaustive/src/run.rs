@@ -139,13 +139,16 @@ fn guarded(judge: &dyn Fn(u64) -> Tally, chunk: u64) -> Tally {
 
 /// The runs of `true` as half-open ranges.
 fn ranges(done: &[bool]) -> Vec<[u64; 2]> {
+    let mut ranges = Vec::new();
     let mut start = 0;
-    let runs = done.chunk_by(|a, b| a == b).map(|run| {
-        let from = start;
-        start += run.len() as u64;
-        (run[0], [from, start])
-    });
-    runs.filter(|(is_done, _)| *is_done).map(|(_, range)| range).collect()
+    for run in done.chunk_by(|a, b| a == b) {
+        let end = start + run.len() as u64;
+        if run[0] {
+            ranges.push([start, end]);
+        }
+        start = end;
+    }
+    ranges
 }
 
 #[cfg(test)]

@@ -11,8 +11,10 @@ use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Viewport;
 use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, outcode};
 
+/// A vertex that carries two numbers, which clipping interpolates.
 type Vertex = ClipVertex<DVec2>;
 
+/// The triangle of an input, whose values follow from the number of each vertex, so that no two are the same.
 fn vertices(input: &ClipInput) -> [Vertex; 3] {
     let mut number = 0.0;
     input.vertices.map_array(|[x, y, z, w]| {
@@ -22,6 +24,7 @@ fn vertices(input: &ClipInput) -> [Vertex; 3] {
     })
 }
 
+/// All numbers of a vertex, so that two vertices with the same bits are the same.
 fn bits(vertex: &Vertex) -> [u64; 6] {
     let [x, y, z, w] = vertex.position.to_array();
     let [a, b] = vertex.varying.to_array();
@@ -41,22 +44,24 @@ pub(super) fn inside(subject: &Implementations, input: &ClipInput) -> Outcome {
     if same { Ok(3) } else { Err(format!("{triangle:?} became {clipped:?}")) }
 }
 
+/// The vertices of what clipping leaves of a triangle, in an order that does not depend on its own.
+fn clipped_set(subject: &Implementations, triangle: [Vertex; 3]) -> Vec<[u64; 6]> {
+    let mut set: Vec<_> = (subject.clip)(&triangle, Outcode::MAX).iter().map(bits).collect();
+    set.sort_unstable();
+    set
+}
+
 /// 33: the reversed triangle has the same vertices; and what becomes of an edge alone is found, bit
 /// for bit, in every triangle that has the edge: a neighbour makes the same vertices of it.
 pub(super) fn reversed(subject: &Implementations, input: &ClipInput) -> Outcome {
     let [a, b, c] = vertices(input);
-    let set = |triangle: [Vertex; 3]| {
-        let mut set: Vec<_> = (subject.clip)(&triangle, Outcode::MAX).iter().map(bits).collect();
-        set.sort_unstable();
-        set
-    };
-    let whole = set([a, b, c]);
-    let turned = set([c, b, a]);
+    let whole = clipped_set(subject, [a, b, c]);
+    let turned = clipped_set(subject, [c, b, a]);
     if whole != turned {
         return Err(format!("{} vertices one way, other bits or numbers the other", whole.len()));
     }
     for (edge, from, to) in [("first", a, b), ("second", b, c), ("third", c, a)] {
-        let alone = set([from, to, to]);
+        let alone = clipped_set(subject, [from, to, to]);
         if let Some(missing) = alone.iter().find(|vertex| !whole.contains(vertex)) {
             let missing = missing.map(f64::from_bits);
             return Err(format!("the {edge} edge alone has the vertex {missing:?}"));
@@ -72,20 +77,25 @@ pub(super) fn planes(subject: &Implementations, input: &ClipInput) -> Outcome {
     if clipped.len() > MOST_VERTICES {
         return Err(format!("{} vertices", clipped.len()));
     }
+    // A vertex of the triangle may lie anywhere inside; any other one is where an edge meets a plane.
     let old = triangle.map_array(|vertex| bits(&vertex));
     for vertex in &clipped {
-        let distance = |plane: &ClipPlane| plane.distance(vertex);
-        if let Some(plane) = ClipPlane::ALL.iter().find(|plane| distance(plane) < 0.0) {
-            return Err(format!("{vertex:?} lies outside {plane:?}"));
+        let mut is_on_a_plane = false;
+        for plane in ClipPlane::ALL {
+            let distance = plane.distance(vertex);
+            if distance < 0.0 {
+                return Err(format!("{vertex:?} lies outside {plane:?}"));
+            }
+            is_on_a_plane |= distance == 0.0;
         }
-        if !old.contains(&bits(vertex)) && ClipPlane::ALL.iter().all(|plane| distance(plane) != 0.0)
-        {
+        if !old.contains(&bits(vertex)) && !is_on_a_plane {
             return Err(format!("{vertex:?} is new and on no plane"));
         }
     }
     Ok(clipped.len() as u64)
 }
 
+/// The side of the window in which coverage is compared.
 const SIDE_PX: u32 = 16;
 
 /// 34: a pixel is covered once if its centre sees the triangle between near and far plane, else
@@ -102,11 +112,17 @@ pub(super) fn coverage(subject: &Implementations, input: &ClipInput) -> Outcome 
     let window = PixelRect::window(SIDE_PX, SIDE_PX);
     let clipped = (subject.clip)(&vertices(input), Outcode::MAX);
     let viewport = Viewport::new(window);
-    let placed: Result<Vec<_>, _> = clipped.iter().map(|vertex| viewport.place(vertex)).collect();
-    let placed = placed.map_err(|refusal| format!("a clipped vertex {refusal}"))?;
-    let corners: Vec<_> = placed.iter().map(|vertex| vertex.position).collect();
-    let fan = corners.get(1..).unwrap_or_default().windows(2).map(|p| [corners[0], p[0], p[1]]);
+    // What clipping leaves, as the pipeline draws it: a fan around its first vertex.
+    let mut corners = Vec::with_capacity(clipped.len());
+    for vertex in &clipped {
+        match viewport.place(vertex) {
+            Ok(placed) => corners.push(placed.position),
+            Err(refusal) => return Err(format!("a clipped vertex {refusal}")),
+        }
+    }
+    let fan = (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]);
     let drawn = hits(&*subject.oracle, fan, window);
+    // A triangle that is seen from its edge has no sides, and nothing of it is drawn.
     let Some(lines) = lines(input) else { return Ok(0) };
     let mut compared = 0;
     for (y_px, row) in drawn.rows() {
@@ -114,17 +130,18 @@ pub(super) fn coverage(subject: &Implementations, input: &ClipInput) -> Outcome 
             // The centre in 16ths of the half side, y up, and 16 for 1.
             let side = i64::from(SIDE_PX);
             let centre = [2 * i64::from(x_px) + 1 - side, side - 2 * i64::from(y_px) - 1, side];
-            let values = lines.map(|line| (0..3).map(|k| line[k] * centre[k]).sum::<i64>());
-            // One pixel moves the first two by 2.
-            let near_border = lines.iter().zip(values).any(|(line, value)| {
+            let (mut visible, mut near_border) = (true, false);
+            for line in &lines {
+                let value = dot(*line, centre);
+                visible &= value > 0;
+                // One pixel moves the first two by 2.
                 let step = (2 * line[0].abs()).max(2 * line[1].abs());
-                256 * i128::from(value.abs()) <= 2 * i128::from(step)
-            });
+                near_border |= 256 * i128::from(value.abs()) <= 2 * i128::from(step);
+            }
             if near_border {
                 continue;
             }
             compared += 1;
-            let visible = values.iter().all(|&value| value > 0);
             if u8::from(visible) != hit {
                 return Err(format!("pixel ({x_px}, {y_px}): {hit} hits, visible: {visible}"));
             }
@@ -133,26 +150,33 @@ pub(super) fn coverage(subject: &Implementations, input: &ClipInput) -> Outcome 
     Ok(compared)
 }
 
+/// The value of a line at a point: 0 on the line, positive on its inside.
+fn dot(p: [i64; 3], q: [i64; 3]) -> i64 {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}
+
+/// The line through two points in homogeneous coordinates.
+fn cross(p: [i64; 3], q: [i64; 3]) -> [i64; 3] {
+    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+}
+
 /// The borders of what is visible as lines that are positive inside: three edges, near, far.
 fn lines(input: &ClipInput) -> Option<[[i64; 3]; 5]> {
     let [a, b, c] = input.vertices.map_array(|[x, y, _, w]| [x, y, w].map_array(i64::from));
-    let cross = |p: [i64; 3], q: [i64; 3]| {
-        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-    };
     let edges = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant: i64 = (0..3).map(|k| a[k] * edges[0][k]).sum();
+    let determinant = dot(a, edges[0]);
     if determinant == 0 {
         return None;
     }
     let edges = edges.map_array(|line| line.map_array(|v| v * determinant.signum()));
-    let combine = |weight: fn(&[i32; 4]) -> i32| {
-        [0, 1, 2].map_array(|k| {
-            let term = |i: usize| edges[i][k] * i64::from(weight(&input.vertices[i]));
-            term(0) + term(1) + term(2)
-        })
-    };
-    let near = combine(|[_, _, z, w]| w + z);
-    let far = combine(|[_, _, z, w]| w - z);
+    // w + z and w - z of the three vertices, each the weight of the line of the edge that is opposite to it.
+    let (mut near, mut far) = ([0; 3], [0; 3]);
+    for (line, [_, _, z, w]) in edges.iter().zip(input.vertices) {
+        for k in 0..3 {
+            near[k] += line[k] * i64::from(w + z);
+            far[k] += line[k] * i64::from(w - z);
+        }
+    }
     let [first, second, third] = edges;
     Some([first, second, third, near, far])
 }

@@ -23,22 +23,31 @@ fn same(actual: &Coverage, target: &Coverage, what: &str) -> Outcome {
     if actual == target {
         return Ok(u64::from(bounds.width()) * u64::from(bounds.height()));
     }
-    let differs = |&(x, y): &(i32, i32)| actual.get(x, y) != target.get(x, y);
-    let (x, y) = pixels(bounds).find(differs).unwrap_or((bounds.x0, bounds.y0));
+    let (x, y) = first_difference(actual, target, bounds).unwrap_or((bounds.x0, bounds.y0));
     let [actual, target] = [actual, target].map_array(|c| c.get(x, y).unwrap_or(0));
     Err(format!("hits pixel ({x}, {y}) {actual} times, {what} {target} times"))
 }
 
+/// The first pixel of a window, row after row, that two coverages hit differently often.
+fn first_difference(a: &Coverage, b: &Coverage, window: PixelRect) -> Option<(i32, i32)> {
+    pixels(window).find(|&(x, y)| a.get(x, y) != b.get(x, y))
+}
+
+/// Whether an engine covers what the signs of three edge functions in checked arithmetic say.
 fn is_owned(engine: &Engine, corners: Corners, window: PixelRect) -> Outcome {
-    let inside = |x, y| owns(&corners, x, y, TOP_LEFT);
-    let target = covered(window, pixels(around(&corners, window)).filter(|&(x, y)| inside(x, y)));
+    let mut target = Coverage::new(window, 0);
+    for (x, y) in pixels(around(&corners, window)) {
+        if owns(&corners, x, y, TOP_LEFT) {
+            target.hit(y, x, x + 1);
+        }
+    }
     same(&engine.hits(corners, window), &target, "checked arithmetic")
 }
 
-fn covered(window: PixelRect, pixels: impl Iterator<Item = (i32, i32)>) -> Coverage {
-    let mut coverage = Coverage::new(window, 0);
-    pixels.for_each(|(x, y)| coverage.hit(y, x, x + 1));
-    coverage
+/// The sign of the area of three points, decided exactly.
+fn sign(a: Coord<f64>, b: Coord<f64>, c: Coord<f64>) -> i32 {
+    let turn = orient2d(a, b, c);
+    if turn == 0.0 { 0 } else { turn.signum() as i32 }
 }
 
 /// 1: each engine against the oracle, so against each other too.
@@ -52,28 +61,28 @@ pub(super) fn engines_agree(subject: &Implementations, input: &TriangleInput) ->
 pub(super) fn oracle_sign(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     // Every i32 and every centre is a whole number below 2^32: exact in f64, and so is the sign.
-    let coord = |p: SubpixelPoint| Coord { x: f64::from(p.x), y: f64::from(p.y) };
-    let sign = |a, b, c| {
-        let turn = orient2d(a, b, c);
-        if turn == 0.0 { 0 } else { turn.signum() as i32 }
-    };
-    let [a, b, c] = corners;
-    let winding = sign(coord(a), coord(b), coord(c));
+    let [a, b, c] = corners.map_array(|p| Coord { x: f64::from(p.x), y: f64::from(p.y) });
+    let winding = sign(a, b, c);
     let [a, b, c] = if winding < 0 { [a, c, b] } else { [a, b, c] };
-    let inside = |&(x, y): &(i32, i32)| {
+    let mut target = Coverage::new(window, 0);
+    for (x, y) in pixels(around(&corners, window)) {
         let sample = Coord { x: centre(x) as f64, y: centre(y) as f64 };
-        winding != 0
-            && [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
-                let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
-                let side = sign(coord(from), coord(to), sample);
-                side > 0 || (side == 0 && top_left)
-            })
-    };
-    let target = covered(window, pixels(around(&corners, window)).filter(inside));
+        // Clockwise, with y down: a left edge runs up, and a top edge to the right.
+        let mut is_inside = winding != 0;
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let is_top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
+            let side = sign(from, to, sample);
+            is_inside &= side > 0 || (side == 0 && is_top_left);
+        }
+        if is_inside {
+            target.hit(y, x, x + 1);
+        }
+    }
     same(&hits(&*subject.oracle, [corners], window), &target, "robust says")
         .map_err(|message| format!("the oracle {message}"))
 }
 
+/// The pixels of the domain, which is too large to be looked through.
 const DOMAIN: PixelRect =
     PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
 
@@ -82,16 +91,16 @@ pub(super) fn vertex_order(subject: &Implementations, input: &TriangleInput) -> 
     let (corners, window) = (input.triangle.corners(), input.window);
     subject.each_engine(|engine| {
         let first = engine.hits(corners, window);
-        ORDERS[1..]
-            .iter()
-            .map(|order| {
-                let other = engine.hits(order.map_array(|i| corners[i]), window);
-                same(&other, &first, &format!("in order {order:?} and in 0 1 2"))
-            })
-            .sum()
+        let mut compared = 0;
+        for order in &ORDERS[1..] {
+            let other = engine.hits(order.map_array(|i| corners[i]), window);
+            compared += same(&other, &first, &format!("in order {order:?} and in 0 1 2"))?;
+        }
+        Ok(compared)
     })
 }
 
+/// Moves a window by whole pixels, or nothing where that leaves the range of i32.
 fn shift_rect(rect: PixelRect, dx: i32, dy: i32) -> Option<PixelRect> {
     Some(PixelRect {
         x0: rect.x0.checked_add(dx)?,
@@ -161,33 +170,43 @@ pub(super) fn conjugate_rules(subject: &Implementations, input: &TriangleInput) 
         return Ok(0);
     }
     subject.each_engine(|engine| {
-        let check = |[mx, my]: [[i32; 2]; 2]| {
+        let mut compared = 0;
+        for map @ [mx, my] in SYMMETRIES {
             let image = corners.map_array(|p| {
                 SubpixelPoint::new(mx[0] * p.x + mx[1] * p.y, my[0] * p.x + my[1] * p.y)
             });
+            // The window of the image, from the images of its first and its last pixel.
+            let (x0, y0) = mapped_pixel(map, window.x0, window.y0);
+            let (x1, y1) = mapped_pixel(map, window.x1 - 1, window.y1 - 1);
+            let there = PixelRect {
+                x0: x0.min(x1),
+                y0: y0.min(y1),
+                x1: x0.max(x1) + 1,
+                y1: y0.max(y1) + 1,
+            };
             // The inverse of an orthogonal matrix is its transpose: columns are rows.
             let nudge = Nudge { first: mx, second: my };
-            // Pixel i of a mirrored axis is pixel -1 - i.
-            let along = |m: [i32; 2], x: i32, y: i32| {
-                let (v, sign) = if m[0] != 0 { (x, m[0]) } else { (y, m[1]) };
-                if sign > 0 { v } else { -1 - v }
-            };
-            let ends = [(window.x0, window.y0), (window.x1 - 1, window.y1 - 1)]
-                .map_array(|(x, y)| (along(mx, x, y), along(my, x, y)));
-            let there = PixelRect {
-                x0: ends[0].0.min(ends[1].0),
-                y0: ends[0].1.min(ends[1].1),
-                x1: ends[0].0.max(ends[1].0) + 1,
-                y1: ends[0].1.max(ends[1].1) + 1,
-            };
-            let owned =
-                pixels(around(&corners, window)).filter(|&(x, y)| owns(&corners, x, y, nudge));
-            let target = covered(there, owned.map(|(x, y)| (along(mx, x, y), along(my, x, y))));
-            let what = format!("mapped by {:?}, the conjugate rule", [mx, my]);
-            same(&engine.hits(image, there), &target, &what)
-        };
-        SYMMETRIES.into_iter().map(check).sum()
+            let mut target = Coverage::new(there, 0);
+            for (x, y) in pixels(around(&corners, window)) {
+                if owns(&corners, x, y, nudge) {
+                    let (x, y) = mapped_pixel(map, x, y);
+                    target.hit(y, x, x + 1);
+                }
+            }
+            let what = format!("mapped by {map:?}, the conjugate rule");
+            compared += same(&engine.hits(image, there), &target, &what)?;
+        }
+        Ok(compared)
     })
+}
+
+/// Where one of the [`SYMMETRIES`] takes a pixel: pixel i of a mirrored axis is pixel -1 - i.
+fn mapped_pixel(map: [[i32; 2]; 2], x: i32, y: i32) -> (i32, i32) {
+    let [x, y] = map.map_array(|row| {
+        let (at, sign) = if row[0] != 0 { (x, row[0]) } else { (y, row[1]) };
+        if sign > 0 { at } else { -1 - at }
+    });
+    (x, y)
 }
 
 /// 6: both ways to split give the same union, and no pixel twice.
@@ -203,6 +222,7 @@ pub(super) fn quad_split(subject: &Implementations, input: &Quad) -> Outcome {
     })
 }
 
+/// The triangles between a point and each side of a closed polygon.
 fn fan_triangles(centre: SubpixelPoint, ring: &[SubpixelPoint]) -> Vec<Corners> {
     (0..ring.len()).map(|i| [centre, ring[i], ring[(i + 1) % ring.len()]]).collect()
 }
@@ -219,29 +239,35 @@ pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
             target.hit(y, x, x + 1);
         }
     }
+    // A pixel that is hit twice lies on a shared edge, and so does one that is missed.
     subject.each_engine(|engine| {
         let fan = hits(&*engine.fill, triangles.iter().copied(), input.window);
         same(&fan, &target, "the outline winds round it")
     })
 }
 
+/// How often each pixel of a window is hit by triangles that are clockwise, less the hits of the others.
 fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
-    let mut sum = vec![0; window.width() as usize * window.height() as usize];
+    let mut sums = vec![0; window.width() as usize * window.height() as usize];
     for &corners in triangles {
         let sign = twice_area(&corners).signum() as i32;
         let hits = engine.hits(corners, window);
-        let counts = hits.rows().flat_map(|(_, row)| row);
-        sum.iter_mut().zip(counts).for_each(|(sum, &count)| *sum += sign * i32::from(count));
+        for (sum, count) in sums.iter_mut().zip(hits.rows().flat_map(|(_, row)| row)) {
+            *sum += sign * i32::from(*count);
+        }
     }
-    sum
+    sums
 }
 
 /// 8: two fans over one outline, one of them turned inside out, are closed; one of them is a disk,
 /// folded where the apex lies outside.
 pub(super) fn signed_hit_count(subject: &Implementations, input: &Fan) -> Outcome {
+    // Signed hits of the closed mesh cancel, wherever both apexes lie.
     let disk = fan_triangles(input.apex, &input.ring);
-    let turned = fan_triangles(input.centre, &input.ring).into_iter().map(|[a, b, c]| [a, c, b]);
-    let closed: Vec<Corners> = disk.iter().copied().chain(turned).collect();
+    let mut closed = disk.clone();
+    for [a, b, c] in fan_triangles(input.centre, &input.ring) {
+        closed.push([a, c, b]);
+    }
     subject.each_engine(|engine| {
         let on_disk = signed_hits(engine, &disk, input.window);
         let on_closed = signed_hits(engine, &closed, input.window);
@@ -262,6 +288,7 @@ pub(super) fn signed_hit_count(subject: &Implementations, input: &Fan) -> Outcom
 pub(super) fn contiguous_rows(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
         let hits = engine.hits(input.triangle.corners(), input.window);
+        // Runs come row by row, so that two of one row follow each other.
         let mut last_row = None;
         for (y_px, ..) in hits.runs() {
             if last_row.replace(y_px) == Some(y_px) {
@@ -274,16 +301,27 @@ pub(super) fn contiguous_rows(subject: &Implementations, input: &TriangleInput) 
 
 /// The subpixels from the first to the last column of the corners, and from the first to the last row.
 fn box_of(corners: &Corners) -> (RangeInclusive<i64>, RangeInclusive<i64>) {
-    let range = |values: [i32; 3]| {
-        let [a, b, c] = values.map(i64::from);
-        a.min(b).min(c)..=a.max(b).max(c)
-    };
-    (range(corners.map_array(|p| p.x)), range(corners.map_array(|p| p.y)))
+    (extent(corners.map_array(|p| p.x)), extent(corners.map_array(|p| p.y)))
+}
+
+/// From the least of three coordinates to the largest.
+fn extent(values: [i32; 3]) -> RangeInclusive<i64> {
+    let [a, b, c] = values.map(i64::from);
+    a.min(b).min(c)..=a.max(b).max(c)
+}
+
+/// Whether a point is inside of a clockwise triangle, or on one of its edges.
+fn holds([a, b, c]: &Corners, p: SubpixelPoint) -> bool {
+    let (x, y) = (i64::from(p.x), i64::from(p.y));
+    exact::edge(*a, *b, x, y) >= 0
+        && exact::edge(*b, *c, x, y) >= 0
+        && exact::edge(*c, *a, x, y) >= 0
 }
 
 /// 10: nothing outside the snapped box, everything strictly inside.
 pub(super) fn inside_the_box(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // Without an area there is no inside, and the box alone is checked.
     let (columns, rows) = box_of(&corners);
     let oriented = exact::clockwise(&corners);
     subject.each_engine(|engine| {
@@ -294,8 +332,9 @@ pub(super) fn inside_the_box(subject: &Implementations, input: &TriangleInput) -
             if covered && !in_box {
                 return Err(format!("covers ({x}, {y}), outside the box"));
             }
-            let strictly = |c: &Corners| exact::edges(c, x, y).iter().all(|&e| e > 0);
-            if !covered && in_box && oriented.as_ref().is_some_and(strictly) {
+            if let (Some(oriented), true) = (&oriented, in_box && !covered)
+                && exact::edges(oriented, x, y).iter().all(|&e| e > 0)
+            {
                 return Err(format!("misses ({x}, {y}), strictly inside"));
             }
         }
@@ -308,23 +347,14 @@ pub(super) fn nesting(subject: &Implementations, input: &TriangleInput) -> Outco
     let (outer, window) = (input.triangle.corners(), input.window);
     let Some([a, b, c]) = exact::clockwise(&outer) else { return Ok(0) };
     let salt = i64::from(input.salt);
-    let between = |p: SubpixelPoint, q: SubpixelPoint, parts: i64| {
-        let mix =
-            |p: i32, q: i32| (i64::from(p) + (i64::from(q) - i64::from(p)) * parts / 16) as i32;
-        SubpixelPoint::new(mix(p.x, q.x), mix(p.y, q.y))
-    };
     let inner = between(between(a, b, salt % 17), c, salt / 17 % 17);
     let [ab, bc, ca] = [between(a, b, 8), between(b, c, 8), between(c, a, 8)];
-    // Rounding to the lattice may have left the outer triangle.
-    let inside = |p: &SubpixelPoint| {
-        let (x, y) = (i64::from(p.x), i64::from(p.y));
-        [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| exact::edge(p, q, x, y) >= 0)
-    };
     subject.each_engine(|engine| {
         let whole = engine.hits(outer, window);
         let mut compared = 0;
         for part in [[a, b, inner], [inner, b, c], [ab, bc, ca], [a, ab, inner]] {
-            if !part.iter().all(inside) {
+            // Rounding to the lattice may have left the outer triangle.
+            if !part.iter().all(|p| holds(&[a, b, c], *p)) {
                 continue;
             }
             let hits = engine.hits(part, window);
@@ -335,6 +365,13 @@ pub(super) fn nesting(subject: &Implementations, input: &TriangleInput) -> Outco
         }
         Ok(compared)
     })
+}
+
+/// A point so many sixteenths of the way from p to q, on the lattice.
+fn between(p: SubpixelPoint, q: SubpixelPoint, parts: i64) -> SubpixelPoint {
+    let [x, y] = [(p.x, q.x), (p.y, q.y)]
+        .map_array(|(p, q)| (i64::from(p) + (i64::from(q) - i64::from(p)) * parts / 16) as i32);
+    SubpixelPoint::new(x, y)
 }
 
 /// 12: flat triangles made of the input's corners: a point twice, three times, three on a line.
@@ -355,7 +392,9 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
         for corners in &flat {
             let covered = engine.hits(*corners, window).covered();
             let mut triangle = input.triangle;
-            triangle.vertices.iter_mut().zip(corners).for_each(|(v, p)| v.position = *p);
+            for (vertex, position) in triangle.vertices.iter_mut().zip(corners) {
+                vertex.position = *position;
+            }
             let fragments = engine.fragments(&triangle, window).len();
             if covered > 0 || fragments > 0 {
                 return Err(format!(
@@ -370,6 +409,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
 /// 13: a triangle and the same one seen from behind.
 pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, c], window) = (input.triangle.corners(), input.window);
+    // Culling sees the sign of the area alone; coverage does not see it.
     let sign = twice_area(&[a, b, c]).signum();
     for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
         let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
@@ -389,30 +429,27 @@ pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outc
 pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (triangle, window) = (&input.triangle, input.window);
     let side = 1 + (input.salt % 19) as i32;
-    let cut = |low: i32, high: i32| {
-        (low..high).step_by(side as usize).map(move |v| (v, (v + side).min(high)))
-    };
-    let tiles: Vec<PixelRect> = cut(window.y0, window.y1)
-        .flat_map(|(y0, y1)| {
-            cut(window.x0, window.x1).map(move |(x0, x1)| PixelRect { x0, y0, x1, y1 })
-        })
-        .collect();
+    let mut tiles = Vec::new();
+    for y0 in (window.y0..window.y1).step_by(side as usize) {
+        for x0 in (window.x0..window.x1).step_by(side as usize) {
+            let (x1, y1) = ((x0 + side).min(window.x1), (y0 + side).min(window.y1));
+            tiles.push(PixelRect { x0, y0, x1, y1 });
+        }
+    }
     subject.each_engine(|engine| {
         let whole = engine.hits(triangle.corners(), window);
         let fragments = engine.fragments(triangle, window);
-        let value_at = |x: i32, y: i32| fragments.iter().find(|f| (f.x_px, f.y_px) == (x, y));
         let check = |number: usize| {
             let tile = tiles[number];
             let hits = engine.hits(triangle.corners(), tile);
-            let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != whole.get(x, y);
-            if let Some((x, y)) = pixels(tile).find(differs) {
+            if let Some((x, y)) = first_difference(&hits, &whole, tile) {
                 return Err(format!("differs at ({x}, {y}) in a tile of {side} px"));
             }
             // The last fragment of a tile is where a walk from another start has gone farthest.
             let inside = engine.fragments(triangle, tile);
             for f in inside.first().into_iter().chain(inside.last()) {
-                if value_at(f.x_px, f.y_px) != Some(f) {
-                    let (x, y) = (f.x_px, f.y_px);
+                let (x, y) = (f.x_px, f.y_px);
+                if fragments.iter().find(|other| (other.x_px, other.y_px) == (x, y)) != Some(f) {
                     return Err(format!("has another value at ({x}, {y}) in a tile of {side} px"));
                 }
             }
@@ -430,8 +467,12 @@ const ARMS: [[i32; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1],
 /// out along arm i and one back along the arm after it; bit i of the second is an edge along arm i
 /// with the sample in its middle.
 fn fingerprint(owns: u8) -> (u8, u8) {
-    let has = |arm: usize| owns >> (arm % 8) & 1 == 1;
-    let fan = (0..8).filter(|&i| has(i) && has(i + 5)).fold(0, |bits, i| bits | 1 << i);
+    let mut fan = 0;
+    for arm in 0..8 {
+        // The edge back along the next arm runs in the direction that is opposite to it.
+        let (out, back) = (owns >> arm & 1, owns >> ((arm + 5) % 8) & 1);
+        fan |= (out & back) << arm;
+    }
     (fan, owns)
 }
 
@@ -449,22 +490,24 @@ pub(super) fn identifies_the_rule(subject: &Implementations, input: &TriangleInp
             return Err(format!("the figures cannot tell the rule {rule:08b} from top-left"));
         }
     }
-    // Any pixel, any size of the arms: both from the salt.
+    // Any pixel, any size of the arms: both from the salt. The window is that pixel alone, since its centre is the sample.
     let (x_px, y_px) = ((input.salt % 13) as i32, (input.salt / 13 % 13) as i32);
     let arm_sub = 3 + (input.salt / 169 % 125) as i32;
     let window = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
     let sample = centre_of(x_px, y_px);
-    let tip = |arm: usize, times: i32| {
+    let tip = |arm: usize| {
         let [dx, dy] = ARMS[arm % 8];
-        SubpixelPoint::new(sample.x + dx * times, sample.y + dy * times)
+        SubpixelPoint::new(sample.x + dx * arm_sub, sample.y + dy * arm_sub)
     };
     subject.each_engine(|engine| {
-        let bit =
-            |corners: Corners, i: usize| u8::from(engine.hits(corners, window).covered() > 0) << i;
-        let fan = (0..8).map(|i| bit([sample, tip(i, arm_sub), tip(i + 1, arm_sub)], i)).sum();
-        // From the opposite arm to arm i, the third corner a right angle clockwise of it.
-        let middle = |i: usize| [tip(i + 4, arm_sub), tip(i, arm_sub), tip(i + 2, arm_sub)];
-        let edges = (0..8).map(|i| bit(middle(i), i)).sum();
+        let (mut fan, mut edges) = (0u8, 0u8);
+        for i in 0..8 {
+            let of_fan = engine.hits([sample, tip(i), tip(i + 1)], window);
+            fan |= u8::from(of_fan.covered() > 0) << i;
+            // From the opposite arm to arm i, the third corner a right angle clockwise of it.
+            let of_edge = engine.hits([tip(i + 4), tip(i), tip(i + 2)], window);
+            edges |= u8::from(of_edge.covered() > 0) << i;
+        }
         if (fan, edges) == target {
             Ok(16)
         } else {
@@ -492,6 +535,7 @@ pub(super) fn edge_lemma(subject: &Implementations, input: &TriangleInput) -> Ou
     let mut compared = 0;
     for y_px in window.y0..window.y1 {
         let y = centre(y_px);
+        // The columns at which the edges cross this row: two, or none where it misses the triangle.
         let mut columns = Vec::new();
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             let (p, q) = (corners[i], corners[j]);
@@ -516,11 +560,12 @@ pub(super) fn edge_lemma(subject: &Implementations, input: &TriangleInput) -> Ou
         for engine in &subject.engines {
             let row = PixelRect { y0: y_px, y1: y_px + 1, ..window };
             let actual = engine.hits(corners, row);
-            let between = |x: i32| matches!(columns[..], [l, r] if l <= x.into() && r > x.into());
-            let differs =
-                (row.x0..row.x1).find(|&x| (actual.get(x, y_px) == Some(1)) != between(x));
-            if let Some(x) = differs {
-                return Err(format!("{} errs at ({x}, {y_px}); ceilings {columns:?}", engine.name));
+            for x in row.x0..row.x1 {
+                let is_between = matches!(columns[..], [l, r] if l <= x.into() && r > x.into());
+                if (actual.get(x, y_px) == Some(1)) != is_between {
+                    let name = engine.name;
+                    return Err(format!("{name} errs at ({x}, {y_px}); ceilings {columns:?}"));
+                }
             }
             compared += 1;
         }
@@ -536,6 +581,7 @@ pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Ou
     let (columns, rows) = box_of(&corners);
     let [width, height] = [&columns, &rows].map(|ends| (ends.end() - ends.start()) as u32);
     let bound = i128::from(width) * i128::from(height);
+    // The four corners of the box, and their neighbours inside of it.
     let touched = around(&corners, DOMAIN);
     let inside = |x: i32, y: i32| columns.contains(&centre(x)) && rows.contains(&centre(y));
     for x in [touched.x0, touched.x0 + 1, touched.x1 - 2, touched.x1 - 1] {
@@ -557,6 +603,7 @@ pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Ou
     if !fits {
         return Err(format!("{width} x {height} subpixels do not fit the chosen word"));
     }
+    // A few pixels of the box, which itself may be as large as the domain.
     let near = PixelRect {
         x0: touched.x0.max(touched.x1.saturating_sub(12)),
         y0: touched.y0,
@@ -564,7 +611,7 @@ pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Ou
         y1: touched.y1.min(touched.y0.saturating_add(12)),
     };
     subject.each_engine(|engine| {
-        [near, input.window].into_iter().map(|window| is_owned(engine, corners, window)).sum()
+        Ok(is_owned(engine, corners, near)? + is_owned(engine, corners, input.window)?)
     })
 }
 
@@ -601,6 +648,7 @@ pub(super) fn snapping(subject: &Implementations, input: &Position) -> Outcome {
     if moved_by > 0.5 || (moved_by == 0.5 && sub % 2 != 0) {
         return Err(format!("{px:?} px = {:?} subpixels snaps to {sub}", px * scale));
     }
+    // Moved by whole pixels it snaps to a point that is moved as far, unless the sum is rounded or leaves the domain.
     let shifted = px + f64::from(shift_px);
     if shifted - f64::from(shift_px) == px && shifted.abs() < f64::from(DOMAIN_PX - 1) {
         let there = snap(shifted);
@@ -628,6 +676,7 @@ pub(super) fn snapping(subject: &Implementations, input: &Position) -> Outcome {
 /// lattice (the nudge puts it there), has A - P/2 < N < A + P/2 + 1 lattice points (Nosarzewska
 /// 1948), so |N - A| < P/2 + 1.
 pub(super) fn area(subject: &Implementations, input: &TriangleInput) -> Outcome {
+    // Larger triangles would take long, and show nothing else.
     const MOST_PX: u32 = 512;
     let corners = input.triangle.corners();
     let window = around(&corners, DOMAIN);
@@ -664,19 +713,22 @@ pub(super) fn supersampling(subject: &Implementations, input: &TriangleInput) ->
     if !corners.iter().all(|p| small(p.x) && small(p.y)) || !small(window.x0 * SUBPIXELS) {
         return Ok(0);
     }
+    // Sample (i, j) of a pixel is pixel (n x + i, n y + j) of the larger triangle.
     let scaled = corners.map_array(|p| SubpixelPoint::new(p.x * n, p.y * n));
     let there =
         PixelRect { x0: window.x0 * n, y0: window.y0 * n, x1: window.x1 * n, y1: window.y1 * n };
     subject.each_engine(|engine| {
         let large = engine.hits(scaled, there);
-        for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        for sample in 0..n * n {
+            let (i, j) = (sample % n, sample / n);
             // From the sample to the centre.
-            let by = |k: i32| HALF_PIXEL - (2 * k + 1) * SUBPIXELS / (2 * n);
-            let moved = corners.map_array(|p| SubpixelPoint::new(p.x + by(i), p.y + by(j)));
+            let [dx, dy] = [i, j].map_array(|k| HALF_PIXEL - (2 * k + 1) * SUBPIXELS / (2 * n));
+            let moved = corners.map_array(|p| SubpixelPoint::new(p.x + dx, p.y + dy));
             let hits = engine.hits(moved, window);
-            let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != large.get(x * n + i, y * n + j);
-            if let Some((x, y)) = pixels(window).find(differs) {
-                return Err(format!("differs at sample {i},{j} of {n} x {n} of ({x}, {y})"));
+            for (x, y) in pixels(window) {
+                if hits.get(x, y) != large.get(x * n + i, y * n + j) {
+                    return Err(format!("differs at sample {i},{j} of {n} x {n} of ({x}, {y})"));
+                }
             }
         }
         Ok(u64::from(there.width()) * u64::from(there.height()))

@@ -39,11 +39,13 @@ pub fn clockwise(corners: &Corners) -> Option<Corners> {
     }
 }
 
+/// The functions of the three edges at the centre of a pixel, each positive on the inside of a clockwise triangle.
 pub fn edges([a, b, c]: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
     let (x, y) = (centre(x_px), centre(y_px));
     [edge(*b, *c, x, y), edge(*c, *a, x, y), edge(*a, *b, x, y)]
 }
 
+/// Whether a triangle of either winding owns the centre of a pixel, by the rule that a nudge of the samples stands for.
 #[must_use]
 pub fn owns(corners: &Corners, x_px: i32, y_px: i32, nudge: Nudge) -> bool {
     let Some([a, b, c]) = clockwise(corners) else { return false };
@@ -83,6 +85,7 @@ pub fn around(points: &[SubpixelPoint], window: PixelRect) -> PixelRect {
     pixel_box(points, 0).intersect(&window)
 }
 
+/// The pixels of a window, row after row.
 pub fn pixels(rect: PixelRect) -> impl Iterator<Item = (i32, i32)> {
     (rect.y0..rect.y1).flat_map(move |y_px| (rect.x0..rect.x1).map(move |x_px| (x_px, y_px)))
 }

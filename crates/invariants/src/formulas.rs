@@ -17,6 +17,7 @@ use rasterproof_render::pipeline::target::Colour;
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Item, Material, Scene, shapes};
 
+/// A random colour, opaque.
 fn colour(rng: &mut Rng) -> Colour {
     let mut channel = || rng.int(0, 255) as u8;
     [channel(), channel(), channel(), u8::MAX]
@@ -24,6 +25,7 @@ fn colour(rng: &mut Rng) -> Colour {
 
 /// 48: every opacity with random colours.
 pub(super) fn over(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
+    // The exact mixture is a number over 255, and the byte next to it is at most half a step away.
     let over = subject.formulas.over;
     let mut rng = Rng::new("over", seed, 0);
     let mut checked = 0;
@@ -72,6 +74,7 @@ pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcom
         let (most, stored) = (rng.int(1, 8) as u32, rng.int(0, 5) as u64);
         let below = colour(&mut rng);
         let mix = |layers: &[Layer]| (subject.formulas.mix)(layers, most, stored, below);
+        // Whoever sorts by depth alone mixes layers of one depth in the order in which they came.
         let first = mix(&drawn);
         let mut order = drawn.clone();
         for _ in 0..6 {
@@ -85,6 +88,7 @@ pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcom
                 ));
             }
         }
+        // What lies behind the stored depth is hidden by what is opaque there.
         let seen: Vec<Layer> = drawn.iter().copied().filter(|layer| layer.key < stored).collect();
         if mix(&seen) != first {
             return Err(format!("case {case}: a layer behind what is opaque changes the colour"));

@@ -28,6 +28,7 @@ use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::oracle::Oracle;
 
+/// A rasterizer of triangles, with values of two numbers, and of three for its weights.
 pub trait Fill: Sync {
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
     fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
@@ -64,6 +65,7 @@ impl<R: Interpolate + Sync> Fill for R {
     }
 }
 
+/// A drawer of lines, with values of two numbers.
 pub trait Stroke: Sync {
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
 }
@@ -74,6 +76,7 @@ impl<D: DrawLine + Sync> Stroke for D {
     }
 }
 
+/// A rasterizer of triangles, and by how much its values may be off.
 pub struct Engine {
     pub name: &'static str,
     pub fill: Box<dyn Fill>,
@@ -90,6 +93,7 @@ impl Engine {
         hits(&*self.fill, [corners], window)
     }
 
+    /// What it emits of a triangle in a window.
     pub fn fragments(&self, triangle: &Triangle, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
         self.fill.values(triangle, window, &mut |fragment| fragments.push(fragment));
@@ -97,6 +101,7 @@ impl Engine {
     }
 }
 
+/// How often each pixel of a window is hit by some triangles.
 pub fn hits(
     fill: &dyn Fill,
     triangles: impl IntoIterator<Item = Corners>,
@@ -109,12 +114,14 @@ pub fn hits(
     hits
 }
 
+/// A drawer of lines.
 pub struct Drawer {
     pub name: &'static str,
     pub stroke: Box<dyn Stroke>,
 }
 
 impl Drawer {
+    /// What it emits of a line in a window.
     pub fn fragments(&self, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
         self.stroke.stroke(line, window, &mut |fragment| fragments.push(fragment));
@@ -122,8 +129,10 @@ impl Drawer {
     }
 }
 
+/// Makes a case of a family, by the seed and by its number in the family.
 pub type MakeCase = fn(&Family, u64, u64) -> Case;
 
+/// What a set of planes leaves of a triangle.
 pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
 
 /// Draws a scene with some effects into a target of a kind, and says what it cost.
@@ -171,16 +180,15 @@ pub enum Component {
 }
 
 impl Implementations {
+    /// Everything as this project has it.
     pub fn real() -> Self {
         Self {
-            engines: engines::Engine::CHOICES
-                .into_iter()
-                .map(|engine| Engine {
-                    name: engine.name(),
-                    fill: Box::new(engine),
-                    tolerance: engine.tolerance(),
-                })
-                .collect(),
+            engines: Vec::from(engines::Engine::CHOICES.map(|engine| Engine {
+                name: engine.name(),
+                fill: Box::new(engine),
+                tolerance: engine.tolerance(),
+            })),
+            // Tiles with each set of vector instructions that this machine has.
             lists: Tiles::levels()
                 .into_iter()
                 .map(|tiles| (tiles.instructions(), Box::new(tiles) as Box<dyn CoverList + Sync>))
@@ -249,6 +257,7 @@ impl Implementations {
     }
 }
 
+/// The component that a mutant takes the place of.
 pub fn component_of(mutant: &Mutant) -> Component {
     match mutant {
         Mutant::Triangle(_) => Component::Engine,

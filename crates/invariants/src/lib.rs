@@ -21,7 +21,7 @@ mod meta;
 pub mod source;
 mod values;
 
-use implementations::{Component, Drawer, Implementations, hits};
+use implementations::{Component, Implementations, hits};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
 use rasterproof_verify::judge::{self, ascii, caught};
@@ -31,6 +31,7 @@ use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
 pub type Outcome = Result<u64, String>;
 
+/// How an invariant is checked, by what its check gets.
 #[derive(Clone, Copy)]
 pub enum Predicate {
     Triangle(fn(&Implementations, &TriangleInput) -> Outcome),
@@ -70,6 +71,7 @@ pub struct Trial {
 /// The family is the name of the invariant.
 pub type Failure = judge::Failure<Input, ()>;
 
+/// What is said of an invariant after all of its cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ruling {
     /// Something was compared, and nothing is wrong.
@@ -109,6 +111,7 @@ impl Invariant {
 
     /// Checks one input; an input of another kind is nothing to compare.
     pub fn judge(&self, subject: &Implementations, input: &Input) -> Outcome {
+        // A panic of an implementation is something that is wrong, like any other.
         let outcome = caught(|| match (self.check, input) {
             (Predicate::Triangle(check), Input::Triangle(input)) => check(subject, input),
             (Predicate::Quad(check), Input::Quad(input)) => check(subject, input),
@@ -150,6 +153,7 @@ impl Invariant {
         if matches!(self.check, Predicate::Run(..) | Predicate::Matrix) {
             return None;
         }
+        // The first input to which the check applies; a failure is one, too.
         let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
         (0..MOST_LOOKED_THROUGH).find(|&index| fits(index)).map(|index| index + 1)
     }
@@ -185,6 +189,7 @@ impl Invariant {
         report
     }
 
+    /// A failure with the smallest input that was found for which the check still fails.
     fn shrunk(&self, subject: &Implementations, seed: u64, index: u64, message: String) -> Failure {
         let input = self.input(subject, seed, index);
         let input = source::smallest(input, |input| self.judge(subject, input).is_err());
@@ -195,43 +200,48 @@ impl Invariant {
 
 /// What each of them draws of a triangle or a line, beside what the oracle expects; there is no picture of other inputs.
 pub fn drawn(subject: &Implementations, input: &Input) -> Option<String> {
-    let hits_of = |window, pixels: Vec<(i32, i32)>| {
-        let mut hits = Coverage::new(window, 0);
-        pixels.iter().for_each(|&(x, y)| hits.hit(y, x, x + 1));
-        hits
-    };
-    let (drawn, expected): (Vec<_>, _) = match input {
+    let (mut names, mut drawn) = (Vec::new(), Vec::new());
+    let expected = match input {
         Input::Triangle(TriangleInput { triangle, window, .. }) => {
             let corners = triangle.corners();
-            let drawn = subject.engines.iter().map(|e| (e.name, e.hits(corners, *window)));
-            (drawn.collect(), hits(&*subject.oracle, [corners], *window))
+            for engine in &subject.engines {
+                names.push(engine.name);
+                drawn.push(engine.hits(corners, *window));
+            }
+            hits(&*subject.oracle, [corners], *window)
         }
         Input::Line(LineInput { line, window }) => {
-            let mut right = Vec::new();
-            Oracle.steps(line, *window, &mut |pixel, _| right.push((pixel.x, pixel.y)));
-            let of = |drawer: &Drawer| {
-                let fragments = drawer.fragments(line, *window);
-                let pixels = fragments.iter().map(|f| (f.x_px, f.y_px)).collect();
-                (drawer.name, hits_of(*window, pixels))
-            };
-            (subject.drawers.iter().map(of).collect(), hits_of(*window, right))
+            for drawer in &subject.drawers {
+                let mut hits = Coverage::new(*window, 0);
+                for f in drawer.fragments(line, *window) {
+                    hits.hit(f.y_px, f.x_px, f.x_px + 1);
+                }
+                names.push(drawer.name);
+                drawn.push(hits);
+            }
+            let mut right = Coverage::new(*window, 0);
+            Oracle.steps(line, *window, &mut |pixel, _| right.hit(pixel.y, pixel.x, pixel.x + 1));
+            right
         }
         _ => return None,
     };
-    let (names, drawn): (Vec<_>, Vec<_>) = drawn.iter().map(|(name, hits)| (*name, hits)).unzip();
+    let drawn: Vec<&Coverage> = drawn.iter().collect();
     Some(ascii::beside(&names, &drawn, &expected, 78))
 }
 
+/// The invariant of this name.
 pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)
 }
 
+/// The components that the invariants of a group look at: a mutant of another one leaves them as they are.
 const ENGINE: &[Component] = &[Component::Engine];
 const JUDGED: &[Component] = &[Component::Engine, Component::Oracle];
 const DRAWER: &[Component] = &[Component::Drawer];
 const CLIP: &[Component] = &[Component::Clip];
 const FORMULAS: &[Component] = &[Component::Formulas];
 
+/// A row of the catalogue.
 const fn invariant(
     number: u32,
     name: &'static str,
@@ -243,6 +253,7 @@ const fn invariant(
     Invariant { number, name, statement, tolerance, components, check }
 }
 
+/// All invariants, in the order of their numbers.
 #[rustfmt::skip]
 pub const CATALOGUE: &[Invariant] = &[
     invariant(1, "engines-agree",

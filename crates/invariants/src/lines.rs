@@ -24,6 +24,7 @@ fn near(line: &Line) -> Line {
     line
 }
 
+/// A window that holds the whole line, with pixels to spare for a drawer that errs.
 fn around(line: &Line) -> PixelRect {
     let [a, b] = line.ends.map_array(|end| end.pixel);
     PixelRect {
@@ -34,14 +35,17 @@ fn around(line: &Line) -> PixelRect {
     }
 }
 
+/// Where fragments are, in the order in which they are drawn.
 fn pixels(fragments: &[Fragment<DVec2>]) -> Vec<[i64; 2]> {
     fragments.iter().map(|f| [f.x_px.into(), f.y_px.into()]).collect()
 }
 
+/// The pixels that a drawer lights of the whole line, in its order.
 fn all_pixels(drawer: &Drawer, line: &Line) -> Vec<[i64; 2]> {
     pixels(&drawer.fragments(line, around(line)))
 }
 
+/// The pixels of both ends, in numbers whose products do not overflow.
 fn ends(line: &Line) -> [[i64; 2]; 2] {
     line.ends.map_array(|end| [end.pixel.x.into(), end.pixel.y.into()])
 }
@@ -63,6 +67,7 @@ fn deviation(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> (i128, i128) {
     (2 * (du * v - dv * u) * if dv < 0 { -1 } else { 1 }, du)
 }
 
+/// Whether a pixel is the one of its step that is nearest to the ideal line, a tie being decided for the one farther along.
 fn is_nearest(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> bool {
     let (twice, du) = deviation(line, pixel);
     if du == 0 { pixel == line[0] } else { -du < twice && twice <= du }
@@ -118,7 +123,8 @@ pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome 
     let [a, b] = ends(&line);
     let (dx, dy) = ((b[0] - a[0]).abs(), (b[1] - a[1]).abs());
     let (du, dv) = (dx.max(dy), dx.min(dy));
-    // Height at step i from either end; the two differ in their ties only.
+    // du steps along the longer axis and dv along the shorter one. Height at step i from either end; the two differ in their
+    // ties only.
     let directed = |i: i64| (2 * dv * i + du) / (2 * du.max(1));
     let differs = (0..=du).any(|i| directed(i) != dv - directed(du - i));
     let even = dv > 0 && (du / greatest_divisor(du, dv)) % 2 == 0;
@@ -144,13 +150,14 @@ pub(super) fn octants(subject: &Implementations, input: &LineInput) -> Outcome {
     let [a, b] = ends(&near(&input.line));
     let (dx, dy) = ((b[0] - a[0]).abs(), (b[1] - a[1]).abs());
     let (du, dv) = (dx.max(dy), dx.min(dy));
+    // Where an octant has the point that is u steps along the major axis and v along the minor one.
     let image = |[u, v]: [i64; 2], steep: bool, su: i64, sv: i64| {
         let (u, v) = (su * u, sv * v);
         if steep { [a[0] + v, a[1] + u] } else { [a[0] + u, a[1] + v] }
     };
     let line_to = |end: [i64; 2]| {
-        let point = |p: [i64; 2]| PixelPoint::new(p[0] as i32, p[1] as i32);
-        plain_line(point(a), point(end))
+        let [from, to] = [a, end].map_array(|[x, y]| PixelPoint::new(x as i32, y as i32));
+        plain_line(from, to)
     };
     subject.each_drawer(|drawer| {
         let first = all_pixels(drawer, &line_to(image([du, dv], false, 1, 1)));
@@ -190,6 +197,7 @@ pub(super) fn clipped_line(subject: &Implementations, input: &LineInput) -> Outc
         if !inside.iter().copied().eq(target) {
             return Err("draws another line in the window than the window of the line".to_owned());
         }
+        // The line as it was given may be as long as the domain; only a window of it is looked at.
         let far = drawer.fragments(&input.line, input.window);
         let most = input.window.width().max(input.window.height()) as usize;
         if far.len() > most {
@@ -212,8 +220,8 @@ const KNOWN: [[i32; 2]; 4] = [[12, 2], [12, 10], [6, 1], [353, 337]];
 pub(super) fn listed_differences(subject: &Implementations, input: &LineInput) -> Outcome {
     let origin = PixelPoint::new(0, 0);
     let known = KNOWN.map(|[x, y]| plain_line(origin, PixelPoint::new(x, y)));
-    let lines = known.into_iter().chain([near(&input.line)]);
-    let lines: Vec<Line> = lines.collect();
+    let mut lines = Vec::from(known);
+    lines.push(near(&input.line));
     subject.each_drawer(|drawer| {
         let mut compared = 0;
         for line in &lines {

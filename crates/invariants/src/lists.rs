@@ -21,6 +21,7 @@ pub(super) fn one_by_one(subject: &Implementations, input: &TriangleInput) -> Ou
     subject.lists.iter().map(|(name, lists)| compare(name, &**lists, &list, window, &truth)).sum()
 }
 
+/// Compares what a list of triangles covers with what the oracle says.
 fn compare(
     name: &str,
     lists: &dyn CoverList,
@@ -29,6 +30,7 @@ fn compare(
     truth: &[Coverage],
 ) -> Outcome {
     let mut pieces: Vec<Piece> = Vec::new();
+    // The order of the triangles is that of the list, so that whoever draws may rely on it.
     lists.cover_list(list, window, &mut |run| pieces.extend_from_slice(run));
     if let Some(pair) = pieces.windows(2).find(|pair| pair[0].triangle() > pair[1].triangle()) {
         let [before, after] = [pair[0].triangle(), pair[1].triangle()];
@@ -56,26 +58,27 @@ fn compare(
 /// every eighth 64 times as large, and every eighth as wide and high as the domain, so that extents
 /// wrap around in 32 bits.
 fn list_around([a, b, c]: Corners, len: u32) -> Vec<Corners> {
-    let moved = |p: SubpixelPoint, i: i32| {
-        SubpixelPoint::new(p.x.saturating_add(i * 37), p.y.saturating_sub(i * i * 3))
-    };
-    let larger = |p: SubpixelPoint| {
-        let away = |p: i32, a: i32| a.saturating_add(p.saturating_sub(a).saturating_mul(64));
-        SubpixelPoint::new(away(p.x, a.x), away(p.y, a.y))
-    };
-    (0..len as i32)
-        .map(|i| {
-            let [a, b, c] = match i % 8 {
-                4 => [a, larger(b), larger(c)],
-                6 => [
-                    a,
-                    SubpixelPoint::new(i32::MAX, i32::MAX - i),
-                    SubpixelPoint::new(i32::MIN, i32::MIN),
-                ],
-                _ => [a, b, c],
-            };
-            let [a, b, c] = [moved(a, i), moved(b, i), moved(c, i)];
-            [[a, b, c], [c, b, a], [b, c, a]][i as usize % 3]
-        })
-        .collect()
+    let mut list = Vec::with_capacity(len as usize);
+    for i in 0..len as i32 {
+        let corners = match i % 8 {
+            4 => [a, larger_by_64(b, a), larger_by_64(c, a)],
+            6 => [
+                a,
+                SubpixelPoint::new(i32::MAX, i32::MAX - i),
+                SubpixelPoint::new(i32::MIN, i32::MIN),
+            ],
+            _ => [a, b, c],
+        };
+        let [a, b, c] = corners
+            .map(|p| SubpixelPoint::new(p.x.saturating_add(i * 37), p.y.saturating_sub(i * i * 3)));
+        list.push([[a, b, c], [c, b, a], [b, c, a]][i as usize % 3]);
+    }
+    list
+}
+
+/// A point 64 times as far from another one, at most at the end of the domain.
+fn larger_by_64(p: SubpixelPoint, from: SubpixelPoint) -> SubpixelPoint {
+    let x = from.x.saturating_add(p.x.saturating_sub(from.x).saturating_mul(64));
+    let y = from.y.saturating_add(p.y.saturating_sub(from.y).saturating_mul(64));
+    SubpixelPoint::new(x, y)
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::implementations::{Implementations, component_of};
 use super::{CATALOGUE, Invariant, Predicate};
-use rasterproof_core::arrays::MapArray as _;
+
 use rasterproof_core::parallel;
 use rasterproof_faults::planted::Mutant;
 
@@ -28,20 +28,17 @@ pub struct Matrix {
 impl Matrix {
     /// Computes every cell; a pure function of the two numbers. `step` is told of every row.
     pub fn compute(seed: u64, cases: u64, step: &(dyn Fn() + Sync)) -> Self {
-        let columns: Vec<&Invariant> = CATALOGUE.iter().collect();
         let mutants = Mutant::all();
         let rows = parallel::map(mutants.len(), |row| {
             let mutant = mutants[row];
-            let marks = parallel::map(columns.len(), |column| {
-                let invariant = columns[column];
-                invariant.components.contains(&component_of(&mutant))
-                    && !matches!(invariant.check, Predicate::Matrix)
-                    && invariant.kills(&Implementations::with(mutant), seed, cases)
+            let marks = parallel::map(CATALOGUE.len(), |column| {
+                is_killed(mutant, &CATALOGUE[column], seed, cases)
             });
             step();
             (mutant.name().to_owned(), marks)
         });
-        let mut matrix = Self { columns: columns.iter().map(|i| i.number).collect(), rows };
+        let columns = CATALOGUE.iter().map(|invariant| invariant.number).collect();
+        let mut matrix = Self { columns, rows };
         matrix.add_blind_row();
         matrix
     }
@@ -55,19 +52,35 @@ impl Matrix {
         // While the question is open, let this row pass, and so the column of 42.
         own[meta] = true;
         blinded.rows.push((BLIND.to_owned(), own.clone()));
+        // A check that always passes is a column without a mark, under a number that no invariant has.
         let number = self.columns.iter().max().copied().unwrap_or(0) + 1;
         blinded.columns.push(number);
-        blinded.rows.iter_mut().for_each(|(_, marks)| marks.push(false));
+        for (_, marks) in &mut blinded.rows {
+            marks.push(false);
+        }
         own[meta] = blinded.problems().contains(&unkilling(number));
         self.rows.push((BLIND.to_owned(), own));
     }
 
+    /// Mutants that no invariant kills, and invariants that kill no mutant.
     pub fn problems(&self) -> Vec<String> {
-        let survivors = self.rows.iter().filter(|(_, marks)| !marks.contains(&true));
-        let survivors = survivors.map(|(name, _)| format!("no invariant kills the mutant {name}"));
-        let idle =
-            (0..self.columns.len()).filter(|&i| self.rows.iter().all(|(_, marks)| !marks[i]));
-        survivors.chain(idle.map(|i| unkilling(self.columns[i]))).collect()
+        let mut problems = Vec::new();
+        for (name, marks) in &self.rows {
+            if !marks.contains(&true) {
+                problems.push(format!("no invariant kills the mutant {name}"));
+            }
+        }
+        for (column, number) in self.columns.iter().enumerate() {
+            if self.kills(column) == 0 {
+                problems.push(unkilling(*number));
+            }
+        }
+        problems
+    }
+
+    /// How many mutants the invariant of a column kills.
+    fn kills(&self, column: usize) -> usize {
+        self.rows.iter().filter(|(_, marks)| marks[column]).count()
     }
 
     /// The matrix as text of less than 100 columns: numbers from the top down, `#` for killed, sums
@@ -75,48 +88,59 @@ impl Matrix {
     pub fn text(&self) -> String {
         let width = self.rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let mut out = String::new();
-        // A gap where a group of ten begins, for the eye.
-        let gap = |i: usize| i > 0 && self.columns[i] / 10 != self.columns[i - 1] / 10;
-        let mut line = |name: &str, cell: &dyn Fn(usize) -> char, sum: &str| {
-            let cells: String = (0..self.columns.len())
-                .flat_map(|i| gap(i).then_some(' ').into_iter().chain([cell(i)]))
-                .collect();
-            let text = format!("{name:<width$}  {cells}  {sum}");
+        let mut line = |name: &str, cells: &[char], sum: &str| {
+            let mut spaced = String::new();
+            for (i, cell) in cells.iter().enumerate() {
+                // A gap where a group of ten begins, for the eye.
+                if i > 0 && self.columns[i] / 10 != self.columns[i - 1] / 10 {
+                    spaced.push(' ');
+                }
+                spaced.push(*cell);
+            }
+            let text = format!("{name:<width$}  {spaced}  {sum}");
             let _ = writeln!(out, "{}", text.trim_end());
         };
-        let digits = |values: &[usize]| {
-            let values = values.to_vec();
-            [10, 1].map_array(|unit| {
-                let digits: Vec<char> = values
-                    .iter()
-                    .map(|&v| match v / unit {
-                        0 if unit > 1 => ' ',
-                        digit => char::from(b'0' + (digit % 10) as u8),
-                    })
-                    .collect();
-                digits
-            })
-        };
-        let numbers: Vec<usize> = self.columns.iter().map(|&n| n as usize).collect();
+        // The head: the numbers of the invariants.
+        let numbers: Vec<usize> = self.columns.iter().map(|&number| number as usize).collect();
         let [tens, ones] = digits(&numbers);
-        line("mutant \\ invariant", &|i| tens[i], "");
-        line("", &|i| ones[i], "kills");
+        line("mutant \\ invariant", &tens, "");
+        line("", &ones, "kills");
+        // A row for each mutant.
         for (name, marks) in &self.rows {
-            let sum = marks.iter().filter(|&&mark| mark).count().to_string();
-            line(name, &|i| if marks[i] { '#' } else { '.' }, &format!("{sum:>5}"));
+            let cells: Vec<char> = marks.iter().map(|&mark| if mark { '#' } else { '.' }).collect();
+            let sum = cells.iter().filter(|cell| **cell == '#').count();
+            line(name, &cells, &format!("{sum:>5}"));
         }
-        let sums: Vec<usize> = (0..self.columns.len())
-            .map(|i| self.rows.iter().filter(|(_, marks)| marks[i]).count())
-            .collect();
+        // The foot: how many mutants each invariant kills.
+        let sums: Vec<usize> = (0..self.columns.len()).map(|column| self.kills(column)).collect();
         let [tens, ones] = digits(&sums);
-        line("killed, from the top down", &|i| tens[i], "");
-        line("", &|i| ones[i], &format!("{:>5}", sums.iter().sum::<usize>()));
+        line("killed, from the top down", &tens, "");
+        line("", &ones, &format!("{:>5}", sums.iter().sum::<usize>()));
         out
     }
 }
 
+/// What is said of a column without a mark.
 fn unkilling(number: u32) -> String {
     format!("invariant {number} kills no mutant")
+}
+
+/// Whether an invariant applies to the component that a mutant has in place of the right one, and fails with it.
+fn is_killed(mutant: Mutant, invariant: &Invariant, seed: u64, cases: u64) -> bool {
+    invariant.components.contains(&component_of(&mutant))
+        && !matches!(invariant.check, Predicate::Matrix)
+        && invariant.kills(&Implementations::with(mutant), seed, cases)
+}
+
+/// The tens and the ones of numbers below 100; no ten where there is none.
+fn digits(values: &[usize]) -> [Vec<char>; 2] {
+    let mut digits = [Vec::new(), Vec::new()];
+    for value in values {
+        let ten = value / 10 % 10;
+        digits[0].push(if *value < 10 { ' ' } else { char::from(b'0' + ten as u8) });
+        digits[1].push(char::from(b'0' + (value % 10) as u8));
+    }
+    digits
 }
 
 #[cfg(test)]

@@ -19,10 +19,8 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
 /// 43: ties in a quarter of the cases, slivers in a tenth, nothing to draw in a twentieth.
 pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
-    let jobs: Vec<(&Family, u64)> = cases::triangles::FAMILIES
-        .iter()
-        .flat_map(|family| (0..cases).map(move |index| (family, index)))
-        .collect();
+    let jobs = jobs_of(cases::triangles::FAMILIES.iter(), cases);
+    // Of each case whether it has a tie, whether it has a sliver, and whether nothing of it is drawn.
     let facts = |number: usize| {
         let (family, index) = jobs[number];
         let Case { window, shape: Shape::Triangles { list, .. } } =
@@ -35,8 +33,12 @@ pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcom
         let empty = oracle_coverage(&list, window).covered() == 0;
         [tie, sliver, empty].map_array(u64::from)
     };
-    let facts = parallel::map(jobs.len(), facts).into_iter();
-    let sums = facts.fold([0; 3], |a, b| [0, 1, 2].map_array(|i| a[i] + b[i]));
+    let mut sums = [0; 3];
+    for facts in parallel::map(jobs.len(), facts) {
+        for (sum, fact) in sums.iter_mut().zip(facts) {
+            *sum += fact;
+        }
+    }
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -46,12 +48,15 @@ pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     Ok(total)
 }
 
+/// The first cases of each family: the family, and the number of the case in it.
+fn jobs_of<'a>(families: impl Iterator<Item = &'a Family>, cases: u64) -> Vec<(&'a Family, u64)> {
+    families.flat_map(|family| (0..cases).map(move |index| (family, index))).collect()
+}
+
 /// The bits of a case, folded (FNV-1a).
 fn fold(case: &Case) -> u64 {
-    let mut words = vec![case.window.x0, case.window.y0, case.window.x1, case.window.y1]
-        .into_iter()
-        .map(|v| v as u64)
-        .collect::<Vec<_>>();
+    let PixelRect { x0, y0, x1, y1 } = case.window;
+    let mut words = vec![x0 as u64, y0 as u64, x1 as u64, y1 as u64];
     match &case.shape {
         Shape::Triangles { list, .. } => {
             for v in list.iter().flat_map(|t| t.vertices) {
@@ -70,9 +75,11 @@ fn fold(case: &Case) -> u64 {
         }
         Shape::Numbers { numbers, .. } => words.extend(numbers.iter().map(|n| n.to_bits())),
     }
-    words.iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-    })
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    for byte in words.into_iter().flat_map(u64::to_le_bytes) {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+    }
+    hash
 }
 
 /// Families whose first cases of seed 1 are pinned, so that debug, release and every machine must
@@ -86,37 +93,38 @@ const PINNED: [(&str, u64); 3] = [
 /// 44: the same case for the same seed and number, whenever and on whichever thread it is made, and
 /// the same verdict on one thread and on three.
 pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
-    let families: Vec<&Family> = cases::families().collect();
-    let make =
-        |seed, (family, index): &(&Family, u64)| fold(&(subject.make_case)(family, seed, *index));
+    let make = |seed, family: &Family, index| fold(&(subject.make_case)(family, seed, index));
     // All of them, so that one run shows every number to write down.
-    let wrong: Vec<String> = PINNED
-        .iter()
-        .filter_map(|(name, target)| {
-            let family = families.iter().find(|f| f.name == *name)?;
-            let folds = (0..8).map(|index| make(1, &(*family, index)));
-            let actual = folds.fold(0u64, |sum, hash| sum.rotate_left(7) ^ hash);
-            (actual != *target).then(|| format!("{name} folds to {actual:#x}, pinned {target:#x}"))
-        })
-        .collect();
+    let mut wrong = Vec::new();
+    for (name, target) in PINNED {
+        let Some(family) = cases::families().find(|family| family.name == name) else { continue };
+        let mut actual: u64 = 0;
+        for index in 0..8 {
+            actual = actual.rotate_left(7) ^ make(1, family, index);
+        }
+        if actual != target {
+            wrong.push(format!("{name} folds to {actual:#x}, pinned {target:#x}"));
+        }
+    }
     if !wrong.is_empty() {
         return Err(format!("the first cases of seed 1 have changed: {}", wrong.join("; ")));
     }
-    let jobs: Vec<(&Family, u64)> =
-        families.iter().flat_map(|f| (0..cases).map(move |index| (*f, index))).collect();
-    let forward: Vec<u64> = jobs.iter().map(|job| make(seed, job)).collect();
-    let mut backward: Vec<u64> = jobs.iter().rev().map(|job| make(seed, job)).collect();
+    // The same cases from the first to the last, from the last to the first, and on all threads.
+    let jobs = jobs_of(cases::families(), cases);
+    let forward: Vec<u64> = jobs.iter().map(|(family, index)| make(seed, family, *index)).collect();
+    let mut backward = Vec::new();
+    for (family, index) in jobs.iter().rev() {
+        backward.push(make(seed, family, *index));
+    }
     backward.reverse();
-    let parallel = parallel::map(jobs.len(), |number| make(seed, &jobs[number]));
-    for other in [backward, parallel] {
-        if let Some(i) = (0..jobs.len()).find(|&i| forward[i] != other[i]) {
-            let (family, index) = jobs[i];
-            return Err(format!(
-                "{}#{index} of seed {seed} is another case next time",
-                family.name
-            ));
+    let parallel = parallel::map(jobs.len(), |i| make(seed, jobs[i].0, jobs[i].1));
+    for (i, (family, index)) in jobs.iter().enumerate() {
+        if forward[i] != backward[i] || forward[i] != parallel[i] {
+            let name = family.name;
+            return Err(format!("{name}#{index} of seed {seed} is another case next time"));
         }
     }
+    // Then whole verdicts, in pools of one thread and of three.
     let options = Options::default().seed(seed).cases(cases.min(4));
     let verdict = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -130,6 +138,7 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     Ok(jobs.len() as u64)
 }
 
+/// The oracle with one wrong pixel.
 struct OneWrong {
     at: (i32, i32),
     /// How often that pixel is hit too often; -1 where it is not hit at all.
@@ -142,13 +151,19 @@ impl Rasterize for OneWrong {
         let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
         Oracle.spans(corners, bounds, &mut |span| {
             if self.by < 0 && span.y_px == y && (span.x0_px..span.x1_px).contains(&x) {
-                let parts = [Span { x1_px: x, ..span }, Span { x0_px: x + 1, ..span }];
-                parts.into_iter().filter(|part| part.x0_px < part.x1_px).for_each(&mut emit);
+                // What is left of the span on both sides of the missing pixel.
+                for part in [Span { x1_px: x, ..span }, Span { x0_px: x + 1, ..span }] {
+                    if part.x0_px < part.x1_px {
+                        emit(part);
+                    }
+                }
             } else {
                 emit(span);
             }
         });
-        (0..self.by).for_each(|_| emit(here));
+        for _ in 0..self.by {
+            emit(here);
+        }
     }
 }
 
@@ -167,10 +182,12 @@ pub(super) fn metrics_report_only(subject: &Implementations, seed: u64, cases: u
         let window = PixelRect::window(side as u32, side as u32);
         let any = &mut || rng.int(0, i64::from(side) - 1) as i32;
         let at = (any(), any());
+        // A pixel can be missing only where there is one.
         let is_covered = at.0 + at.1 < side - 1;
         let by = if is_covered && index % 8 < 4 { -1 } else { 1 };
         let what = format!("pixel {at:?} of {side} x {side}, hits off by {by}");
 
+        // First two coverages that differ in that pixel, then a judge who gets the engine that draws it.
         let target = oracle_coverage(&[triangle], window);
         let mut actual = Coverage::new(window, 0);
         let planted = OneWrong { at, by };

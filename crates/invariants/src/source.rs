@@ -11,6 +11,7 @@ use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle, named
 
 use super::implementations::MakeCase;
 
+/// The side of the windows of inputs that are made here, in pixels and in subpixels.
 const SIDE_PX: u32 = 24;
 const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
 
@@ -83,13 +84,12 @@ impl Fan {
     /// The fan with these reaches in half subpixels; `every` 1 takes all directions, 2 every other
     /// one.
     pub fn new(centre: SubpixelPoint, reach: [u16; 16], every: usize, apex: SubpixelPoint) -> Self {
-        let spokes = DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2));
-        let tip = |([dx, dy], reach): (&[i32; 2], u16)| {
+        let mut ring = Vec::with_capacity(16);
+        for ([dx, dy], reach) in DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2)) {
             // At least one subpixel, or the polygon would not go round its centre.
             let reach = i32::from(reach).max(1);
-            SubpixelPoint::new(centre.x + dx * reach, centre.y + dy * reach)
-        };
-        let ring = spokes.map(tip).collect();
+            ring.push(SubpixelPoint::new(centre.x + dx * reach, centre.y + dy * reach));
+        }
         Self { centre, ring, apex, window: PixelRect::window(SIDE_PX, SIDE_PX) }
     }
 }
@@ -101,6 +101,7 @@ pub struct LineInput {
     pub window: PixelRect,
 }
 
+/// A coordinate that is snapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
     pub px: f64,
@@ -125,6 +126,7 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
+/// What a check gets, by its kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
@@ -147,6 +149,7 @@ fn pick(families: &[Family], make_case: MakeCase, seed: u64, index: u64) -> (Cas
     (make_case(family, seed, number), number as usize)
 }
 
+/// A triangle of the families in turn.
 pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::triangles::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Triangles { list, .. } } = case else {
@@ -161,6 +164,7 @@ pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
 /// Quadrilaterals, half of them with corners on centres.
 pub(super) fn quad(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("quad", seed, index);
+    // Corners on centres make ties at every edge that runs along an axis.
     let on_centres = rng.chance(2);
     let align = |v: i64| if on_centres { v / 256 * 256 + 128 } else { v };
     let (left, top) = (align(rng.int(0, SIDE / 2)), align(rng.int(0, SIDE / 2)));
@@ -187,6 +191,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     } else {
         SubpixelPoint::new(align(x), align(y))
     };
+    // Spokes of whole half pixels often end on centres, where the centre of the fan is one.
     let whole = rng.chance(2);
     let most = 1 << rng.int(2, 11);
     let reach = [(); 16].map(|()| {
@@ -199,6 +204,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
+/// A line of the families in turn.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {
@@ -257,6 +263,7 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
     }
 }
 
+/// The same for a triangle: first without what else there is to choose, then smaller.
 fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -> Input {
     // Simple values and choices first, if they fail too.
     let plain = named::plain_triangle(input.triangle.corners());
@@ -300,64 +307,70 @@ fn size(input: &Input) -> (usize, f64) {
     }
 }
 
+/// Inputs that are one step smaller.
 fn neighbours(input: &Input) -> Vec<Input> {
-    let by_px = |p: SubpixelPoint, dx: i32, dy: i32| {
-        SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS)
-    };
     match input {
-        Input::Quad(quad) => {
-            let moved = |dx: i32, dy: i32| {
-                let corners = quad.corners.map(|p| by_px(p, dx, dy));
-                corners
-                    .iter()
-                    .all(|p| p.x >= 0 && p.y >= 0)
-                    .then(|| Input::Quad(Quad { corners, ..quad.clone() }))
-            };
-            [(8, 0), (0, 8), (1, 0), (0, 1)].into_iter().filter_map(|(x, y)| moved(x, y)).collect()
-        }
-        Input::Fan(fan) => {
-            let fewer = (0..fan.ring.len()).filter(|_| fan.ring.len() > 8).map(|i| {
-                let mut ring = fan.ring.clone();
-                ring.remove(i);
-                Input::Fan(Fan { ring, ..fan.clone() })
-            });
-            let halved = Fan {
-                ring: fan
-                    .ring
-                    .iter()
-                    .map(|p| {
-                        let half = |p: i32, c: i32| c + (p - c) / 2;
-                        SubpixelPoint::new(half(p.x, fan.centre.x), half(p.y, fan.centre.y))
-                    })
-                    .collect(),
-                ..fan.clone()
-            };
-            // Halved spokes must still be spokes.
-            let distinct = halved.ring.iter().all(|p| {
-                (p.x - fan.centre.x).abs().max((p.y - fan.centre.y).abs()) >= SUBPIXELS / 8
-            });
-            fewer.chain(distinct.then_some(Input::Fan(halved))).collect()
-        }
+        Input::Quad(quad) => smaller_quads(quad),
+        Input::Fan(fan) => smaller_fans(fan),
         Input::Position(p) => {
-            let mut found = vec![Position { shift_px: p.shift_px / 2, ..*p }];
             let whole = p.px.trunc();
-            found.push(Position { px: p.px - whole, ..*p });
-            found.push(Position { px: p.px - (whole / 2.0).trunc(), ..*p });
-            found.into_iter().map(Input::Position).collect()
+            vec![
+                Input::Position(Position { shift_px: p.shift_px / 2, ..*p }),
+                Input::Position(Position { px: p.px - whole, ..*p }),
+                Input::Position(Position { px: p.px - (whole / 2.0).trunc(), ..*p }),
+            ]
         }
-        Input::Clip(clip) => (0..12)
-            .flat_map(|i| {
-                let moved = |to: fn(i32) -> i32| {
+        Input::Clip(clip) => {
+            let mut found = Vec::new();
+            for i in 0..12 {
+                let number = clip.vertices[i / 4][i % 4];
+                for smaller in [0, number / 2, number - number.signum()] {
                     let mut vertices = clip.vertices;
-                    let number = &mut vertices[i / 4][i % 4];
-                    *number = to(*number);
-                    Input::Clip(ClipInput { vertices })
-                };
-                [moved(|_| 0), moved(|v| v / 2), moved(|v| v - v.signum())]
-            })
-            .collect(),
+                    vertices[i / 4][i % 4] = smaller;
+                    found.push(Input::Clip(ClipInput { vertices }));
+                }
+            }
+            found
+        }
         _ => Vec::new(),
     }
+}
+
+/// The same quadrilateral nearer to the origin by whole pixels, in the window still.
+fn smaller_quads(quad: &Quad) -> Vec<Input> {
+    let mut found = Vec::new();
+    for (dx, dy) in [(8, 0), (0, 8), (1, 0), (0, 1)] {
+        let corners =
+            quad.corners.map(|p| SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS));
+        if corners.iter().all(|p| p.x >= 0 && p.y >= 0) {
+            found.push(Input::Quad(Quad { corners, ..quad.clone() }));
+        }
+    }
+    found
+}
+
+/// Fans with one spoke fewer, while eight are left, and the one with spokes half as long.
+fn smaller_fans(fan: &Fan) -> Vec<Input> {
+    let mut found = Vec::new();
+    if fan.ring.len() > 8 {
+        for i in 0..fan.ring.len() {
+            let mut ring = fan.ring.clone();
+            ring.remove(i);
+            found.push(Input::Fan(Fan { ring, ..fan.clone() }));
+        }
+    }
+    let mut halved = fan.clone();
+    let mut shortest = i32::MAX;
+    for p in &mut halved.ring {
+        let (dx, dy) = ((p.x - fan.centre.x) / 2, (p.y - fan.centre.y) / 2);
+        *p = SubpixelPoint::new(fan.centre.x + dx, fan.centre.y + dy);
+        shortest = shortest.min(dx.abs().max(dy.abs()));
+    }
+    // Halved spokes must still be spokes.
+    if shortest >= SUBPIXELS / 8 {
+        found.push(Input::Fan(halved));
+    }
+    found
 }
 
 impl fmt::Display for Input {

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 use std::fmt::Display;
+use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 
@@ -34,38 +35,46 @@ fn all_are(
     }
 }
 
+/// A fragment as whole numbers that sort by row, then by column: where it is, its depth and its values, as bits.
+type FragmentBits = (i32, i32, [u64; 3]);
+
+/// The same fragments in any order of emission become the same list.
+fn sorted_bits(fragments: &[Fragment<DVec2>]) -> Vec<FragmentBits> {
+    let mut all = Vec::with_capacity(fragments.len());
+    for f in fragments {
+        all.push((f.y_px, f.x_px, [f.depth, f.varying.x, f.varying.y].map_array(f64::to_bits)));
+    }
+    all.sort_unstable();
+    all
+}
+
 /// Bit by bit, and in the order of the pixels.
 fn identical(a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
-    let bits = |f: &Fragment<DVec2>| {
-        (f.y_px, f.x_px, f.depth.to_bits(), f.varying.to_array().map_array(f64::to_bits))
-    };
-    let sorted = |list: &[Fragment<DVec2>]| {
-        let mut list: Vec<_> = list.iter().map(bits).collect();
-        list.sort_unstable();
-        list
-    };
-    let (a, b) = (sorted(a), sorted(b));
+    let (a, b) = (sorted_bits(a), sorted_bits(b));
     if a.len() != b.len() {
         return Err(format!("emits {} fragments and {} {what}", a.len(), b.len()));
     }
-    match a.iter().zip(&b).find(|(a, b)| a != b) {
-        None => Ok(a.len() as u64),
-        Some(((y, x, z, v), (_, _, other_z, other_v))) => {
-            let read = |bits: &u64| f64::from_bits(*bits);
-            Err(format!(
-                "at ({x}, {y}): depth {:?}, values {:?}; {what}: {:?}, {:?}",
-                read(z),
-                v.each_ref().map_array(read),
-                read(other_z),
-                other_v.each_ref().map_array(read)
-            ))
+    for (one, other) in a.iter().zip(&b) {
+        if one != other {
+            let &(y, x, bits) = one;
+            let [z, v, w] = bits.map_array(f64::from_bits);
+            let [other_z, other_v, other_w] = other.2.map_array(f64::from_bits);
+            return Err(format!(
+                "at ({x}, {y}): depth {z:?}, values {:?}; {what}: {other_z:?}, {:?}",
+                [v, w],
+                [other_v, other_w]
+            ));
         }
     }
+    Ok(a.len() as u64)
 }
 
+/// The triangle with each of its vertices changed, which `change` gets with its number.
 fn with(triangle: &Triangle, change: impl Fn(usize, &mut ScreenVertex<DVec2>)) -> Triangle {
     let mut changed = *triangle;
-    changed.vertices.iter_mut().enumerate().for_each(|(i, vertex)| change(i, vertex));
+    for (i, vertex) in changed.vertices.iter_mut().enumerate() {
+        change(i, vertex);
+    }
     changed
 }
 
@@ -100,6 +109,7 @@ pub(super) fn edges_sum(subject: &Implementations, input: &TriangleInput) -> Out
 /// Each weight lies in [0, 1] but for the roundings of a difference, a product and an addition
 /// around 1: 3 u below and 4 u above.
 pub(super) fn weights_sum(subject: &Implementations, input: &TriangleInput) -> Outcome {
+    // The three values of a vertex are its weights: 1 for itself, and 0 for the others.
     let unit = [DVec3::X, DVec3::Y, DVec3::Z];
     let vertices = [0, 1, 2].map_array(|i| {
         let ScreenVertex { position, depth, inv_w, .. } = input.triangle.vertices[i];
@@ -139,29 +149,37 @@ fn sum_less_one(weights: [f64; 3]) -> f64 {
     sum + errors
 }
 
+/// One of the two values of each vertex.
 fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
-    triangle.vertices.map_array(|vertex| vertex.varying.to_array()[k])
+    triangle.vertices.map_array(|vertex| vertex.varying[k])
+}
+
+/// The depth of each vertex.
+fn depths_of(triangle: &Triangle) -> [f64; 3] {
+    triangle.vertices.map_array(|vertex| vertex.depth)
 }
 
 /// 23: values against exact rationals within the derived bounds; the oracle's too, which are the
 /// rationals rounded.
 pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
-    let depths = t.vertices.map_array(|v| v.depth);
     let attributes = t.vertices.map_array(|v| v.varying.to_array());
-    let exact =
-        ExactTriangle::new(&t.corners(), depths, t.vertices.map_array(|v| v.inv_w), attributes);
-    let Some(exact) = exact else { return Ok(0) };
+    let inv_w = t.vertices.map_array(|v| v.inv_w);
+    let Some(exact) = ExactTriangle::new(&t.corners(), depths_of(t), inv_w, attributes) else {
+        return Ok(0);
+    };
+    // A few fragments of each triangle are enough, since exact values take long.
     let judge = |tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
+        let bounds = [0, 1].map_array(|k| tolerance.attribute.at(values_of(t, k)));
+        let depth_bound = tolerance.depth.at(depths_of(t));
         let mut compared = 0;
         for f in few(fragments) {
             let (depth, values) = exact.at(f.x_px, f.y_px);
             let actual = f.varying.to_array();
-            let ratio = [0, 1].map_array(|k| {
-                values[k].distance(actual[k]) / tolerance.attribute.at(values_of(t, k))
-            });
-            let depth_ratio = depth.distance(f.depth) / tolerance.depth.at(depths);
-            if ratio.into_iter().chain([depth_ratio]).any(|ratio| ratio > 1.0) {
+            // How many times its bound each of the three is away from the exact number.
+            let depth_ratio = depth.distance(f.depth) / depth_bound;
+            let ratio = [0, 1].map_array(|k| values[k].distance(actual[k]) / bounds[k]);
+            if depth_ratio > 1.0 || ratio[0] > 1.0 || ratio[1] > 1.0 {
                 return Err(format!(
                     "at ({}, {}): depth {:?} and values {actual:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
                     f.x_px, f.y_px, f.depth
@@ -185,18 +203,22 @@ pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> O
 pub(super) fn hull(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
     subject.each_engine(|engine| {
-        let within = |value: f64, ends: [f64; 3], bound: Bound| {
-            let slack = bound.at(ends);
-            let (low, high) =
-                ends.iter().fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
-            (low - slack..=high + slack).contains(&value)
-        };
         let Tolerance { depth, attribute, .. } = engine.tolerance;
+        let depths = hull_of(depths_of(t), depth);
+        let values = [0, 1].map_array(|k| hull_of(values_of(t, k), attribute));
         all_are(&engine.fragments(t, input.window), "leave the hull", |f| {
-            (0..2).all(|k| within(f.varying[k], values_of(t, k), attribute))
-                && within(f.depth, t.vertices.map_array(|v| v.depth), depth)
+            depths.contains(&f.depth)
+                && values[0].contains(&f.varying.x)
+                && values[1].contains(&f.varying.y)
         })
     })
+}
+
+/// From the least of three values to the largest, and a bound of rounding beyond both.
+fn hull_of(values: [f64; 3], bound: Bound) -> RangeInclusive<f64> {
+    let [a, b, c] = values;
+    let slack = bound.at(values);
+    a.min(b).min(c) - slack..=a.max(b).max(c) + slack
 }
 
 /// 25: a constant comes out as it went in.
@@ -223,10 +245,12 @@ pub(super) fn equal_w(subject: &Implementations, input: &TriangleInput) -> Outco
 /// 27: a power of two moves the exponent of every w and of nothing else.
 pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
+        // The same values come out, whatever the unit of w is.
         let still = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for power in [-150, -3, 1, 40, 150] {
             let factor = 2f64.powi(power);
+            // A factor that takes a vertex out of the domain of w says nothing.
             let allowed = 1.0 / MAX_W..=1.0 / MIN_W;
             if !input.triangle.vertices.iter().all(|v| allowed.contains(&(v.inv_w * factor))) {
                 continue;
@@ -245,12 +269,13 @@ pub(super) fn rotated_vertices(subject: &Implementations, input: &TriangleInput)
     let v = &input.triangle.vertices;
     subject.each_engine(|engine| {
         let first = engine.fragments(&input.triangle, input.window);
-        let other = |order: &[usize; 3]| {
+        let mut compared = 0;
+        for order in &ORDERS[1..] {
             let turned = ScreenTriangle { vertices: order.map_array(|i| v[i]) };
             let fragments = engine.fragments(&turned, input.window);
-            identical(&fragments, &first, &format!("in order 0 1 2, not {order:?}"))
-        };
-        ORDERS[1..].iter().map(other).sum()
+            compared += identical(&fragments, &first, &format!("in order 0 1 2, not {order:?}"))?;
+        }
+        Ok(compared)
     })
 }
 
@@ -262,21 +287,18 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     let window = PixelRect::window(48, 48);
     let (px, py) = ((input.salt % 48) as i32, (input.salt / 48 % 48) as i32);
     let sample = centre_of(px, py);
-    let direction = |p: SubpixelPoint, q: SubpixelPoint| {
-        // Short enough that four of them stay near.
-        let d = |p: i32, q: i32| ((i64::from(q) - i64::from(p)) % 2000) as i32;
-        [d(p.x, q.x), d(p.y, q.y)]
-    };
-    let ([dx, dy], [ex, ey]) = (direction(a, b), direction(a, c));
+    // One step along the edge is (dx, dy), and one away from it (ex, ey).
+    let ([dx, dy], [ex, ey]) = (short_way(a, b), short_way(a, c));
     let turn = i64::from(dx) * i64::from(ey) - i64::from(dy) * i64::from(ex);
     if turn == 0 {
         return Ok(0);
     }
+    // The point that is k steps along the edge from the sample, and l steps away from it.
     let at =
         |k: i32, l: i32| SubpixelPoint::new(sample.x + k * dx + l * ex, sample.y + k * dy + l * ey);
     let (back, ahead) = (1 + (input.salt >> 12 & 3) as i32, 1 + (input.salt >> 14 & 3) as i32);
     let values = &input.triangle.vertices;
-    // Third corners on either side, with values of their own.
+    // The edge runs through the sample, and is shared by two triangles: third corners on either side, with values of their own.
     let side = |l: i32, depth: f64, varying: DVec2| {
         let corners = [at(-back, 0), at(ahead, 0), at(0, l)];
         let mut triangle = with(&input.triangle, |i, vertex| vertex.position = corners[i]);
@@ -286,6 +308,7 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     };
     let one = side(1, values[2].depth, values[2].varying);
     let other = side(-1, -values[2].depth, values[0].varying - values[2].varying);
+    // Half a turn about the sample makes the other side of the edge the owner.
     let mirror = |t: &Triangle| {
         with(t, |_, v| {
             v.position =
@@ -301,18 +324,17 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
         let (Some(f), Some(g)) = (value(&one), value(&other)) else {
             return Err("never owns the sample on the edge".to_owned());
         };
-        let bound = |k: usize| {
-            let at = |t: &Triangle| engine.tolerance.attribute.at(values_of(t, k));
-            at(&one) + at(&other)
-        };
-        let depth_bound = [&one, &other]
-            .map_array(|t| engine.tolerance.depth.at(t.vertices.map_array(|v| v.depth)))
-            .iter()
-            .sum::<f64>();
-        let difference = (f.varying - g.varying).abs().to_array();
-        let near =
-            (0..2).all(|k| difference[k] <= bound(k)) && (f.depth - g.depth).abs() <= depth_bound;
-        if near {
+        // Each side may be off by the bound of its own triangle.
+        let Tolerance { depth, attribute, .. } = engine.tolerance;
+        let depth_bound = depth.at(depths_of(&one)) + depth.at(depths_of(&other));
+        let bounds = [0, 1].map_array(|k| {
+            attribute.at(values_of(&one, k)) + attribute.at(values_of(&other, k))
+        });
+        let difference = (f.varying - g.varying).abs();
+        let is_near = difference.x <= bounds[0]
+            && difference.y <= bounds[1]
+            && (f.depth - g.depth).abs() <= depth_bound;
+        if is_near {
             return Ok(1);
         }
         Err(format!(
@@ -327,21 +349,42 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     })
 }
 
+/// The way from one point to another, made so short that four of them stay near.
+fn short_way(p: SubpixelPoint, q: SubpixelPoint) -> [i32; 2] {
+    [(p.x, q.x), (p.y, q.y)].map_array(|(p, q)| ((i64::from(q) - i64::from(p)) % 2000) as i32)
+}
+
+/// For each pixel the least depth and whose it is, when copies are drawn in an order.
+fn nearest(
+    drawn: &[Vec<Fragment<DVec2>>],
+    order: &[usize; 3],
+) -> HashMap<(i32, i32), (f64, usize)> {
+    let mut nearest = HashMap::new();
+    for &i in order {
+        for f in &drawn[i] {
+            let entry = nearest.entry((f.x_px, f.y_px)).or_insert((f.depth, i));
+            if f.depth < entry.0 {
+                *entry = (f.depth, i);
+            }
+        }
+    }
+    nearest
+}
+
 /// 30: a flat depth is exact, so a depth test gives one picture for every order of submission.
 pub(super) fn flat_depth(subject: &Implementations, input: &TriangleInput) -> Outcome {
-    let depths = input.triangle.vertices.map_array(|vertex| vertex.depth);
+    let depths = depths_of(&input.triangle);
     // The triangle and two copies a few pixels on, each at a depth of its own.
-    let copies: Vec<Option<Triangle>> = (0..3)
-        .map(|i| {
-            let mut copy = input.triangle;
-            for vertex in &mut copy.vertices {
-                vertex.depth = depths[i];
-                vertex.position.x = vertex.position.x.checked_add(i as i32 * 3 * SUBPIXELS)?;
-            }
-            Some(copy)
-        })
-        .collect();
-    let Some(copies) = copies.into_iter().collect::<Option<Vec<_>>>() else { return Ok(0) };
+    let mut copies = [input.triangle; 3];
+    for (i, copy) in copies.iter_mut().enumerate() {
+        for vertex in &mut copy.vertices {
+            vertex.depth = depths[i];
+            let moved = vertex.position.x.checked_add(i as i32 * 3 * SUBPIXELS);
+            let Some(x) = moved else { return Ok(0) };
+            vertex.position.x = x;
+        }
+    }
+    // Of equal depths the first one drawn stays, which is right.
     let distinct = depths[0] != depths[1] && depths[1] != depths[2] && depths[0] != depths[2];
     subject.each_engine(|engine| {
         let drawn: Vec<_> = copies.iter().map(|t| engine.fragments(t, input.window)).collect();
@@ -350,20 +393,8 @@ pub(super) fn flat_depth(subject: &Implementations, input: &TriangleInput) -> Ou
             all_are(fragments, format_args!("instead of depth {depth:?}"), |f| f.depth == depth)?;
         }
         // Nearer wins; who does must not depend on who came first.
-        let picture = |order: &[usize; 3]| {
-            let mut nearest: HashMap<(i32, i32), (f64, usize)> = HashMap::new();
-            for &i in order {
-                for f in &drawn[i] {
-                    let entry = nearest.entry((f.x_px, f.y_px)).or_insert((f.depth, i));
-                    if f.depth < entry.0 {
-                        *entry = (f.depth, i);
-                    }
-                }
-            }
-            nearest
-        };
-        let first = picture(&ORDERS[0]);
-        if distinct && ORDERS[1..].iter().any(|order| picture(order) != first) {
+        let first = nearest(&drawn, &ORDERS[0]);
+        if distinct && ORDERS[1..].iter().any(|order| nearest(&drawn, order) != first) {
             return Err("draws a picture that depends on the order of submission".to_owned());
         }
         Ok(drawn.iter().map(|fragments| fragments.len() as u64).sum())
@@ -386,6 +417,7 @@ pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcom
         [f64::MIN_POSITIVE, -f64::MIN_POSITIVE, 0.0],
         [-MAX_VALUE, f64::MIN_POSITIVE / 4.0, 1.0],
     ];
+    // The salt picks one of all pairs of the two lists.
     let inv_w = inv_ws[input.salt as usize % inv_ws.len()];
     let value = values[input.salt as usize / inv_ws.len() % values.len()];
     let extreme = with(&input.triangle, |i, vertex| {

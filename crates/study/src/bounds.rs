@@ -51,6 +51,8 @@ const OF_MAP: u64 = 10;
 const MOST_NS: u64 = 16_000_000_000;
 
 impl Purpose {
+    /// Drawing once and drawing twice take the same time for each sample that is hidden, since the second frame is drawn beside
+    /// the first one; whoever judges or measures computes each row of each triangle in several arithmetics.
     fn costs(self) -> Costs {
         let (bytes_of_sample, ns_of_row, ns_of_sample, ns_of_byte) = match self {
             Self::Drawn => (20, 700, 90, 1_500),
@@ -86,6 +88,7 @@ impl FrameSize {
     /// Refuses sizes of which the frames, with what is computed beside them, take too much memory.
     pub fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), String> {
         let (width, height) = self.px;
+        // Sides are limited by the command line, so no product here exceeds 64 bits.
         let samples = u64::from(width) * u64::from(height) * self.antialias.samples();
         let map =
             self.shadows.map_or(0, |size| u64::from(size) * u64::from(size) * MAP_TEXEL_BYTES);
@@ -116,6 +119,7 @@ impl FrameSize {
         let (width, height) = self.px;
         let scale = self.antialias.scale();
         let planes = self.antialias.planes() as u64;
+        // The work is found for a window whose pixels are the samples of one plane; multisampling has several such planes.
         let work = Work::of(scene, PixelRect::window(width * scale, height * scale));
         let all = u64::from(width) * u64::from(height) * self.antialias.samples();
         let of_planes = |count: u64| count.saturating_mul(planes);
@@ -124,10 +128,16 @@ impl FrameSize {
         let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
         // The map is drawn as often as the frame.
         let map = Work::of_map(scene);
-        let ns = [(rows, ns_of_row), (samples, ns_of_sample)]
-            .into_iter()
-            .chain([(map.rows, ns_of_row / OF_MAP), (map.samples, ns_of_sample / OF_MAP)])
-            .fold(0u64, |sum, (count, ns)| sum.saturating_add(count.saturating_mul(ns)));
+        let mut ns: u64 = 0;
+        for (count, ns_of_one) in [
+            (rows, ns_of_row),
+            (samples, ns_of_sample),
+            (map.rows, ns_of_row / OF_MAP),
+            (map.samples, ns_of_sample / OF_MAP),
+        ] {
+            ns = ns.saturating_add(count.saturating_mul(ns_of_one));
+        }
+        // A large file may take longer, and so may a large picture that is covered as usual.
         let of_picture = (all * MOST_LAYERS).saturating_mul(ns_of_sample);
         let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
         if ns > most {

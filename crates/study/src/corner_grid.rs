@@ -48,6 +48,7 @@ impl CornerGrid {
         Self::Unsnapped,
     ];
 
+    /// Bits below the pixel; none where corners are not snapped.
     pub fn bits(self) -> Option<u32> {
         match self {
             Self::Bits(bits) => Some(bits),
@@ -60,6 +61,7 @@ impl CornerGrid {
         self.bits().is_some_and(|bits| bits <= SUBPIXEL_BITS)
     }
 
+    /// How far two neighbours on the grid are apart.
     pub(crate) fn step_px(self) -> Option<f64> {
         self.bits().map(|bits| 1.0 / f64::from(1u32 << bits))
     }
@@ -79,6 +81,8 @@ impl CornerGrid {
         orient2d(a, b, c)
     }
 
+    /// Whether culling removes a triangle, which it decides by the corners on the grid, as the engines do. What is flat is not
+    /// removed, since it covers no pixel anyway.
     pub(crate) fn is_removed(self, cull: Cull, px: [[f64; 2]; 3]) -> bool {
         match cull {
             Cull::None => false,

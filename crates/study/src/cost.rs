@@ -42,6 +42,7 @@ pub fn measure(
     timing: Timing,
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Board>, BadScene> {
+    // All pieces are judged, but only a sample of them is timed, the same one by coverage and by depth formats.
     let sample = Sample::new(&sampled.planes[0], sampled.window, TIMED_PX);
     progress(0.0, Ladder::Scanline.title());
     let mut boards = coverage_boards(sampled, &sample, timing.within(2.0));
@@ -88,13 +89,16 @@ fn bytes(choice: &Choice, window: PixelRect, triangles: u64) -> u64 {
     of_pixel * pixels(window) + of_triangle * triangles
 }
 
+/// How many pixels a window has.
 fn pixels(window: PixelRect) -> u64 {
     u64::from(window.width()) * u64::from(window.height())
 }
 
 /// Pieces that are timed.
 struct Sample {
+    /// The numbers of the timed pieces, sorted.
     numbers: Vec<usize>,
+    /// How many of all pieces these are, and how many of all covered pixels they cover.
     pieces: Part,
     pixels: Part,
 }
@@ -103,13 +107,13 @@ impl Sample {
     /// Every so many-th piece, and the largest of the others where these cover much less than was meant: of a floor of two
     /// triangles, one may lie outside the window but for a corner.
     fn new(pieces: &[Piece], window: PixelRect, most_px: u64) -> Self {
-        let covered = |piece: &Piece| {
+        let mut covered = Vec::with_capacity(pieces.len());
+        for piece in pieces {
             let mut pixels = 0;
             Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
-            pixels
-        };
-        let pixels: Vec<u64> = pieces.iter().map(covered).collect();
-        Self::of_sizes(&pixels, most_px)
+            covered.push(pixels);
+        }
+        Self::of_sizes(&covered, most_px)
     }
 
     /// The same of pieces that cover so many pixels each.
@@ -120,6 +124,7 @@ impl Sample {
         let stride = work.div_ceil(most_px.max(1)).max(1) as usize;
         let mut numbers: Vec<usize> = (0..pixels.len()).step_by(stride).collect();
         let mut timed: u64 = numbers.iter().map(|&number| pixels[number]).sum();
+        // The largest of the others are added until half of what was meant is covered.
         let mut others: Vec<usize> =
             (0..pixels.len()).filter(|number| !number.is_multiple_of(stride)).collect();
         others.sort_by_key(|&number| std::cmp::Reverse(pixels[number]));
@@ -141,11 +146,13 @@ impl Sample {
         Sampling { items, pixels, judged: Part::all(pixels.of), looked_at: None, not_judged: 0 }
     }
 
+    /// The timed ones of the pieces that the sample was taken of.
     fn of<'a>(&self, pieces: &'a [Piece]) -> impl Iterator<Item = &'a Piece> {
         self.numbers.iter().map(|&number| &pieces[number])
     }
 }
 
+/// Pairs of triangles that occur more than once become one, with the sum of their counts.
 fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
     wrong.sort_unstable();
     wrong.dedup_by(|later, kept| {
@@ -157,43 +164,56 @@ fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
 
 /// Whether the choices of interpolation, some of which are in single precision, take the values of a piece.
 fn has_values(piece: &Piece) -> bool {
-    let values = piece.triangle.vertices.iter().map(|vertex| vertex.varying.x);
-    let is_held = |w: &f64| {
+    for vertex in &piece.triangle.vertices {
+        if check_value(vertex.varying.x).is_err() {
+            return false;
+        }
+    }
+    // A w whose inverse is too small or too large for f32 leaves nothing to divide by.
+    for w in piece.w {
         let inv_w = (1.0 / w) as f32;
-        inv_w.is_finite() && inv_w > 0.0
-    };
-    values.map(check_value).all(|checked| checked.is_ok()) && piece.w.iter().all(is_held)
+        if !inv_w.is_finite() || inv_w <= 0.0 {
+            return false;
+        }
+    }
+    true
 }
 
 /// Pieces as a class of scenes, and the triangle of the model of each.
 fn class<'a>(pieces: impl IntoIterator<Item = &'a Piece>, window: PixelRect) -> (Class, Vec<u32>) {
-    let free = pieces.into_iter().filter_map(|piece| Some((piece.free()?, piece)));
-    let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
-    let mut values: Vec<[f64; 3]> = of
-        .iter()
-        .map(|piece: &&Piece| piece.triangle.vertices.map_array(|v| v.varying.x))
-        .collect();
-    // Without texture coordinates values are made up.
-    if values.iter().flatten().all(|value| *value == 0.0) {
-        values.clear();
-    }
-    let class = Class {
+    let mut class = Class {
         name: "model",
         about: "the triangles of the model",
         bounds: window,
-        triangles,
-        w: of.iter().map(|piece| piece.w).collect(),
-        values,
+        triangles: Vec::new(),
+        w: Vec::new(),
+        values: Vec::new(),
         interior: None,
     };
-    (class, of.iter().map(|piece| piece.face).collect())
+    let mut faces = Vec::new();
+    for piece in pieces {
+        // Beyond the domain of the engines a piece is left out.
+        let Some(corners) = piece.free() else { continue };
+        class.triangles.push(corners);
+        class.w.push(piece.w);
+        class.values.push(piece.triangle.vertices.map_array(|vertex| vertex.varying.x));
+        faces.push(piece.face);
+    }
+    // Without texture coordinates values are made up.
+    if class.values.iter().flatten().all(|value| *value == 0.0) {
+        class.values.clear();
+    }
+    (class, faces)
 }
 
 /// Puts triangles of a model in place of those of a class.
 fn rename(found: &mut Details, faces: &[u32]) {
     let face = |number: u32| faces[number as usize];
     found.first = found.first.map(|(of, pixel)| (of.map(face), pixel));
-    found.wrong.iter_mut().for_each(|(pair, _)| *pair = pair.map_array(face));
+    for (pair, _) in &mut found.wrong {
+        *pair = pair.map_array(face);
+    }
+    // Pieces of one triangle that were wrong each for itself are now one pair.
     merge(&mut found.wrong);
 }
 
@@ -203,28 +223,25 @@ const CHUNK: usize = 256;
 /// Both groups of coverage: all pieces against the oracle, as they are and snapped; times of a sample, in the same rounds.
 fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
     let window = sampled.window;
+    // Pieces are judged in chunks on all threads, before anything is timed.
     let chunks: Vec<&[Piece]> =
         sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
     let (plural, unit) = (sampled.counted(), sampled.unit());
-    let measure = |(corners, short)| {
-        let title = format!("wrong {plural}, corners {corners}");
-        Measure::new(title, format!("{unit} {short}"), Some(0.0)).counts(unit)
-    };
-    let measures = [("as they are", "as given"), ("snapped", "snapped")].map(measure);
+    let measures =
+        [("as they are", "as given"), ("snapped", "snapped")].map_array(|(corners, short)| {
+            let title = format!("wrong {plural}, corners {corners}");
+            Measure::new(title, format!("{unit} {short}"), Some(0.0)).counts(unit)
+        });
     let to_time = coverage::Input::new(class(sample.of(&sampled.planes[0]), window).0);
-    let group = |ladder: Ladder| {
+    let mut groups = Vec::new();
+    for ladder in [Ladder::Scanline, Ladder::EdgeFunction] {
+        // Of each chunk what each choice of the group gets wrong.
         let of_chunks =
             parallel::map(chunks.len(), |number| judged(ladder, chunks[number], window));
         let cell = |(number, entry): (usize, &Entry<coverage::Input>)| {
-            let mut found = Details::default();
-            for chunk in &of_chunks {
-                let Details { pixels, first, wrong, .. } = &chunk[number].as_ref()?.found;
-                found.pixels = [0, 1].map_array(|i| found.pixels[i] + pixels[i]);
-                found.first = found.first.or(first.map(|(of, sample)| (of, sampled.pixel(sample))));
-                found.wrong.extend(wrong);
-            }
-            merge(&mut found.wrong);
+            let mut found = sum_of_chunks(&of_chunks, number, sampled)?;
             found.bytes = Some(bytes(&entry.choice, window, sample.pieces.part));
+            // Only where a choice computes E in floats without more ado does the bound of its error say how close it was.
             let unit = match (ladder, &*entry.choice.name) {
                 (Ladder::EdgeFunction, "f32 direct") => Some(f64::from(f32::EPSILON) / 2.0),
                 (Ladder::EdgeFunction, "f64 direct") => Some(f64::EPSILON / 2.0),
@@ -234,9 +251,26 @@ fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Bo
             let errors = found.pixels.map(|pixels| Some(pixels as f64)).to_vec();
             Ok((Run { errors, found, ..Run::default() }, Some(entry.pass(&to_time)?)))
         };
-        group(ladder, &measures, coverage::choices(ladder), cell)
-    };
-    boards([Ladder::Scanline, Ladder::EdgeFunction].map(group), sample.sampling(), timing)
+        groups.push(group(ladder, &measures, coverage::choices(ladder), cell));
+    }
+    boards(groups, sample.sampling(), timing)
+}
+
+/// What one choice gets wrong of all chunks, whose pieces are judged as samples and told as pixels of the picture.
+fn sum_of_chunks(
+    of_chunks: &[Vec<Result<Run, String>>],
+    choice: usize,
+    sampled: &Sampled,
+) -> Result<Details, String> {
+    let mut sum = Details::default();
+    for chunk in of_chunks {
+        let Details { pixels, first, wrong, .. } = &chunk[choice].as_ref()?.found;
+        sum.pixels = [sum.pixels[0] + pixels[0], sum.pixels[1] + pixels[1]];
+        sum.first = sum.first.or(first.map(|(of, sample)| (of, sampled.pixel(sample))));
+        sum.wrong.extend(wrong);
+    }
+    merge(&mut sum.wrong);
+    Ok(sum)
 }
 
 /// What each choice of a group gets wrong of some pieces.
@@ -259,53 +293,65 @@ fn judged(ladder: Ladder, pieces: &[Piece], window: PixelRect) -> Vec<Result<Run
 /// inside, by the nearest of all.
 fn margin(chunks: &[&[Piece]], window: PixelRect, u: f64) -> f64 {
     let of_chunks = parallel::map(chunks.len(), |number| {
-        let each = chunks[number].iter().map(|piece| margin_of(piece.px, window, u));
-        each.fold(f64::INFINITY, f64::min)
+        let mut smallest = f64::INFINITY;
+        for piece in chunks[number] {
+            smallest = smallest.min(margin_of(piece.px, window, u));
+        }
+        smallest
     });
     of_chunks.into_iter().fold(f64::INFINITY, f64::min)
 }
 
+/// E at a point p for the edge from a to b, and the bound of its error that [`margin`] derives.
+fn edge_function([a, b]: [[f64; 2]; 2], p: [f64; 2], u: f64) -> (f64, f64) {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let (qx, qy) = (p[0] - a[0], p[1] - a[1]);
+    // What a difference of two corners is off by, and one of a point and a corner: a point is a centre, which floats hold exactly.
+    let of_edge = |i: usize, d: f64| u * (a[i].abs() + b[i].abs() + d.abs());
+    let of_point = |i: usize, q: f64| u * (a[i].abs() + q.abs());
+    let products = dx.abs() * of_point(1, qy)
+        + qy.abs() * of_edge(0, dx)
+        + dy.abs() * of_point(0, qx)
+        + qx.abs() * of_edge(1, dy);
+    let (p, q) = (dx * qy, dy * qx);
+    let bound = products + u * (p.abs() + q.abs() + (p - q).abs());
+    // For products of errors.
+    ((p - q), bound * 1.001)
+}
+
+/// The pixels from half a pixel before three corners to half a pixel behind them on one axis, within a window.
+fn pixels_around(corners: [f64; 3], low: i32, high: i32) -> std::ops::Range<i32> {
+    let [a, b, c] = corners;
+    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+    let first = (least - 0.5).floor().max(f64::from(low)) as i32;
+    let end = (most + 0.5).ceil().min(f64::from(high)) as i32;
+    first..end
+}
+
+/// The same of one triangle.
 fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
     let [a, b, c] = px;
     let edges = [[b, c], [c, a], [a, b]];
-    let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
-        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let (qx, qy) = (p[0] - a[0], p[1] - a[1]);
-        let error = |i: usize, d: f64| u * (a[i].abs() + b[i].abs() + d.abs());
-        let from = |i: usize, q: f64| u * (a[i].abs() + q.abs());
-        let products = dx.abs() * from(1, qy)
-            + qy.abs() * error(0, dx)
-            + dy.abs() * from(0, qx)
-            + qx.abs() * error(1, dy);
-        let (p, q) = (dx * qy, dy * qx);
-        let bound = products + u * (p.abs() + q.abs() + (p - q).abs());
-        // For products of errors.
-        ((p - q), bound * 1.001)
-    };
-    let area = side([a, b], c).0;
+    let (area, _) = edge_function([a, b], c, u);
+    // E is positive inside where the corners run one way, and negative where they run the other.
     let sign = if area < 0.0 { -1.0 } else { 1.0 };
-    let range = |i: usize, low: i32, high: i32| {
-        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-        let first = (least - 0.5).floor().max(f64::from(low)) as i32;
-        let end = (most + 0.5).ceil().min(f64::from(high)) as i32;
-        first..end
-    };
     let mut smallest = f64::INFINITY;
-    for y in range(1, window.y0, window.y1) {
-        for x in range(0, window.x0, window.x1) {
+    for y in pixels_around(px.map_array(|corner| corner[1]), window.y0, window.y1) {
+        for x in pixels_around(px.map_array(|corner| corner[0]), window.x0, window.x1) {
             let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
             let mut inside = f64::INFINITY;
-            let mut outside: f64 = 0.0;
+            let mut outside: Option<f64> = None;
             for edge in edges {
-                let (value, bound) = side(edge, p);
+                let (value, bound) = edge_function(edge, p, u);
                 let margin = value.abs() / bound;
-                match value * sign > 0.0 {
-                    true => inside = inside.min(margin),
-                    false => outside = outside.max(margin),
+                if value * sign > 0.0 {
+                    inside = inside.min(margin);
+                } else {
+                    outside = Some(outside.unwrap_or(0.0).max(margin));
                 }
             }
-            let is_inside = edges.iter().all(|edge| side(*edge, p).0 * sign > 0.0);
-            smallest = smallest.min(if is_inside { inside } else { outside });
+            // One edge that the point is outside of suffices, so the clearest of these decides.
+            smallest = smallest.min(outside.unwrap_or(inside));
         }
     }
     smallest
@@ -318,7 +364,9 @@ fn interpolation_board(
     timing: Timing,
 ) -> Vec<Board> {
     use interpolation::{HALF_STEP, SAMPLES, choices, input};
+    // Every choice is judged by the same pieces, which all of them can draw.
     let taken: Vec<Piece> = pieces.iter().filter(|piece| has_values(piece)).cloned().collect();
+    // Three inputs of the same choices: one to judge, one to time, and one of hard cases to judge closely.
     let sample = Sample::new(&taken, window, TIMED_PX / 4);
     let judged = input(&class(&taken, window).0, SAMPLES);
     let to_time = input(&class(sample.of(&taken), window).0, 0);
@@ -368,59 +416,77 @@ fn antialiasing_board((pieces, window): (&[Piece], PixelRect), timing: Timing) -
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
 fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
-    let (window, pieces) = (sampled.window, &*sampled.planes[0]);
-    let truths =
-        parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
-    let row = |format: DepthFormat| {
-        let (about, of_depth) = match format {
-            DepthFormat::Unorm32 => ("2^32 equal steps", size_of::<u32>()),
-            DepthFormat::Unorm24 => ("2^24 equal steps, as most hardware", size_of::<u32>()),
-            DepthFormat::F32 => ("a float, 0 at the near plane", size_of::<f32>()),
-            DepthFormat::F32Reversed => ("a float, 1 at the near plane", size_of::<f32>()),
-            DepthFormat::F64 => ("a double", size_of::<f64>()),
-        };
-        // A depth as the format has it, and the number of a piece.
-        let of_pixel = (of_depth + size_of::<u32>()) * sampled.planes.len();
-        let choice = Choice::new(format.name(), about, &[]).holding(of_pixel, 0);
-        let mut found = Details { bytes: Some(bytes(&choice, window, 0)), ..Details::default() };
-        for (pieces, truth) in sampled.planes.iter().zip(&truths) {
-            let face = |number: u32| pieces.get(number as usize).map(|piece| piece.face);
-            let seen = seen(pieces, window, format, &mut (0..pieces.len()));
-            for (y, row) in seen.rows() {
-                let both = row.iter().zip(truth.row(y));
-                for (x, (&seen, &exact)) in (window.x0..).zip(both) {
-                    if seen != exact {
-                        let (seen, exact) = (face(seen), face(exact));
-                        let pair = exact.or(seen).zip(seen.or(exact));
-                        let pixel = sampled.pixel([x, y]);
-                        found.first = found.first.or(Some((exact.or(seen), pixel)));
-                        found.wrong.extend(pair.map(|(exact, seen)| ([exact, seen], 1)));
-                    }
-                }
-            }
-        }
+    let planes = &sampled.planes;
+    let truths = parallel::map(planes.len(), |plane| exactly_seen(&planes[plane], sampled.window));
+    let (mut choices, mut cells) = (Vec::new(), Vec::new());
+    for format in DepthFormat::ALL {
+        let choice = depth_choice(format, planes.len());
+        let mut found = wrongly_seen(sampled, &truths, format);
+        found.bytes = Some(bytes(&choice, sampled.window, 0));
         let errors = vec![Some(found.wrong.len() as f64)];
+        // Until here each pair stands for one pixel.
         merge(&mut found.wrong);
         let pass = Pass::new(move || {
             let mut timed = sample.numbers.iter().copied();
-            std::hint::black_box(seen(pieces, window, format, &mut timed));
+            std::hint::black_box(seen(&planes[0], sampled.window, format, &mut timed));
         });
-        (choice, Ok((Run { errors, found, ..Run::default() }, Some(pass))))
-    };
+        choices.push(choice);
+        cells.push(Ok((Run { errors, found, ..Run::default() }, Some(pass))));
+    }
     let (plural, unit) = (sampled.counted(), sampled.unit());
     let title = format!("{plural} that show another piece than exact depths do");
     let measures = vec![Measure::new(title, format!("wrong {unit}"), Some(0.0)).counts(unit)];
-    let (choices, cells) = DepthFormat::ALL.into_iter().map(row).unzip();
     let board = Board::new(Ladder::Depth, 0, measures, choices);
     boards([(board, cells)], sample.sampling(), timing)
 }
 
+/// A format of the depth buffer as a choice, for so many samples in each pixel.
+fn depth_choice(format: DepthFormat, samples: usize) -> Choice {
+    let (about, of_depth) = match format {
+        DepthFormat::Unorm32 => ("2^32 equal steps", size_of::<u32>()),
+        DepthFormat::Unorm24 => ("2^24 equal steps, as most hardware", size_of::<u32>()),
+        DepthFormat::F32 => ("a float, 0 at the near plane", size_of::<f32>()),
+        DepthFormat::F32Reversed => ("a float, 1 at the near plane", size_of::<f32>()),
+        DepthFormat::F64 => ("a double", size_of::<f64>()),
+    };
+    // A depth as the format has it, and the number of a piece.
+    let of_pixel = (of_depth + size_of::<u32>()) * samples;
+    Choice::new(format.name(), about, &[]).holding(of_pixel, 0)
+}
+
+/// The samples at which a format shows another piece than exact depths do, a pair for each.
+fn wrongly_seen(sampled: &Sampled, truths: &[Frame<u32>], format: DepthFormat) -> Details {
+    let window = sampled.window;
+    let mut found = Details::default();
+    for (pieces, truth) in sampled.planes.iter().zip(truths) {
+        let face = |number: u32| pieces.get(number as usize).map(|piece| piece.face);
+        let seen = seen(pieces, window, format, &mut (0..pieces.len()));
+        for (y, row) in seen.rows() {
+            for (x, (&seen, &exact)) in (window.x0..).zip(row.iter().zip(truth.row(y))) {
+                if seen == exact {
+                    continue;
+                }
+                // Where one of them is none, the pair is twice the other.
+                let (seen, exact) = (face(seen), face(exact));
+                let pixel = sampled.pixel([x, y]);
+                found.first = found.first.or(Some((exact.or(seen), pixel)));
+                if let (Some(exact), Some(seen)) = (exact.or(seen), seen.or(exact)) {
+                    found.wrong.push(([exact, seen], 1));
+                }
+            }
+        }
+    }
+    found
+}
+
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
 pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
+    // For each pixel the depth of the piece that is the nearest so far, by how much it may be off, and which piece it is.
     let mut nearest = Frame::new(window, f64::INFINITY);
     let mut error = Frame::new(window, 0.0);
     let mut seen = Frame::new(window, NOTHING);
     for (number, piece) in pieces.iter().enumerate() {
+        // The depths of the engine, which are within this bound of the exact ones.
         let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);
         let bound = SCANLINE.depth.at(depths);
         Scanline.runs(&piece.depth_only(), window, true, &mut |run| {
@@ -428,6 +494,7 @@ pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
                 let at = |frame: &Frame<f64>| frame.get(x, run.y_px).unwrap_or(f64::INFINITY);
                 let (old, reach) = (at(&nearest), bound + at(&error));
                 let before = seen.get(x, run.y_px).unwrap_or(NOTHING);
+                // Two depths that are farther apart than both bounds are told apart by floats, any others exactly.
                 let is_nearer = match (depth - old).abs() <= reach && before != NOTHING {
                     false => depth < old,
                     true => is_nearer(piece, &pieces[before as usize], x, run.y_px),
@@ -457,24 +524,21 @@ fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
 fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Board>, BadScene> {
     let (size, antialias) = (target.size(), target.antialias());
     let target = RefCell::new(target);
+    // The first frame of the first rasterizer, by which all others are judged.
     let mut first: Option<Frame<Colour>> = None;
-    let mut run = |picture: Frame<Colour>, bytes: Option<u64>| {
-        let wrong: Vec<_> =
-            differing(&picture, first.get_or_insert_with(|| picture.clone()), 0).collect();
-        let at = wrong.first().map(|&(x, y)| (None, [x, y]));
-        let found = Details { first: at, bytes, ..Details::default() };
-        Run { errors: vec![Some(wrong.len() as f64)], found, ..Run::default() }
-    };
-    let mut rows: Vec<(Choice, PreparedCell<'_>)> = Vec::new();
+    let (mut choices, mut cells): (Vec<Choice>, Vec<PreparedCell<'_>>) = Default::default();
     for drawer in Drawer::ALL {
         for (name, effects, about) in PLANS {
             let rendered = drawer.render(scene, &effects, &mut target.borrow_mut())?;
             let bytes = memory_of_frame(&rendered, scene, &target.borrow());
             let choice = Choice::new(format!("{} {name}", drawer.name()), about, &[]);
-            let pass = frame_pass((scene, drawer), effects, &target);
-            rows.push((choice, Ok((run(rendered.picture, Some(bytes)), Some(pass)))));
+            let first = first.get_or_insert_with(|| rendered.picture.clone());
+            let run = judged_frame(&rendered.picture, first, Some(bytes));
+            choices.push(choice);
+            cells.push(Ok((run, Some(frame_pass((scene, drawer), effects, &target)))));
         }
     }
+    // Tiles have their own samples: with none that are the target's they are left out.
     let samples = match antialias {
         Antialias::None => Some(frames::Samples::One),
         Antialias::Multisample4 => Some(frames::Samples::Four),
@@ -483,15 +547,16 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Bo
     let (width, height) = (size.width(), size.height());
     // What tiles would draw otherwise, or not alone, is no choice.
     let is_the_same = frames::beyond_f32(scene, width, height)? == 0;
-    if let Some(samples) = samples.filter(|_| is_the_same) {
+    if let (Some(samples), Some(first), true) = (samples, &first, is_the_same) {
         match frames::render(scene, width, height, samples) {
             Ok(picture) => {
                 let about = "coverage exact, values in f32; the time of all its threads together";
                 let pass = Pass::new(move || {
                     std::hint::black_box(frames::render(scene, width, height, samples).is_ok());
                 });
-                let cell = (run(picture, None), Some(pass.by(Clock::Threads)));
-                rows.push((Choice::new("tiles", about, &[]), Ok(cell)));
+                choices.push(Choice::new("tiles", about, &[]));
+                let run = judged_frame(&picture, first, None);
+                cells.push(Ok((run, Some(pass.by(Clock::Threads)))));
             }
             Err(TilesError::NotDrawn(_)) => {}
             Err(TilesError::Scene(bad)) => return Err(bad),
@@ -501,13 +566,21 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Vec<Bo
     let measures = vec![Measure::new(title, "wrong px", Some(0.0))];
     let (pixels, items) = (Part::all(pixels(size)), Part::all(scene.triangles() as u64));
     let sampling = Sampling { items, pixels, judged: pixels, looked_at: None, not_judged: 0 };
-    let (choices, cells) = rows.into_iter().unzip();
     let board = Board::new(Ladder::Frames, 0, measures, choices);
     Ok(boards([(board, cells)], sampling, timing))
 }
 
-/// The most memory of a frame, from the sizes of what it holds: colour and key of each sample, the picture and a copy of it where there is a second buffer, what is noted
-/// for each pixel while samples are told apart, positions in clip space, and pieces where all of them are listed.
+/// In how many pixels a picture differs from the one by which all are judged, and the first of them.
+fn judged_frame(picture: &Frame<Colour>, truth: &Frame<Colour>, bytes: Option<u64>) -> Run {
+    let wrong: Vec<_> = differing(picture, truth, 0).collect();
+    let first = wrong.first().map(|&(x, y)| (None, [x, y]));
+    let found = Details { first, bytes, ..Details::default() };
+    Run { errors: vec![Some(wrong.len() as f64)], found, ..Run::default() }
+}
+
+/// The most memory of a frame, from the sizes of what it holds: colour and key of each sample, the picture and a copy of it
+/// where there is a second buffer, what is noted for each pixel while samples are told apart, positions in clip space, and
+/// pieces where all of them are listed.
 fn memory_of_frame(rendered: &Rendered, scene: &Scene, target: &Target) -> u64 {
     let plan = &rendered.plan;
     let of_colour = size_of::<Colour>();
@@ -529,6 +602,7 @@ fn memory_of_frame(rendered: &Rendered, scene: &Scene, target: &Target) -> u64 {
         + pictures * of_colour
         + shading
         + on_demand;
+    // What does not depend on the size of the picture.
     let positions: usize = scene.items.iter().map(|item| item.mesh.positions.len()).sum();
     let is_listed = plan.items.iter().any(|item| matches!(item.pieces, Pieces::Listed(_)));
     let listed = if is_listed { scene.triangles() } else { 0 };

@@ -27,6 +27,7 @@ rasterproof_core::named! {
     }
 }
 
+/// What was found of an effect in a view.
 #[derive(Clone, Debug)]
 pub struct Need {
     pub effect: Effect,
@@ -61,6 +62,7 @@ pub enum Adds {
 }
 
 impl Need {
+    /// What changes pixels is called for, also where the plan leaves it out, since the plan of an item may leave it out in others.
     #[must_use]
     pub fn state(&self) -> State {
         match (self.is_paid_for, self.wrong) {
@@ -104,6 +106,7 @@ pub struct Fineness {
     pub far: Vec<(&'static str, u64)>,
 }
 
+/// What was found of all effects, and of the textures.
 #[derive(Clone, Debug)]
 pub struct Needs {
     pub needs: Vec<Need>,
@@ -128,6 +131,7 @@ pub fn survey(
     target: &mut Target,
     timing: Timing,
 ) -> Result<Needs, BadScene> {
+    // One rasterizer suffices: both engines draw the same picture and count the same work.
     let drawer = Drawer::Scanline;
     let names = names(scene, origins);
     let items = seen_items(pieces, seen);
@@ -135,11 +139,14 @@ pub fn survey(
     let mut needs = Vec::new();
     for effect in Effect::ALL {
         let without = drawer.render_without(scene, effect, target)?;
-        let decisions = rendered.plan.decisions.iter().filter(|d| d.effect == effect);
+        // What the plan says of this effect: why, and for which items it is on, or decided while they are drawn.
         let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
         let mut called = vec![false; scene.items.len()];
         let mut is_paid_for = false;
-        for decision in decisions {
+        for decision in &rendered.plan.decisions {
+            if decision.effect != effect {
+                continue;
+            }
             let is_on = decision.on + decision.open > 0;
             is_paid_for |= is_on;
             *reasons.entry(decision.reason.clone()).or_default() += 1;
@@ -152,26 +159,12 @@ pub fn survey(
         }
         // Interpolation has no map: those of its attributes show it.
         let is_of_pixels = effect.map_colour().is_some() || effect == Effect::Interpolation;
-        let mut by_material: BTreeMap<&str, u64> = BTreeMap::new();
-        for (item, _) in called.iter().enumerate().filter(|(_, is)| **is) {
-            by_material.entry(&names[item]).or_default();
-        }
-        let mut pixels = 0;
-        for (y, row) in map.effects.rows() {
-            for (bits, item) in row.iter().zip(items.row(y)) {
-                if bits & (1 << effect as u32) != 0 {
-                    pixels += 1;
-                    if let Some(name) = names.get(*item as usize)
-                        && let Some(count) = by_material.get_mut(name.as_str())
-                    {
-                        *count += 1;
-                    }
-                }
-            }
-        }
-        let mut materials: Vec<(String, u64)> =
-            by_material.into_iter().map(|(name, pixels)| (name.to_owned(), pixels)).collect();
-        materials.sort_by_key(|(_, pixels)| std::cmp::Reverse(*pixels));
+        let (materials, pixels) = paying_materials(&names, &called, &items, &map.effects, effect);
+        // What it would do the other way round: a frame without it, or one with it everywhere.
+        let other = match is_paid_for {
+            true => without.counters,
+            false => drawer.render(scene, &otherwise(effect, false), target)?.counters,
+        };
         needs.push(Need {
             effect,
             materials,
@@ -179,36 +172,73 @@ pub fn survey(
             reasons: reasons.into_iter().collect(),
             pixels: is_of_pixels.then_some(pixels),
             wrong: differing(&without.picture, &rendered.picture, 0).count() as u64,
-            work: {
-                let other = match is_paid_for {
-                    true => without.counters,
-                    false => drawer.render(scene, &otherwise(effect, false), target)?.counters,
-                };
-                effect.calls(&rendered.counters).abs_diff(effect.calls(&other))
-            },
+            work: effect.calls(&rendered.counters).abs_diff(effect.calls(&other)),
             otherwise: None,
             draws_less: visible(&without.counters) < visible(&rendered.counters),
         });
     }
+    // All frames are timed in the same rounds, so that what changes on the machine changes all of them.
     let planned = set_times(scene, &mut needs, target, timing);
     let mut found = Needs { needs, planned, textures: Vec::new(), antialiasing: Vec::new() };
     found.textures = textures(scene, &names, pieces, seen);
+    // More samples are tried only where a texture is so fine that one sample for each pixel misses some of it.
     if found.textures.iter().any(|texture| texture.texels > FINE) {
         antialias(scene, &names, (&items, &mut found), target, timing)?;
     }
     Ok(found)
 }
 
-/// The name of each item's material, or what stands for it.
-fn names(scene: &Scene, origins: &[Origin]) -> Vec<String> {
-    let name = |item: usize| match origins.get(item) {
-        Some(origin) if !origin.material.is_empty() => origin.material.clone(),
-        Some(_) => "faces without a material".to_owned(),
-        None => format!("item {item}"),
-    };
-    (0..scene.items.len()).map(name).collect()
+/// The materials of the items that an effect is called for, each with the pixels where it is seen and pays, most pixels first;
+/// and all pixels that pay, which may show other materials besides.
+fn paying_materials(
+    names: &[String],
+    called: &[bool],
+    items: &Frame<u32>,
+    effects: &Frame<u32>,
+    effect: Effect,
+) -> (Vec<(String, u64)>, u64) {
+    let mut by_material: BTreeMap<&str, u64> = BTreeMap::new();
+    for (name, is_called) in names.iter().zip(called) {
+        if *is_called {
+            by_material.entry(name).or_default();
+        }
+    }
+    let mut pixels = 0;
+    for (y, row) in effects.rows() {
+        for (bits, item) in row.iter().zip(items.row(y)) {
+            if bits & (1 << effect as u32) == 0 {
+                continue;
+            }
+            pixels += 1;
+            if let Some(name) = names.get(*item as usize)
+                && let Some(count) = by_material.get_mut(name.as_str())
+            {
+                *count += 1;
+            }
+        }
+    }
+    let mut materials = Vec::new();
+    for (name, pixels) in by_material {
+        materials.push((name.to_owned(), pixels));
+    }
+    materials.sort_by_key(|(_, pixels)| std::cmp::Reverse(*pixels));
+    (materials, pixels)
 }
 
+/// The name of each item's material, or what stands for it.
+fn names(scene: &Scene, origins: &[Origin]) -> Vec<String> {
+    let mut names = Vec::with_capacity(scene.items.len());
+    for item in 0..scene.items.len() {
+        names.push(match origins.get(item) {
+            Some(origin) if !origin.material.is_empty() => origin.material.clone(),
+            Some(_) => "faces without a material".to_owned(),
+            None => format!("item {item}"),
+        });
+    }
+    names
+}
+
+/// The item that is seen at each pixel, by the piece that is.
 fn seen_items(pieces: &[Piece], seen: &Frame<u32>) -> Frame<u32> {
     let mut items = Frame::new(seen.bounds(), NOTHING);
     for (y, row) in seen.rows() {
@@ -227,11 +257,13 @@ pub(crate) fn differing<'a>(
 ) -> impl Iterator<Item = (i32, i32)> + 'a {
     let x0 = a.bounds().x0;
     a.rows().flat_map(move |(y, row)| {
-        let pairs = (x0..).zip(row.iter().zip(b.row(y)));
-        let far = pairs
-            .filter(move |(_, (a, b))| a.iter().zip(b.iter()).any(|(a, b)| a.abs_diff(*b) > steps));
-        far.map(move |(x, _)| (x, y))
+        let pixels = (x0..).zip(row.iter().zip(b.row(y)));
+        pixels.filter_map(move |(x, (a, b))| is_far(*a, *b, steps).then_some((x, y)))
     })
+}
+
+fn is_far(a: Colour, b: Colour, steps: u8) -> bool {
+    a.into_iter().zip(b).any(|(a, b)| a.abs_diff(b) > steps)
 }
 
 /// Fragments that passed the depth test.
@@ -272,10 +304,13 @@ fn over_first(mut passes: Vec<Pass<'_>>, timing: Timing) -> Vec<Times> {
 /// Times the planned frame, and those in which one effect is switched over that makes a difference in work.
 fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Times {
     let mut working: Vec<&mut Need> = needs.iter_mut().filter(|need| need.work > 0).collect();
-    let others = working.iter().map(|need| otherwise(need.effect, need.is_paid_for));
+    // The planned frame is the first one, with which all others are compared.
     let target = RefCell::new(target);
-    let pass = |effects| frame_pass((scene, Drawer::Scanline), effects, &target);
-    let passes = std::iter::once(Effects::PLANNED).chain(others).map(pass).collect();
+    let mut passes = vec![frame_pass((scene, Drawer::Scanline), Effects::PLANNED, &target)];
+    for need in &working {
+        let effects = otherwise(need.effect, need.is_paid_for);
+        passes.push(frame_pass((scene, Drawer::Scanline), effects, &target));
+    }
     let mut times = over_first(passes, timing).into_iter();
     let planned = times.next().expect("the planned frame is timed");
     for (need, times) in working.iter_mut().zip(times) {
@@ -284,35 +319,44 @@ fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Tim
     planned
 }
 
+/// Twice the area of a triangle.
+fn doubled_area([a, b, c]: [DVec2; 3]) -> f64 {
+    (b - a).perp_dot(c - a).abs()
+}
+
 /// How many texels of each textured material lie along the side of a pixel.
 fn textures(scene: &Scene, names: &[String], pieces: &[Piece], seen: &Frame<u32>) -> Vec<Fineness> {
+    // Of a textured piece its item, and the root of how many texels there are to a pixel, by the areas of both triangles.
     let mut of_pieces: Vec<Option<(usize, f64)>> = vec![None; pieces.len()];
     for (of, piece) in of_pieces.iter_mut().zip(pieces) {
         let item = piece.item as usize;
         let Some(texture) = &scene.items[item].material.texture else { continue };
         let (width, height) = texture.size();
         let size = DVec2::new(width.into(), height.into());
-        let texels = piece.triangle.vertices.map(|vertex| vertex.varying * size);
-        let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a).abs();
-        let of_pixels = area(piece.px.map(DVec2::from));
+        let texels = doubled_area(piece.triangle.vertices.map(|vertex| vertex.varying * size));
+        let of_pixels = doubled_area(piece.px.map(DVec2::from));
         if of_pixels > 0.0 {
-            *of = Some((item, (area(texels) / of_pixels).sqrt()));
+            *of = Some((item, (texels / of_pixels).sqrt()));
         }
     }
+    // A number for each pixel, so that the median is that of what is seen.
     let mut by_material: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (_, row) in seen.rows() {
-        for (item, texels) in row.iter().filter_map(|seen| *of_pieces.get(*seen as usize)?) {
-            by_material.entry(&names[item]).or_default().push(texels);
+        for seen in row {
+            if let Some(Some((item, texels))) = of_pieces.get(*seen as usize) {
+                by_material.entry(&names[*item]).or_default().push(*texels);
+            }
         }
     }
-    let fineness = |(name, mut all): (&str, Vec<f64>)| {
+    let mut textures = Vec::new();
+    for (name, mut all) in by_material {
         let middle = all.len() / 2;
         let (_, median, _) = all.select_nth_unstable_by(middle, f64::total_cmp);
         let texels = *median;
         let (material, pixels) = (name.to_owned(), all.len() as u64);
-        Fineness { material, pixels, texels, far: Vec::new() }
-    };
-    by_material.into_iter().map(fineness).collect()
+        textures.push(Fineness { material, pixels, texels, far: Vec::new() });
+    }
+    textures
 }
 
 /// Draws the scene with more and more samples, and counts for each fine texture the pixels that are far from 64.
@@ -345,11 +389,15 @@ fn antialias(
     let targets: Vec<_> = targets.iter_mut().map(RefCell::new).collect();
     let pass = |target| frame_pass((scene, Drawer::Scanline), Effects::PLANNED, target);
     let times = over_first(targets.iter().map(pass).collect(), timing);
-    let ratios =
-        ALL.iter().zip(&times).filter_map(|((name, _), time)| Some((*name, time.over(&times[0])?)));
-    found.antialiasing.extend(ratios);
+    for ((name, _), time) in ALL.iter().zip(&times) {
+        if let Some(ratio) = time.over(&times[0]) {
+            found.antialiasing.push((name, ratio));
+        }
+    }
+    // The picture with the most samples is the one that all others are compared with.
     let Some((_, finest)) = pictures.pop() else { return Ok(()) };
     for (name, picture) in &pictures {
+        // Pixels are counted by the material that is seen at their centres.
         let mut far: BTreeMap<&str, u64> = BTreeMap::new();
         for (x, y) in differing(picture, &finest, FAR) {
             if let Some(of) = items.get(x, y).and_then(|item| names.get(item as usize)) {

@@ -15,35 +15,42 @@ const MOST_TRIANGLES: usize = 1 << 24;
 /// where no such surface is seen.
 #[must_use]
 pub fn share_of_backs(scene: &Scene) -> Option<f64> {
-    let is_asked = |item: &Item| {
-        let is_lit = item.material.shading != Shading::Unlit;
-        is_lit && !item.two_sided && item.cull == Cull::None
-    };
-    if !scene.items.iter().any(is_asked) || scene.triangles() > MOST_TRIANGLES {
+    if !scene.items.iter().any(may_show_back) || scene.triangles() > MOST_TRIANGLES {
         return None;
     }
-    let painted = |item: &Item, colour: DVec3, cull: Cull| Item {
-        material: Material { colour, ..Material::default() },
-        cull,
-        ..item.clone()
-    };
     // Fronts are red and backs are green. What is lit from both sides hides them and counts as neither.
-    let sides = |item: &Item| match is_asked(item) {
-        true => vec![
-            painted(item, DVec3::X, Cull::Clockwise),
-            painted(item, DVec3::Y, Cull::CounterClockwise),
-        ],
-        false => vec![painted(item, DVec3::Z, item.cull)],
-    };
-    let mut painted = scene.clone();
-    painted.items = scene.items.iter().flat_map(sides).collect();
-    (painted.fog, painted.shadows, painted.layers) = (None, None, None);
-    painted.background = [0, 0, 0, u8::MAX];
-    let frame = frames::render(&painted, SIDE_PX, SIDE_PX, Samples::One).ok()?;
-    let count = |channel: usize| {
-        let rows = frame.rows().map(|(_, row)| row.iter().filter(|colour| colour[channel] > 0));
-        rows.map(Iterator::count).sum::<usize>() as f64
-    };
-    let (fronts, backs) = (count(0), count(1));
+    let mut sides = scene.clone();
+    sides.items.clear();
+    for item in &scene.items {
+        if may_show_back(item) {
+            sides.items.push(painted(item, DVec3::X, Cull::Clockwise));
+            sides.items.push(painted(item, DVec3::Y, Cull::CounterClockwise));
+        } else {
+            sides.items.push(painted(item, DVec3::Z, item.cull));
+        }
+    }
+    // Nothing may mix with the two colours, which are counted.
+    (sides.fog, sides.shadows, sides.layers) = (None, None, None);
+    sides.background = [0, 0, 0, u8::MAX];
+    let frame = frames::render(&sides, SIDE_PX, SIDE_PX, Samples::One).ok()?;
+    let (mut fronts, mut backs) = (0u32, 0u32);
+    for (_, row) in frame.rows() {
+        for [red, green, ..] in row {
+            fronts += u32::from(*red > 0);
+            backs += u32::from(*green > 0);
+        }
+    }
+    let (fronts, backs) = (f64::from(fronts), f64::from(backs));
     (fronts + backs > 0.0).then(|| backs / (fronts + backs))
+}
+
+/// Whether an item shows its back lit by the normals of the front.
+fn may_show_back(item: &Item) -> bool {
+    item.material.shading != Shading::Unlit && !item.two_sided && item.cull == Cull::None
+}
+
+/// An item in one colour, without light.
+fn painted(item: &Item, colour: DVec3, cull: Cull) -> Item {
+    let material = Material { colour, ..Material::default() };
+    Item { material, cull, ..item.clone() }
 }

@@ -59,30 +59,30 @@ pub fn cells(scene: &Scene, window: PixelRect, grid: CornerGrid) -> Result<Cells
     if scene.shadows.is_some() {
         return refused("a shadow map", "leave out --shadows");
     }
-    let is_gouraud = |item: &Item| item.material.shading == Shading::Gouraud;
-    if scene.items.iter().any(is_gouraud) {
+    if scene.items.iter().any(|item| item.material.shading == Shading::Gouraud) {
         return refused("light of corners", "choose --shading flat or phong");
     }
     let mut cells = Scene { items: Vec::with_capacity(scene.items.len()), ..scene.clone() };
     let (mut disagreeing, mut count) = (0, 0);
     for (index, item) in scene.items.iter().enumerate() {
         let mut builder = Builder::new(scene, item, window);
-        let cut = |cut: Cut<'_, DVec3>| {
+        // Each part of a triangle becomes the cells of the pixels that both exact engines find in it.
+        let mut cut = |cut: Cut<'_, DVec3>| {
             let corners = grid.place(cut.px);
             let winding = grid.winding(cut.px);
             let Ok(free) = FreeCorners::new(corners) else { return };
             if winding == 0.0 || grid.is_removed(item.cull, cut.px) || count > MOST_CELLS {
                 return;
             }
-            let pixels = pixels(&ScanlineExact, &free, window);
-            let other = self::pixels(&EdgeFunctionExact, &free, window);
+            let pixels = covered_pixels(&ScanlineExact, &free, window);
+            let other = covered_pixels(&EdgeFunctionExact, &free, window);
             disagreeing += without(&pixels, &other) + without(&other, &pixels);
             count += pixels.len() as u64;
             for pixel in pixels {
                 builder.add(&cut, corners, winding, pixel);
             }
         };
-        let mut cut = cut;
+        // The shares of the three corners, by which all that a corner has is mixed.
         let varying = |_: &Corner, i: usize| DVec3::AXES[i];
         each_cut(scene, index, window, varying, &mut cut).map_err(|error| error.to_string())?;
         cells.items.push(builder.item());
@@ -97,10 +97,17 @@ pub fn cells(scene: &Scene, window: PixelRect, grid: CornerGrid) -> Result<Cells
     Ok(Cells { scene: cells, disagreeing })
 }
 
-fn pixels(engine: &impl RasterizeExact, corners: &FreeCorners, window: PixelRect) -> Vec<[i32; 2]> {
+/// The pixels that an engine covers, from the top left.
+fn covered_pixels(
+    engine: &impl RasterizeExact,
+    corners: &FreeCorners,
+    window: PixelRect,
+) -> Vec<[i32; 2]> {
     let mut pixels = Vec::new();
     engine.cover_exact(corners, window, |span| {
-        pixels.extend((span.x0_px..span.x1_px).map(|x| [x, span.y_px]));
+        for x in span.x0_px..span.x1_px {
+            pixels.push([x, span.y_px]);
+        }
     });
     pixels.sort_unstable_by_key(|[x, y]| [*y, *x]);
     pixels
@@ -111,10 +118,11 @@ fn without(some: &[[i32; 2]], others: &[[i32; 2]]) -> u64 {
     if some == others {
         return 0;
     }
-    let is_other = |[x, y]: &[i32; 2]| {
-        others.binary_search_by(|other| [other[1], other[0]].cmp(&[*y, *x])).is_err()
-    };
-    some.iter().filter(|pixel| is_other(pixel)).count() as u64
+    let mut count = 0;
+    for [x, y] in some {
+        count += u64::from(others.binary_search_by_key(&[*y, *x], |[x, y]| [*y, *x]).is_err());
+    }
+    count
 }
 
 /// The cells of an item on the way.
@@ -133,6 +141,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// Without cells yet.
     fn new(scene: &Scene, item: &'a Item, window: PixelRect) -> Self {
         Self {
             item,
@@ -150,6 +159,7 @@ impl<'a> Builder<'a> {
     /// Adds the cell of a pixel that a part of a triangle covers, whose corners on the grid are given with a number of the sign of their
     /// area.
     fn add(&mut self, cut: &Cut<'_, DVec3>, corners: [[f64; 2]; 3], winding: f64, pixel: [i32; 2]) {
+        // The largest reach whose corners all lie in front of the eye; a cell without any is not drawn.
         let centre = pixel.map_array(|px| f64::from(px) + 0.5);
         // A cell is seen from the side that its triangle is seen from.
         let order = if winding > 0.0 { [0, 1, 2] } else { [0, 2, 1] };
@@ -161,6 +171,7 @@ impl<'a> Builder<'a> {
             Some([at(0)?, at(1)?, at(2)?])
         });
         let Some(cell) = cell else { return };
+        // The way of the pipeline backwards: from the window to clip space, times w, and from there to the object.
         let [width, height] = self.size;
         for Value { px: [x, y], depth, w, .. } in cell {
             let clip =
@@ -168,22 +179,24 @@ impl<'a> Builder<'a> {
             let position = self.back * (clip * w);
             self.positions.push(position.truncate() / position.w);
         }
+        // What a corner of the cell has is mixed from the corners of the triangle by their shares there.
         let mesh = &self.item.mesh;
         let shares = cell.map_array(|value| value.varying.to_array());
         let of = cut.corners;
-        self.colours.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.colour))));
+        self.colours.push(mixed(shares, of.map_array(|of| of.colour)));
         let normals = match self.item.material.shading {
             Shading::Flat => [mesh.face_normal(of.map_array(|of| of.position)); 3],
             _ => of.map_array(|of| of.normal),
         };
-        self.normals.push(shares.map_array(|shares| mix(shares, normals)));
-        self.uvs.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.uv))));
+        self.normals.push(mixed(shares, normals));
+        self.uvs.push(mixed(shares, of.map_array(|of| of.uv)));
         let (tangents, uvs) =
             (mesh.triangles.tangents(cut.number), mesh.triangles.second_uvs(cut.number));
-        self.tangents.push(shares.map_array(|shares| mix(shares, tangents)));
-        self.second_uvs.push(shares.map_array(|shares| mix(shares, uvs)));
+        self.tangents.push(mixed(shares, tangents));
+        self.second_uvs.push(mixed(shares, uvs));
     }
 
+    /// The item with its cells in place of its triangles: three corners of their own for each.
     fn item(self) -> Item {
         let Self { item, positions, colours, normals, tangents, uvs, second_uvs, .. } = self;
         let numbers = (0..positions.len() as u32).collect();
@@ -219,6 +232,7 @@ pub(crate) struct Value<V> {
 impl<V: Varying> Value<V> {
     /// The value at a place of a part whose corners lie elsewhere than its vertices; nothing where it lies behind the eye.
     pub fn at(px: [f64; 2], triangle: &ScreenTriangle<V>, corners: [[f64; 2]; 3]) -> Option<Self> {
+        // The areas opposite to the corners are their shares in the window; divided by w they are those in space.
         let [a, b, c] = corners;
         let parts = [product(b, c, px), product(c, a, px), product(a, b, px)];
         let all = parts[0] + parts[1] + parts[2];
@@ -246,11 +260,12 @@ fn product(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     ax.mul_add(by, -second) + rounded
 }
 
-fn mix<V>([p, q, r]: [f64; 3], [a, b, c]: [V; 3]) -> V
+/// For each corner of a cell the sum of three values by their shares there.
+fn mixed<V>(shares: [[f64; 3]; 3], [a, b, c]: [V; 3]) -> [V; 3]
 where
-    V: std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
+    V: Copy + std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
 {
-    a * p + b * q + c * r
+    shares.map_array(|[p, q, r]| a * p + b * q + c * r)
 }
 
 /// What a grid changes in a view, and how long the coverage of all triangles takes on it.
@@ -271,6 +286,7 @@ pub struct GridPrice {
 pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<GridPrice>, BadScene> {
     let (mut prices, mut outlines) = (Vec::new(), Vec::new());
     let mut unsnapped: Option<Frame<u32>> = None;
+    // From the finest grid to the coarsest: the first one does not snap, and all others are compared with it.
     for grid in CornerGrid::ALL.into_iter().rev() {
         let (pieces, _) = pieces_and_lost(scene, window, grid)?;
         let seen = seen(&pieces, window, grid);
@@ -291,6 +307,7 @@ pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<Gri
     // The pixels that were covered, so that no pass is left out as idle.
     let covered = Cell::new(0);
     let add = |pixels: usize| covered.set(covered.get() + pixels);
+    // Two passes for each grid, whose times come back in this order. None is compared with another one: medians are enough.
     let mut passes = Vec::new();
     for outlines in &outlines {
         passes.push(Pass::new(move || add(outlines.covered(&Scanline, &ScanlineExact, window))));
@@ -301,7 +318,8 @@ pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<Gri
     let timing = Timing { rounds: Some(rounds.max(1)), ..Timing::USUAL };
     let times = compare(&mut passes, timing, &[], &|_| ());
     for (price, times) in prices.iter_mut().zip(times.chunks(2)) {
-        [price.scanline_ms, price.edge_function_ms] = [0, 1].map(|at| times[at].median() / 1e6);
+        price.scanline_ms = times[0].median() / 1e6;
+        price.edge_function_ms = times[1].median() / 1e6;
     }
     std::hint::black_box(covered.get());
     prices.reverse();
@@ -315,6 +333,7 @@ enum Outlines {
 }
 
 impl Outlines {
+    /// A piece that a grid puts beyond the domain of the engines is left out, as the engines leave it out.
     fn new(pieces: &[Piece], grid: CornerGrid) -> Self {
         let (mut whole, mut free) = (Vec::new(), Vec::new());
         for piece in pieces {

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
@@ -60,6 +60,7 @@ rasterproof_core::named! {
 }
 
 impl Kind {
+    /// What it means for whoever draws the model, and what is seen of it.
     pub fn about(self) -> &'static str {
         match self {
             Self::NoArea => "corners on one line: not drawn; who divides by the area divides by 0",
@@ -100,6 +101,7 @@ impl Kind {
         }
     }
 
+    /// Its place in a set of kinds, which is a number of 32 bits.
     fn bit(self) -> u32 {
         1 << self as u16
     }
@@ -109,6 +111,7 @@ impl Kind {
 const OF_TRIANGLES: [Kind; 5] =
     [Kind::Sliver, Kind::Concave, Kind::WideW, Kind::SinglePrecision, Kind::FarTexture];
 
+/// All that a scene has of one kind.
 #[derive(Clone, Debug)]
 pub struct HardCase {
     pub kind: Kind,
@@ -153,6 +156,7 @@ impl HardCases {
         self.cases.iter().filter(|case| case.in_view > 0)
     }
 
+    /// What was found of a kind; none where it does not occur.
     #[must_use]
     pub fn of(&self, kind: Kind) -> Option<&HardCase> {
         self.cases.iter().find(|case| case.kind == kind)
@@ -161,19 +165,24 @@ impl HardCases {
     /// Whether a hard case is seen in a pixel.
     #[must_use]
     pub fn touches(&self, x_px: i32, y_px: i32) -> bool {
-        self.touched.get(x_px, y_px).is_some_and(|bits| bits != 0)
+        self.touched.get(x_px, y_px).unwrap_or(0) != 0
     }
 
     /// Whether a triangle has a part in a hard case of any kind.
     #[must_use]
     pub fn is_hard(&self, triangle: u32) -> bool {
-        self.marks.get(triangle as usize).is_some_and(|marks| *marks != 0)
+        self.marks_of(triangle) != 0
     }
 
     /// Whether a triangle has a part in a hard case of a kind.
     #[must_use]
     pub fn is(&self, triangle: u32, kind: Kind) -> bool {
-        self.marks.get(triangle as usize).is_some_and(|marks| marks & kind.bit() != 0)
+        self.marks_of(triangle) & kind.bit() != 0
+    }
+
+    /// The kinds of a triangle as bits; none beyond the last one.
+    fn marks_of(&self, triangle: u32) -> u32 {
+        self.marks.get(triangle as usize).copied().unwrap_or(0)
     }
 }
 
@@ -190,21 +199,26 @@ pub fn find(
 ) -> Result<HardCases, BadScene> {
     let pieces = sampled.at_centres();
     let window = target.size();
-    let planes = sampled.planes.iter();
-    let planes = planes.map(|pieces| Surfaces::of(scene, pieces, sampled.window));
+    let mut surfaces = Vec::with_capacity(sampled.planes.len());
+    for pieces in &sampled.planes {
+        surfaces.push(Surfaces::of(scene, pieces, sampled.window));
+    }
     let mut search = Search {
         scene,
         origins,
         pieces,
         sampled,
-        surfaces: planes.collect(),
+        surfaces,
         marks: vec![0; scene.triangles()],
         is_seen: vec![false; scene.triangles()],
         seen_at: Frame::new(window, NOTHING),
         touched: Frame::new(window, 0),
         found: Vec::new(),
     };
+    // What the mesh shows wherever it is seen from takes about as long as what this view shows, so both are looked for at once.
+    // Edges and faces are noted after that, since they need the shape as well as what is seen.
     let drawn = || {
+        // The first step finds out which triangles are seen, which the steps after it use.
         let classes = search.look();
         search.samples_on_edges();
         search.broken();
@@ -223,15 +237,17 @@ pub fn find(
     search.pairs(&shape, origins);
     search.lines(&shape);
     search.gaps(&shape, target)?;
+    // No step touches a pixel after this, so that the pixels of each kind can be counted.
     let Search { marks, mut found, touched, .. } = search;
     for case in &mut found {
-        let pixels = touched.rows().flat_map(|(_, row)| row);
-        case.pixels = pixels.filter(|&&bits| bits & case.kind.bit() != 0).count() as u64;
+        case.pixels = pixels_of(&touched, case.kind);
     }
     found.sort_by_key(|case| case.kind);
-    let all_w = || pieces.iter().flat_map(|piece| piece.w);
-    let w = (!pieces.is_empty())
-        .then(|| [all_w().fold(f64::MAX, f64::min), all_w().fold(0.0, f64::max)]);
+    let mut w: Option<[f64; 2]> = None;
+    for of_corner in pieces.iter().flat_map(|piece| piece.w) {
+        let [least, most] = w.unwrap_or([f64::MAX, 0.0]);
+        w = Some([least.min(of_corner), most.max(of_corner)]);
+    }
     let is_cut_short = shape.is_cut_short;
     Ok(HardCases {
         cases: found,
@@ -246,6 +262,23 @@ pub fn find(
     })
 }
 
+/// In how many pixels a kind is seen.
+fn pixels_of(touched: &Frame<u32>, kind: Kind) -> u64 {
+    let mut count = 0;
+    for (_, row) in touched.rows() {
+        for bits in row {
+            count += u64::from(bits & kind.bit() != 0);
+        }
+    }
+    count
+}
+
+/// Marks a pixel, in which some kinds are seen, given as bits.
+fn touch(touched: &mut Frame<u32>, [x, y]: [i32; 2], bits: u32) {
+    touched.span_mut(y, x, x + 1)[0] |= bits;
+}
+
+/// A picture of a scene, with every effect where the plan finds it necessary.
 fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
     Ok(Drawer::Scanline.render(scene, &Effects::PLANNED, target)?.picture)
 }
@@ -262,18 +295,33 @@ fn turned(scene: &Scene) -> Scene {
     turned
 }
 
+/// Of pixels, those in which two scenes still have different colours.
+fn still_differing(
+    pixels: &[(i32, i32)],
+    scenes: [&Scene; 2],
+    target: &mut Target,
+) -> Result<Vec<(i32, i32)>, BadScene> {
+    let [a, b] = [draw(scenes[0], target)?, draw(scenes[1], target)?];
+    let differs = |&(x, y): &(i32, i32)| a.get(x, y) != b.get(x, y);
+    Ok(pixels.iter().copied().filter(differs).collect())
+}
+
 /// Samples of what blends up to which a scene is drawn with layers, which are 48 bytes each.
 const MOST_BLENDED: u64 = 1 << 22;
 
 /// Layers that are enough for most scenes.
 const LAYERS: Option<NonZeroU32> = NonZeroU32::new(64);
 
+/// The search for hard cases on its way.
 struct Search<'a> {
     scene: &'a Scene,
     origins: &'a [Origin],
+    /// The pieces at the centres of pixels.
     pieces: &'a [Piece],
     sampled: &'a Sampled,
+    /// What is seen at the samples of each plane.
     surfaces: Vec<Surfaces<'a>>,
+    /// For each triangle which kinds it is of, and for each pixel which are seen there, as bits.
     marks: Vec<u32>,
     /// For each triangle whether it is seen at a sample.
     is_seen: Vec<bool>,
@@ -283,6 +331,7 @@ struct Search<'a> {
     found: Vec<HardCase>,
 }
 
+/// A hard case on the way: how many were counted, and triangles to show.
 struct Noted {
     kind: Kind,
     count: u64,
@@ -311,6 +360,7 @@ impl Noted {
 }
 
 impl Search<'_> {
+    /// Adds a kind to those that were found, unless none was counted. The triangles to show are those that are seen, if any are.
     fn note(&mut self, noted: Noted, note: String) {
         let Noted { kind, count, in_view, first: [hidden, seen] } = noted;
         let triangles = if in_view > 0 { seen } else { hidden };
@@ -330,8 +380,9 @@ impl Search<'_> {
 
     /// Notes triangles with how bad each is, in any order; `note` gets that of the worst one.
     fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
+        // The sort is stable: of equally bad ones the first in drawing order stays in front.
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let worst = found.first().map_or(0.0, |(worst, _)| *worst);
+        let (worst, _) = found.first().copied().unwrap_or_default();
         let all = &mut found.iter().map(|(_, triangle)| *triangle);
         self.note_triangles(kind, all, note(&short(worst)));
     }
@@ -343,6 +394,7 @@ impl Search<'_> {
         for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
             surfaces.seen(&mut |sample, [piece, front], class| {
                 let pixel @ [x, y] = self.sampled.pixel(sample);
+                // Both may be the same one; the other one of a pair that competes counts as seen, too.
                 let [piece, front] = [piece, front].map_array(|one| pieces[one as usize].face);
                 classes.add(TiedPair { pixel, triangles: [front, piece] }, class);
                 self.is_seen[piece as usize] = true;
@@ -351,12 +403,13 @@ impl Search<'_> {
                     for triangle in [front, piece] {
                         self.marks[triangle as usize] |= Kind::Rounding.bit();
                     }
-                    self.touched.span_mut(y, x, x + 1)[0] |= Kind::Rounding.bit();
+                    touch(&mut self.touched, pixel, Kind::Rounding.bit());
                 }
             });
         }
         let classes = classes.counted();
         if let Some(TiedPair { pixel: [x, y], triangles }) = classes.first {
+            // Pixels are counted, and not the pairs that compete in them.
             noted.add(&mut self.marks, &triangles, true);
             (noted.count, noted.in_view) = (classes.by_rounding, classes.by_rounding);
             self.note(noted, format!("the first at {x},{y}"));
@@ -364,20 +417,27 @@ impl Search<'_> {
         classes
     }
 
+    /// Notes what single triangles and faces are, and marks the pixels in which such triangles are seen.
     fn triangles(&mut self, shape: &Shape, origins: &[Origin]) {
         // What has no area is drawn nowhere.
         let mut noted = Noted::new(Kind::NoArea);
-        shape.no_area.iter().for_each(|one| noted.add(&mut self.marks, &[*one], false));
+        for triangle in &shape.no_area {
+            noted.add(&mut self.marks, &[*triangle], false);
+        }
         self.note(noted, String::new());
         let worst = shape.slivers.first().map_or(SLIVER, |(aspect, _)| *aspect);
         let note = format!("the longest one is {} times as long as high", short(worst));
         self.note_triangles(Kind::Sliver, &mut shape.slivers.iter().map(|(_, one)| *one), note);
+        // Readers say which triangles of an item a concave face was cut into; here they are numbered in the scene.
         let mut concave = Vec::new();
         let mut first = 0;
         for (item, origin) in self.scene.items.iter().zip(origins) {
-            concave.extend(origin.concave.iter().map(|number| first + number));
+            for number in &origin.concave {
+                concave.push(first + number);
+            }
             first += item.mesh.triangles.len() as u32;
         }
+        // The triangles of one face are one case, and stand side by side.
         let mut noted = Noted::new(Kind::Concave);
         let face = |triangle: &u32| shape.face_of[*triangle as usize];
         for of_face in concave.chunk_by(|a, b| face(a) == face(b)) {
@@ -389,15 +449,15 @@ impl Search<'_> {
         let bits = OF_TRIANGLES.iter().fold(0, |bits, kind| bits | kind.bit());
         for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
             surfaces.seen(&mut |sample, [piece, _], _| {
-                let [x, y] = self.sampled.pixel(sample);
                 let marks = self.marks[pieces[piece as usize].face as usize];
-                self.touched.span_mut(y, x, x + 1)[0] |= marks & bits;
+                touch(&mut self.touched, self.sampled.pixel(sample), marks & bits);
             });
         }
     }
 
     /// Notes pairs of faces, which are seen where both compete for a sample.
     fn pairs(&mut self, shape: &Shape, origins: &[Origin]) {
+        // First which pairs compete anywhere: by order, by rounding or with equal depths.
         let kinds = [(Kind::Duplicate, &shape.duplicates), (Kind::Overlap, &shape.overlaps)];
         let mut is_seen = kinds.map(|(_, pairs)| vec![false; pairs.len()]);
         for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
@@ -406,29 +466,35 @@ impl Search<'_> {
                     return;
                 }
                 let face = |piece: u32| shape.face_of[pieces[piece as usize].face as usize];
+                // As the shape lists it: the later face first.
                 let pair = [face(piece).max(face(front)), face(piece).min(face(front))];
-                let [x, y] = self.sampled.pixel(sample);
                 for ((kind, pairs), is_seen) in kinds.iter().zip(&mut is_seen) {
                     if let Ok(place) = pairs.binary_search(&pair) {
                         is_seen[place] = true;
-                        self.touched.span_mut(y, x, x + 1)[0] |= kind.bit();
+                        touch(&mut self.touched, self.sampled.pixel(sample), kind.bit());
                     }
                 }
             });
         }
         for ((kind, pairs), is_seen) in kinds.into_iter().zip(&is_seen) {
+            // Then a note about the first pair that is seen, or about the first one of all.
             let what = if kind == Kind::Duplicate { "has the corners of" } else { "overlaps" };
             let first = is_seen.iter().position(|is| *is).unwrap_or(0);
-            let note = pairs.get(first).map_or(String::new(), |[_, other]| {
-                format!("it {what} face {}", face_of(self.scene, origins, *other))
-            });
+            let mut note = String::new();
+            if let Some([_, other]) = pairs.get(first) {
+                note = format!("it {what} face {}", face_of(self.scene, origins, *other));
+            }
             let mut noted = Noted::new(kind);
             for (pair, is_seen) in pairs.iter().zip(is_seen) {
+                // The earlier one of duplicates is a face as good as any other.
                 let of = if kind == Kind::Duplicate { &pair[..1] } else { &pair[..] };
                 for face in of {
-                    let rest = shape.face_of[*face as usize..].iter();
-                    let last = *face + rest.take_while(|of| *of == face).count() as u32;
-                    (*face..last).for_each(|one| self.marks[one as usize] |= kind.bit());
+                    // A face is named by its first triangle, and its others follow.
+                    let mut triangle = *face as usize;
+                    while shape.face_of.get(triangle) == Some(face) {
+                        self.marks[triangle] |= kind.bit();
+                        triangle += 1;
+                    }
                 }
                 noted.add(&mut self.marks, of, *is_seen);
             }
@@ -441,6 +507,7 @@ impl Search<'_> {
         let most = shape.crowded.first().map_or(0, |edge| edge.triangles.len());
         let crowded = format!("the most crowded one has {most}");
         let near = format!("at most {:.1e} apart", shape.near_apart);
+        // An edge has no pixels of its own, so it is drawn as a line, and seen where one of its triangles is seen beside it.
         let place = Place::new(self.scene, self.sampled.size);
         for (kind, edges, note) in [
             (Kind::TJunction, &shape.t_junctions, String::new()),
@@ -452,16 +519,15 @@ impl Search<'_> {
             let is_a_place = [Kind::TJunction, Kind::Near].contains(&kind);
             let mut noted = Noted::new(kind);
             for edge in edges {
+                // An edge outside of the window has no line, and is counted as not seen.
                 let mut in_view = false;
                 if let Some(line) = place.line(edge) {
                     Bresenham.draw(&line, self.sampled.size, |f| {
-                        let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [dx, dy]));
-                        let mut seen = beside
-                            .filter_map(|[dx, dy]| self.seen_at.get(f.x_px + dx, f.y_px + dy));
-                        if seen.any(|triangle| edge.triangles.contains(&triangle)) {
+                        let pixel = [f.x_px, f.y_px];
+                        if is_seen_beside(&self.seen_at, pixel, &edge.triangles) {
                             in_view = true;
-                            let bit = if is_a_place { 0 } else { kind.bit() };
-                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= bit;
+                            let bits = if is_a_place { 0 } else { kind.bit() };
+                            touch(&mut self.touched, pixel, bits);
                         }
                     });
                 }
@@ -495,6 +561,7 @@ impl Search<'_> {
         if gaps.is_empty() {
             return Ok(in_view);
         }
+        // A scene of the triangles that close all gaps, with the gap of each.
         let corner = |position| Corner {
             position,
             colour: DVec3::ONE,
@@ -511,11 +578,13 @@ impl Search<'_> {
                 of.push(number);
             }
         }
+        // Seen by the same camera, it has pieces at the same samples as the scene.
         let mesh = Mesh { positions: positions.into(), triangles: triangles.into_iter().collect() };
         let mut closing = self.scene.clone();
         let model = Place::new(self.scene, self.sampled.size).model;
         closing.items = vec![Item { model, ..Item::new(mesh, Material::default()) }];
         let closing = Sampled::of(&closing, target)?;
+        // Planes of samples correspond, so what would close a gap is compared with what is seen at the same samples.
         for (surfaces, pieces) in self.surfaces.iter().zip(&closing.planes) {
             let of_piece = |piece: &Piece| of[piece.face as usize];
             for gap in pieces.chunk_by(|a, b| of_piece(a) == of_piece(b)) {
@@ -524,18 +593,19 @@ impl Search<'_> {
                     Scanline.cover(piece.corners(), closing.window, |span| {
                         for x in span.x0_px..span.x1_px {
                             let sample = [x, span.y_px];
+                            // Open is where nothing is seen, or only what certainly lies behind.
                             let before = surfaces.before(piece, sample);
                             let is_open = before.is_none_or(|[by, off]| by < -off);
                             samples.push((sample, is_open));
                         }
                     });
                 }
+                // A sample outside of the polygon is covered by an even number of its triangles.
                 samples.sort_unstable();
                 for same in samples.chunk_by(|a, b| a.0 == b.0) {
                     if same.len() % 2 == 1 && same.iter().all(|(_, is_open)| *is_open) {
                         in_view[of_piece(&gap[0])] = true;
-                        let [x, y] = self.sampled.pixel(same[0].0);
-                        self.touched.span_mut(y, x, x + 1)[0] |= kind.bit();
+                        touch(&mut self.touched, self.sampled.pixel(same[0].0), kind.bit());
                     }
                 }
             }
@@ -553,8 +623,7 @@ impl Search<'_> {
                     let is_seen = before.is_none_or(|[by, off]| by <= off);
                     noted.add(&mut self.marks, &[piece.face], is_seen);
                     if is_seen {
-                        let [x, y] = self.sampled.pixel([x, y]);
-                        self.touched.span_mut(y, x, x + 1)[0] |= Kind::OnEdge.bit();
+                        touch(&mut self.touched, self.sampled.pixel([x, y]), Kind::OnEdge.bit());
                     }
                 });
             }
@@ -564,37 +633,40 @@ impl Search<'_> {
 
     /// Cracks and folds that snapping makes, seen where nothing that hides them lies in front.
     fn broken(&mut self) {
-        let mut all = [(Kind::Crack, true), (Kind::Fold, false)]
-            .map(|(kind, is_crack)| (Noted::new(kind), is_crack, None));
+        // Of each kind what is counted, and a note about the first one that is seen.
+        let mut all = [Kind::Crack, Kind::Fold].map_array(|kind| (Noted::new(kind), String::new()));
         for (surfaces, lost) in self.surfaces.iter().zip(&self.sampled.lost) {
             for broken in snapping::broken(self.scene, surfaces, lost, self.sampled.grid) {
-                let pixel @ [x, y] = self.sampled.pixel(broken.sample);
+                let (noted, note) = &mut all[usize::from(!broken.is_crack)];
                 let faces: Vec<u32> = broken.pieces.iter().map(|piece| piece.face).collect();
-                let Some((noted, _, first)) =
-                    all.iter_mut().find(|(_, is_crack, _)| *is_crack == broken.is_crack)
-                else {
-                    continue;
-                };
                 noted.add(&mut self.marks, &faces, broken.is_seen);
                 if broken.is_seen {
-                    self.touched.span_mut(y, x, x + 1)[0] |= noted.kind.bit();
-                    first.get_or_insert((pixel, faces));
+                    let pixel @ [x, y] = self.sampled.pixel(broken.sample);
+                    touch(&mut self.touched, pixel, noted.kind.bit());
+                    if note.is_empty() {
+                        *note = format!("the first at {x},{y}, of faces {}", self.faces(&faces));
+                    }
                 }
             }
         }
-        for (noted, _, first) in all {
-            let note = first.map_or(String::new(), |([x, y], faces)| {
-                let faces = faces.iter().take(3);
-                let faces = faces.map(|face| face_of(self.scene, self.origins, *face).to_string());
-                format!("the first at {x},{y}, of faces {}", faces.collect::<Vec<_>>().join(", "))
-            });
+        for (noted, note) in all {
             self.note(noted, note);
         }
+    }
+
+    /// The faces of the first three triangles of a list, by their numbers.
+    fn faces(&self, triangles: &[u32]) -> String {
+        let mut names = Vec::new();
+        for triangle in triangles.iter().take(3) {
+            names.push(face_of(self.scene, self.origins, *triangle).to_string());
+        }
+        names.join(", ")
     }
 
     /// Triangles that snapping turns over or flattens.
     fn turned(&mut self) {
         let mut noted = Noted::new(Kind::Turned);
+        // Triangles are counted at pixel centres, whatever samples the picture has.
         let mut flat = 0;
         let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
         for (piece, change) in snapping::turned(pieces, lost, self.sampled.grid) {
@@ -605,14 +677,18 @@ impl Search<'_> {
         self.note(noted, note);
     }
 
+    /// Pieces in which w varies so much that 1/w in single precision may be a visible step off.
     fn wide_w(&mut self) {
-        let ratio = |piece: &Piece| {
+        let mut wide: Vec<(f64, u32)> = Vec::new();
+        for piece in self.pieces {
             let [a, b, c] = piece.w;
-            a.max(b).max(c) / a.min(b).min(c)
-        };
-        let wide = self.pieces.iter().map(|p| (ratio(p), p.face)).filter(|(r, _)| *r > WIDE_W);
+            let ratio = a.max(b).max(c) / a.min(b).min(c);
+            if ratio > WIDE_W {
+                wide.push((ratio, piece.face));
+            }
+        }
         let note = |worst: &str| format!("the widest one has a ratio of {worst}");
-        self.note_worst(Kind::WideW, wide.collect(), note);
+        self.note_worst(Kind::WideW, wide, note);
     }
 
     /// Triangles of textured materials with a coordinate whose rounding to f32 may be half a texel.
@@ -625,12 +701,13 @@ impl Search<'_> {
                 continue;
             };
             let (width, height) = texture.size();
-            let texels = |uv: glam::DVec2| {
-                (uv.x.abs() * f64::from(width)).max(uv.y.abs() * f64::from(height))
-            };
             for triangle in item.mesh.triangles.iter() {
-                let [a, b, c] = triangle.map_array(|corner| texels(corner.uv));
-                let largest = a.max(b).max(c);
+                let mut largest: f64 = 0.0;
+                for corner in &triangle {
+                    let [u, v] = corner.uv.abs().to_array();
+                    largest = largest.max(u * f64::from(width)).max(v * f64::from(height));
+                }
+                // From here on, floats of 24 bits are a whole texel apart.
                 if largest >= f64::from(1 << 23) {
                     far.push((largest, face));
                 }
@@ -648,6 +725,7 @@ impl Search<'_> {
         picture: &Frame<Colour>,
         target: &mut Target,
     ) -> Result<(), BadScene> {
+        // Where the order does not matter, both pictures have the same colour.
         let mut other = turned(self.scene);
         let turned = draw(&other, target)?;
         let mut pixels: Vec<_> = differing(picture, &turned, 0).collect();
@@ -655,11 +733,7 @@ impl Search<'_> {
         if pixels.is_empty() {
             return Ok(());
         }
-        let differs = |scene: &Scene, other: &Scene, target: &mut Target| {
-            let [a, b] = [draw(scene, target)?, draw(other, target)?];
-            let differs = |&&(x, y): &&(i32, i32)| a.get(x, y) != b.get(x, y);
-            Ok(pixels.iter().filter(differs).copied().collect::<Vec<_>>())
-        };
+        // Layers mix what blends by depth: the pixels that no longer differ did so by blending.
         let mut scene = self.scene.clone();
         let mut left = pixels.clone();
         let blended = Work::of(self.scene, self.sampled.window).blended;
@@ -672,44 +746,54 @@ impl Search<'_> {
                     scene.items.retain(|item| !blends(item));
                 }
             }
-            left = differs(&scene, &other, target)?;
+            left = still_differing(&pixels, [&scene, &other], target)?;
         }
-        let blending = pixels.len() - left.len();
+        // In f64, depths are equal only where the surfaces are: the others are equal in the format of the target alone.
         let format = std::mem::replace(&mut target.format, DepthFormat::F64);
-        let exact = differs(&scene, &other, target);
+        let exact = still_differing(&left, [&scene, &other], target);
         target.format = format;
-        let equal = exact?.into_iter().filter(|pixel| left.binary_search(pixel).is_ok());
         // What snapping folds is no fault of the model.
-        let is_fold = |&(x, y): &(i32, i32)| {
-            self.touched.get(x, y).is_some_and(|bits| bits & Kind::Fold.bit() != 0)
+        let (mut folds, mut equal) = (0, 0);
+        for (x, y) in exact? {
+            let bits = self.touched.get(x, y).unwrap_or_default();
+            if bits & Kind::Fold.bit() != 0 {
+                folds += 1;
+            } else {
+                equal += 1;
+            }
+        }
+        let mut causes = Vec::new();
+        let mut add = |count: usize, why: &str| {
+            if count > 0 {
+                causes.push(format!("{count} px {why}"));
+            }
         };
-        let (folds, equal): (Vec<_>, Vec<_>) = equal.partition(is_fold);
-        let (folds, equal) = (folds.len(), equal.len());
-        let in_format = left.len() - equal - folds;
-        let name = format.name();
-        let causes = [
-            (blending, "by blending: --layers mixes by depth".to_owned()),
-            (folds, "where snapping folds a surface: see folds by snapping".to_owned()),
-            (equal, "by equal depths: faces in one place, to be mended in the model".to_owned()),
-            (
-                in_format,
-                format!("by depths that are equal in {name}: --depth f64 tells them apart"),
-            ),
-        ];
-        let causes = causes.into_iter().filter(|(count, _)| *count > 0);
-        let causes: Vec<_> = causes.map(|(count, why)| format!("{count} px {why}")).collect();
+        let in_format =
+            format!("by depths that are equal in {}: --depth f64 tells them apart", format.name());
+        add(pixels.len() - left.len(), "by blending: --layers mixes by depth");
+        add(folds, "where snapping folds a surface: see folds by snapping");
+        add(equal, "by equal depths: faces in one place, to be mended in the model");
+        add(left.len() - equal - folds, &in_format);
+        self.note_order(&pixels, causes.join("; "));
+        Ok(())
+    }
+
+    /// Notes the pixels that the order of drawing changes, with the triangles that are seen there.
+    fn note_order(&mut self, pixels: &[(i32, i32)], note: String) {
         let mut faces = Vec::new();
-        for &(x, y) in &pixels {
-            self.touched.span_mut(y, x, x + 1)[0] |= Kind::Order.bit();
+        for &(x, y) in pixels {
+            touch(&mut self.touched, [x, y], Kind::Order.bit());
             faces.extend(self.seen_at.get(x, y).filter(|face| *face != NOTHING));
         }
         faces.sort_unstable();
         faces.dedup();
         let mut noted = Noted::new(Kind::Order);
-        faces.iter().for_each(|face| noted.add(&mut self.marks, &[*face], true));
+        for face in faces {
+            noted.add(&mut self.marks, &[face], true);
+        }
+        // Pixels are counted, and not triangles.
         (noted.count, noted.in_view) = (pixels.len() as u64, pixels.len() as u64);
-        self.note(noted, causes.join("; "));
-        Ok(())
+        self.note(noted, note);
     }
 
     /// Triangles of which a corner moves by more than a subpixel when positions are rounded to f32; returns how many
@@ -719,14 +803,16 @@ impl Search<'_> {
         picture: &Frame<Colour>,
         target: &mut Target,
     ) -> Result<u64, BadScene> {
+        // Meshes that f32 holds as they are keep their memory.
         let mut rounded = self.scene.clone();
         let mut is_rounded = false;
         for item in &mut rounded.items {
             let exact = |p: &DVec3| p.as_vec3().as_dvec3() == *p;
             if !item.mesh.positions.iter().all(exact) {
                 let mut mesh = Mesh::clone(&item.mesh);
-                let positions = Arc::make_mut(&mut mesh.positions);
-                positions.iter_mut().for_each(|p| *p = p.as_vec3().as_dvec3());
+                for position in Arc::make_mut(&mut mesh.positions) {
+                    *position = position.as_vec3().as_dvec3();
+                }
                 item.mesh = mesh.into();
                 is_rounded = true;
             }
@@ -734,6 +820,7 @@ impl Search<'_> {
         if !is_rounded {
             return Ok(0);
         }
+        // The pieces of both scenes are in drawing order, so that those of one triangle are found side by side.
         let moved = pieces(&rounded, self.sampled.size)?;
         let mut after = moved.as_slice();
         let mut far: Vec<(f64, u32)> = Vec::new();
@@ -742,15 +829,17 @@ impl Search<'_> {
             after = &after[after.partition_point(|piece| piece.face < face)..];
             // Cut in another number of pieces, or gone: nothing to measure.
             let now = &after[..after.partition_point(|piece| piece.face == face)];
-            if now.len() == before.len() {
-                let pairs = before.iter().zip(now);
-                let corners = pairs.flat_map(|(a, b)| a.px.into_iter().zip(b.px));
-                let most = corners.fold(0f64, |most, ([ax, ay], [bx, by])| {
-                    most.max((ax - bx).abs()).max((ay - by).abs())
-                });
-                if most * f64::from(SUBPIXELS) > 1.0 {
-                    far.push((most, face));
+            if now.len() != before.len() {
+                continue;
+            }
+            let mut most: f64 = 0.0;
+            for (before, now) in before.iter().zip(now) {
+                for ([ax, ay], [bx, by]) in before.px.into_iter().zip(now.px) {
+                    most = most.max((ax - bx).abs()).max((ay - by).abs());
                 }
+            }
+            if most * f64::from(SUBPIXELS) > 1.0 {
+                far.push((most, face));
             }
         }
         let note = |worst: &str| format!("the farthest corner moves by {worst} px");
@@ -768,7 +857,9 @@ struct Place {
 }
 
 impl Place {
+    /// For points as the shape of the scene has them.
     fn new(scene: &Scene, window: PixelRect) -> Self {
+        // The shape has points of the world only where items are moved differently.
         let mut models = scene.items.iter().map(|item| item.model);
         let first = models.next().unwrap_or(DMat4::IDENTITY);
         let model = if models.all(|model| model == first) { first } else { DMat4::IDENTITY };
@@ -778,11 +869,10 @@ impl Place {
 
     /// The part of an edge that is in the window.
     fn line(&self, edge: &Edge) -> Option<ScreenLine<f64>> {
-        let vertex = |point: DVec3| {
-            let position = self.matrix * point.extend(1.0);
-            ClipVertex { position, varying: 0.0 }
-        };
-        let [a, b] = edge.ends.map_array(vertex);
+        let [a, b] = edge.ends.map_array(|point| ClipVertex {
+            position: self.matrix * point.extend(1.0),
+            varying: 0.0,
+        });
         if !a.position.is_finite() || !b.position.is_finite() {
             return None;
         }
@@ -792,16 +882,45 @@ impl Place {
         }
         // A triangle with two corners in one place is cut as its edge is.
         let (polygon, _) = clip(&[a, b, b], outside_a | outside_b);
-        let pixel = |sub: i32| sub.div_euclid(SUBPIXELS);
-        let placed = polygon.vertices().filter_map(|vertex| self.viewport.place(vertex).ok());
-        let pixels = placed.map(|at| [pixel(at.position.x), pixel(at.position.y)]);
-        let (least, most) = pixels.fold((None, None), |(least, most), at| {
-            (Some(at).min(least.or(Some(at))), Some(at).max(most))
+        // Its vertices lie on one line, so the first and the last pixel by x, then y, are its ends.
+        let mut ends: Option<[[i32; 2]; 2]> = None;
+        for vertex in polygon.vertices() {
+            let Ok(at) = self.viewport.place(vertex) else { continue };
+            let pixel = [at.position.x, at.position.y].map_array(|sub| sub.div_euclid(SUBPIXELS));
+            let [least, most] = ends.unwrap_or([pixel; 2]);
+            ends = Some([least.min(pixel), most.max(pixel)]);
+        }
+        let ends = ends?.map_array(|[x, y]| LineEnd {
+            pixel: PixelPoint::new(x, y),
+            depth: 0.0,
+            varying: 0.0,
         });
-        let end =
-            |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
-        Some(ScreenLine { ends: [end(least?), end(most?)] })
+        Some(ScreenLine { ends })
     }
+}
+
+/// Whether one of some triangles is seen in a pixel or in one of the eight around it.
+fn is_seen_beside(seen_at: &Frame<u32>, [x, y]: [i32; 2], triangles: &[u32]) -> bool {
+    for dy in -1..=1 {
+        for dx in -1..=1 {
+            if seen_at.get(x + dx, y + dy).is_some_and(|seen| triangles.contains(&seen)) {
+                return true;
+            }
+        }
+    }
+    false
+}
+
+/// The centre of a pixel in subpixels.
+fn centre(px: i32) -> i64 {
+    i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
+}
+
+/// The pixels from `first` to `last`, in subpixels, whose centres lie between these, both included, within a range.
+fn centres_between(first: i64, last: i64, [low, high]: [i32; 2]) -> impl Iterator<Item = i32> {
+    let [first_px, last_px] = [first, last].map_array(|sub| (sub >> SUBPIXEL_BITS) as i32);
+    let pixels = first_px.max(low)..=last_px.min(high - 1);
+    pixels.filter(move |px| (first..=last).contains(&centre(*px)))
 }
 
 /// Calls `emit` with each pixel whose centre lies on an edge; once for each edge.
@@ -810,38 +929,26 @@ fn samples_on_boundary(
     window: PixelRect,
     emit: &mut dyn FnMut(i32, i32),
 ) {
-    let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
-    let pixel = |sub: i64| {
-        let from_centre = sub - i64::from(HALF_PIXEL);
-        (from_centre.rem_euclid(i64::from(SUBPIXELS)) == 0)
-            .then(|| from_centre.div_euclid(i64::from(SUBPIXELS)) as i32)
-    };
+    let columns = [window.x0, window.x1];
     for (i, j) in [(0, 1), (1, 2), (2, 0)] {
         let [ax, ay, bx, by] =
             [corners[i].x, corners[i].y, corners[j].x, corners[j].y].map(i64::from);
-        let [first, last] = [ay.min(by), ay.max(by)].map_array(|y| (y >> 8) as i32);
-        for y_px in first.max(window.y0)..=last.min(window.y1 - 1) {
-            let y = centre(y_px);
-            if y < ay.min(by) || y > ay.max(by) {
-                continue;
-            }
+        for y_px in centres_between(ay.min(by), ay.max(by), [window.y0, window.y1]) {
+            // A level edge runs through all centres between its ends.
             if ay == by {
-                let [first, last] = [ax.min(bx), ax.max(bx)].map_array(|x| (x >> 8) as i32);
-                for x_px in first.max(window.x0)..=last.min(window.x1 - 1) {
-                    if (ax.min(bx)..=ax.max(bx)).contains(&centre(x_px)) {
-                        emit(x_px, y_px);
-                    }
+                for x_px in centres_between(ax.min(bx), ax.max(bx), columns) {
+                    emit(x_px, y_px);
                 }
                 continue;
             }
-            let across = i128::from(y - ay) * i128::from(bx - ax);
+            // Any other edge crosses the row once, and hits a centre only where that is at a whole subpixel.
+            let across = i128::from(centre(y_px) - ay) * i128::from(bx - ax);
             let dy = i128::from(by - ay);
-            if across % dy != 0 {
-                continue;
-            }
-            let x_px = pixel(ax + (across / dy) as i64);
-            if let Some(x_px) = x_px.filter(|x| (window.x0..window.x1).contains(x)) {
-                emit(x_px, y_px);
+            if across % dy == 0 {
+                let x = ax + (across / dy) as i64;
+                for x_px in centres_between(x, x, columns) {
+                    emit(x_px, y_px);
+                }
             }
         }
     }

@@ -44,6 +44,7 @@ pub fn face_of(scene: &Scene, origins: &[Origin], triangle: u32) -> u32 {
 
 /// The numbers that [`face_of`] gives to all triangles, in drawing order.
 pub fn faces<'a>(scene: &'a Scene, origins: &'a [Origin]) -> impl Iterator<Item = u32> + 'a {
+    // Triangles of the items before the one that is walked.
     let mut before = 0;
     scene.items.iter().enumerate().flat_map(move |(item, of)| {
         let first = before;

@@ -65,6 +65,7 @@ impl Saves {
     }
 }
 
+/// What planning one effect saves.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Saving {
     pub effect: Effect,
@@ -76,6 +77,7 @@ pub struct Saving {
     pub wrong_without: u64,
 }
 
+/// What planning saves, as a whole and by effect.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Savings {
     pub everything: Measured,
@@ -93,6 +95,7 @@ pub struct Savings {
 }
 
 impl Savings {
+    /// The three whole frames, then the mixtures.
     pub fn all(&self) -> impl Iterator<Item = &Measured> {
         [&self.everything, &self.usual, &self.planned].into_iter().chain(&self.mixtures)
     }
@@ -124,6 +127,7 @@ pub fn measure(
     is_whole: bool,
     drawn: &dyn Fn(),
 ) -> Result<(Savings, [Rendered; 2]), BadScene> {
+    // Each mixture is drawn once for its picture and its counters before any is timed.
     let mut draw = |effects: &Effects| {
         let rendered = drawer.render(scene, effects, target)?;
         drawn();
@@ -168,22 +172,23 @@ pub fn measure(
             compared(format!("planned,+{name}"), PLANNED, last)?,
         ]);
     }
+    // All frames take turns in the same rounds, and are compared by pairs.
     let share = if is_whole { 0.5 } else { 1.0 };
     let rounds = rounds.map(|rounds| rounds as usize);
     let timing = Timing { rounds, ..PLAN }.within(share);
     let times = {
         let target = RefCell::new(&mut *target);
-        let pass = |mixture: &Mixture| frame_pass((scene, drawer), mixture.effects, &target);
-        let mut passes: Vec<Pass<'_>> = timed.iter().map(pass).collect();
-        compare(
-            &mut passes,
-            timing,
-            &pairs.iter().map(|pair| pair.to_vec()).collect::<Vec<_>>(),
-            &|_| drawn(),
-        )
+        let mut passes: Vec<Pass<'_>> = Vec::with_capacity(timed.len());
+        for mixture in &timed {
+            passes.push(frame_pass((scene, drawer), mixture.effects, &target));
+        }
+        let sets: Vec<Vec<usize>> = pairs.iter().map(|pair| pair.to_vec()).collect();
+        compare(&mut passes, timing, &sets, &|_| drawn())
     };
+    // From here on nothing is timed: pairs of frames become ratios.
     let all: Vec<Measured> = timed.iter().zip(&times).map(Measured::new).collect();
     let over = |[a, b]: Pair| all[a].over(&all[b]);
+    // Last, a picture without each effect, which says whether it was needed at all.
     let mut savings = Vec::new();
     for (&effect, of_both) in effects.iter().zip(found) {
         let without = drawer.render_without(scene, effect, target)?;

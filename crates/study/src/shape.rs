@@ -88,8 +88,25 @@ struct Triangle {
     face: u32,
 }
 
-/// A border as vertices, with its triangle.
-type Border = ([u32; 2], u32);
+impl Triangle {
+    /// Its sides, each with the smaller vertex first, so that two triangles name a shared side alike.
+    fn sides(&self) -> [[u32; 2]; 3] {
+        let [a, b, c] = self.vertices;
+        [side_between(a, b), side_between(b, c), side_between(c, a)]
+    }
+}
+
+/// The smaller vertex comes first.
+fn side_between(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// An edge of one face alone, between two vertices, with the triangle that has it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Border {
+    ends: [u32; 2],
+    triangle: u32,
+}
 
 /// A mesh without what is no face and without faces that repeat an earlier one.
 struct Welded {
@@ -97,32 +114,123 @@ struct Welded {
     triangles: Vec<Triangle>,
     /// For each triangle of the scene whether it has an area.
     is_solid: Vec<bool>,
-    /// The edges of one face.
-    border: Vec<Border>,
+    borders: Vec<Border>,
     /// How far apart two points may be that count as one.
     grain: f64,
 }
 
+impl Welded {
+    /// The vertices at borders, each once, sorted.
+    fn vertices_of_borders(&self) -> Vec<u32> {
+        let mut vertices: Vec<u32> = self.borders.iter().flat_map(|border| border.ends).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+
+    fn point(&self, vertex: u32) -> DVec3 {
+        self.points[vertex as usize]
+    }
+
+    fn ends(&self, border: &Border) -> [DVec3; 2] {
+        positions(&self.points, border.ends)
+    }
+
+    fn polygon(&self, vertices: &[u32]) -> Vec<DVec3> {
+        vertices.iter().map(|vertex| self.point(*vertex)).collect()
+    }
+}
+
+/// The positions of the ends of an edge.
+fn positions(points: &[DVec3], ends: [u32; 2]) -> [DVec3; 2] {
+    [points[ends[0] as usize], points[ends[1] as usize]]
+}
+
+/// The positions of the corners of a triangle.
+fn corners_of(points: &[DVec3], triangle: &Triangle) -> [DVec3; 3] {
+    triangle.vertices.map_array(|vertex| points[vertex as usize])
+}
+
+/// The vertices of a face as a part of one list for all faces, and the first triangle of the face.
+struct FaceVertices {
+    part: std::ops::Range<usize>,
+    face: u32,
+}
+
+/// An edge of a triangle, in the order in which equal edges, and those of one face, stand together.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct EdgeOfTriangle {
+    ends: [u32; 2],
+    face: u32,
+    triangle: u32,
+}
+
+/// A border between places that vertices nearly meet in: the first vertex of each place, and the own vertices there.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct SideOfSeam {
+    places: [u32; 2],
+    ends: [u32; 2],
+    triangle: u32,
+}
+
+/// A vertex on a border that is none of its ends.
+struct OnBorder {
+    /// The number of the border.
+    border: usize,
+    /// How far it lies from the first end, along the border.
+    place: f64,
+    point: DVec3,
+}
+
+/// A line from one end of a border to the other, by which points are placed.
+struct Ruler {
+    start: DVec3,
+    along: DVec3,
+    length: f64,
+}
+
+impl Ruler {
+    fn new([start, end]: [DVec3; 2]) -> Self {
+        Self { start, along: end - start, length: start.distance(end) }
+    }
+
+    /// How far a point lies from the start, along the line.
+    fn place(&self, point: DVec3) -> f64 {
+        (point - self.start).dot(self.along) / self.length
+    }
+
+    /// How far a point is from the line.
+    fn distance(&self, point: DVec3) -> f64 {
+        (point - self.start - self.along * (self.place(point) / self.length)).length()
+    }
+}
+
 impl Shape {
+    /// Finds all of it. What is no face, or the same face again, is found first and left out of what follows.
     pub fn of(scene: &Scene, origins: &[Origin]) -> Self {
         let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
-        let Welded { points, mut triangles, is_solid, mut border, grain } = shape.weld(scene);
-        if let Some(met) = shape.find_near(&points, (&triangles, &border), grain) {
+        let mut mesh = shape.weld(scene);
+        if let Some(met) = shape.find_near(&mesh) {
             // With these corners merged, borders are those that are open still.
-            for triangle in &mut triangles {
+            for triangle in &mut mesh.triangles {
                 triangle.vertices = triangle.vertices.map_array(|v| met[v as usize]);
             }
-            border = shape.edges(&points, &triangles);
+            mesh.borders = shape.find_borders(&mesh.points, &mesh.triangles);
         }
-        shape.find_t_junctions(&points, &border, grain);
-        let in_gaps = shape.find_gaps(&points, (&triangles, &border), grain);
-        let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
-        shape.borders =
-            rest.map(|(ends, triangle)| edge(&points, *ends, vec![*triangle])).collect();
+        shape.find_t_junctions(&mesh);
+        // A border beside a chain of others is listed as a gap, and every other one as open.
+        let in_gaps = shape.find_gaps(&mesh);
+        for border in &mesh.borders {
+            if in_gaps.binary_search(&border.ends).is_err() {
+                shape.borders.push(edge(&mesh.points, border.ends, vec![border.triangle]));
+            }
+        }
         shape.borders.sort_by_key(|edge| edge.triangles[0]);
+        // What has no area covers no part of a plane, so it overlaps nothing.
+        let Welded { points, mut triangles, is_solid, grain, .. } = mesh;
         triangles.retain(|triangle| is_solid[triangle.number as usize]);
-        let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
-        let corners: Vec<[DVec3; 3]> = triangles.iter().map(at).collect();
+        let corners: Vec<[DVec3; 3]> =
+            triangles.iter().map(|triangle| corners_of(&points, triangle)).collect();
         shape.find_overlaps(&triangles, &corners, grain);
         shape
     }
@@ -130,18 +238,17 @@ impl Shape {
     /// The places where corners nearly meet, and nothing that is looked for after them.
     pub fn nearly_meeting(scene: &Scene, origins: &[Origin]) -> Vec<Edge> {
         let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
-        let Welded { points, triangles, border, grain, .. } = shape.weld(scene);
-        shape.find_near(&points, (&triangles, &border), grain);
+        let mesh = shape.weld(scene);
+        shape.find_near(&mesh);
         shape.near
     }
 
     /// Welds the mesh, and finds triangles without area, slivers, duplicates and crowded edges.
     fn weld(&mut self, scene: &Scene) -> Welded {
-        let (points, mut triangles) = weld(scene, &self.face_of);
-        let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
+        let (points, mut triangles) = merge_positions(scene, &self.face_of);
         let mut is_solid = Vec::with_capacity(triangles.len());
         for triangle in &triangles {
-            let corners = at(triangle);
+            let corners = corners_of(&points, triangle);
             let has_area = !has_no_area(corners);
             is_solid.push(has_area);
             if !has_area {
@@ -153,27 +260,31 @@ impl Shape {
         self.slivers.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         // What has no area is no face, but it may be a part of one.
         let mut is_face = vec![false; triangles.len()];
-        for triangle in triangles.iter().filter(|triangle| is_solid[triangle.number as usize]) {
-            is_face[triangle.face as usize] = true;
+        for triangle in &triangles {
+            is_face[triangle.face as usize] |= is_solid[triangle.number as usize];
         }
         triangles.retain(|triangle| is_face[triangle.face as usize]);
+        // A face that repeats an earlier one would make each of its edges one of three faces or more.
         self.find_duplicates(&triangles);
-        let is_later = |triangle: &Triangle| {
-            self.duplicates.binary_search_by_key(&triangle.face, |[later, _]| *later).is_ok()
-        };
-        triangles.retain(|triangle| !is_later(triangle));
+        for [later, _] in &self.duplicates {
+            is_face[*later as usize] = false;
+        }
+        triangles.retain(|triangle| is_face[triangle.face as usize]);
         let grain = GRAIN * size(&points);
-        let border = self.edges(&points, &triangles);
-        Welded { points, triangles, is_solid, border, grain }
+        let borders = self.find_borders(&points, &triangles);
+        Welded { points, triangles, is_solid, borders, grain }
     }
 
     /// Finds faces with the vertices of an earlier face.
     fn find_duplicates(&mut self, triangles: &[Triangle]) {
+        // One list holds the vertices of all faces, sorted and each once within a face: a list for each would be slow.
         let mut vertices: Vec<u32> = Vec::with_capacity(3 * triangles.len());
-        let mut of_faces: Vec<(std::ops::Range<usize>, u32)> = Vec::new();
+        let mut faces: Vec<FaceVertices> = Vec::new();
         for face in triangles.chunk_by(|a, b| a.face == b.face) {
             let first = vertices.len();
-            vertices.extend(face.iter().flat_map(|triangle| triangle.vertices));
+            for triangle in face {
+                vertices.extend(triangle.vertices);
+            }
             vertices[first..].sort_unstable();
             let mut end = first;
             for i in first..vertices.len() {
@@ -183,233 +294,208 @@ impl Shape {
                 }
             }
             vertices.truncate(end);
-            of_faces.push((first..end, face[0].face));
+            faces.push(FaceVertices { part: first..end, face: face[0].face });
         }
-        let of = |face: &(std::ops::Range<usize>, u32)| &vertices[face.0.clone()];
-        of_faces.sort_unstable_by(|a, b| of(a).cmp(of(b)).then(a.1.cmp(&b.1)));
-        for same in of_faces.chunk_by(|a, b| of(a) == of(b)).filter(|same| same.len() > 1) {
-            self.duplicates.extend(same[1..].iter().map(|(_, later)| [*later, same[0].1]));
+        // Faces with the same vertices now stand together, the earliest one first.
+        let of = |face: &FaceVertices| &vertices[face.part.clone()];
+        faces.sort_unstable_by(|a, b| of(a).cmp(of(b)).then(a.face.cmp(&b.face)));
+        for same in faces.chunk_by(|a, b| of(a) == of(b)) {
+            for later in &same[1..] {
+                self.duplicates.push([later.face, same[0].face]);
+            }
         }
         self.duplicates.sort_unstable();
     }
 
     /// Finds edges that have not two faces; returns the borders.
-    fn edges(&mut self, points: &[DVec3], triangles: &[Triangle]) -> Vec<Border> {
-        let mut edges: Vec<([u32; 2], u32, u32)> = Vec::with_capacity(3 * triangles.len());
-        for Triangle { vertices: [a, b, c], number, face } in triangles {
-            for [a, b] in [[a, b], [b, c], [c, a]] {
-                if a != b {
-                    edges.push(([*a.min(b), *a.max(b)], *face, *number));
+    fn find_borders(&mut self, points: &[DVec3], triangles: &[Triangle]) -> Vec<Border> {
+        let mut edges: Vec<EdgeOfTriangle> = Vec::with_capacity(3 * triangles.len());
+        for of @ Triangle { face, number: triangle, .. } in triangles {
+            for ends in of.sides() {
+                if ends[0] != ends[1] {
+                    edges.push(EdgeOfTriangle { ends, face: *face, triangle: *triangle });
                 }
             }
         }
         edges.sort_unstable();
         self.crowded.clear();
-        let mut border = Vec::new();
-        for same in edges.chunk_by(|a, b| a.0 == b.0) {
-            // Where a face was cut, its triangles have the edge twice.
-            let of_faces = same.chunk_by(|a, b| a.1 == b.1).filter(|face| face.len() % 2 == 1);
-            let of: Vec<u32> = of_faces.map(|face| face[0].2).collect();
+        let mut borders = Vec::new();
+        for same in edges.chunk_by(|a, b| a.ends == b.ends) {
+            let ends = same[0].ends;
+            let mut of = Vec::new();
+            for of_face in same.chunk_by(|a, b| a.face == b.face) {
+                // Where a face was cut, its triangles have the edge twice.
+                if of_face.len() % 2 == 1 {
+                    of.push(of_face[0].triangle);
+                }
+            }
             match of[..] {
-                [only] => border.push((same[0].0, only)),
+                [triangle] => borders.push(Border { ends, triangle }),
                 [] | [_, _] => {}
-                _ => self.crowded.push(edge(points, same[0].0, of)),
+                _ => self.crowded.push(edge(points, ends, of)),
             }
         }
         self.crowded.sort_by_key(|e| (std::cmp::Reverse(e.triangles.len()), e.triangles[0]));
-        border
+        borders
     }
 
     /// Finds borders with a chain of borders beside them that begins and ends where they do: the seam of two levels of
     /// detail. Returns all of their edges, sorted.
-    fn find_gaps(
-        &mut self,
-        points: &[DVec3],
-        (triangles, border): (&[Triangle], &[Border]),
-        grain: f64,
-    ) -> Vec<[u32; 2]> {
-        let mut from: Vec<(u32, u32, u32)> = Vec::with_capacity(2 * border.len());
-        from.extend(border.iter().flat_map(|&([a, b], of)| [(a, b, of), (b, a, of)]));
-        from.sort_unstable();
+    fn find_gaps(&mut self, mesh: &Welded) -> Vec<[u32; 2]> {
+        // Each border in both directions, so that those from one vertex stand together.
+        let mut steps: Vec<Border> = Vec::with_capacity(2 * mesh.borders.len());
+        for &Border { ends: [a, b], triangle } in &mesh.borders {
+            steps.push(Border { ends: [a, b], triangle });
+            steps.push(Border { ends: [b, a], triangle });
+        }
+        steps.sort_unstable();
         let mut in_gaps = Vec::new();
-        for &([a, b], of) in border {
-            let [start, end] = [a, b].map_array(|v| points[v as usize]);
-            let (along, length) = (end - start, start.distance(end));
-            let place = |v: u32| (points[v as usize] - start).dot(along) / length;
-            let away = |v: u32| (points[v as usize] - start - along * (place(v) / length)).length();
-            let (mut chain, mut of_chain) = (vec![a], vec![of]);
-            while chain.len() <= MOST_OF_CHAIN {
-                let at = chain[chain.len() - 1];
-                let next = &from[from.partition_point(|edge| edge.0 < at)..];
-                let next = next.iter().take_while(|edge| edge.0 == at);
-                let is_beside = |v: u32| v == b || place(v) < length - grain;
-                let next = next.filter(|&&(_, v, other)| {
-                    other != of && place(v) > place(at) + grain && is_beside(v)
-                });
-                let Some(&(_, v, other)) = next.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))
-                else {
-                    break;
-                };
-                chain.push(v);
-                of_chain.push(other);
-                if v == b || away(v) > BESIDE * length {
-                    break;
-                }
+        for border in &mesh.borders {
+            let Some((chain, triangles)) = chain_beside(mesh, &steps, border) else { continue };
+            for step in chain.windows(2) {
+                in_gaps.push(side_between(step[0], step[1]));
             }
-            let inner = chain.iter().skip(1).filter(|v| **v != b);
-            let is_open = inner.clone().any(|v| away(*v) > grain);
-            // The chain of a thin part that hangs on nothing has the third corner of the triangle.
-            let own = triangles.partition_point(|triangle| triangle.number < of);
-            let own = triangles.get(own).map_or([b; 3], |triangle| triangle.vertices);
-            let is_own = inner.clone().any(|v| own.contains(v));
-            if chain.last() == Some(&b) && chain.len() > 2 && is_open && !is_own {
-                in_gaps.extend(chain.windows(2).map(|e| [e[0].min(e[1]), e[0].max(e[1])]));
-                in_gaps.push([a, b]);
-                let polygon = chain.iter().map(|&v| points[v as usize]).collect();
-                self.gaps.push(Gap { polygon, triangles: of_chain });
-            }
+            in_gaps.push(border.ends);
+            self.gaps.push(Gap { polygon: mesh.polygon(&chain), triangles });
         }
         self.gaps.sort_by_key(|gap| gap.triangles[0]);
         in_gaps.sort_unstable();
         in_gaps
     }
 
-    /// Finds vertices at borders that are at most a grain apart and no corners of one triangle, nor of two faces on each other. For each vertex the first one of
-    /// those that it nearly meets, or itself; nothing where there are none.
-    fn find_near(
-        &mut self,
-        points: &[DVec3],
-        (triangles, border): (&[Triangle], &[Border]),
-        grain: f64,
-    ) -> Option<Vec<u32>> {
-        let mut vertices: Vec<u32> = border.iter().flat_map(|(ends, _)| *ends).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let boxes: Vec<Box> =
-            vertices.iter().map(|&v| Box::around(&[points[v as usize]], grain / 2.0)).collect();
+    /// Finds vertices at borders that are at most a grain apart and no corners of one triangle, nor of two faces on each
+    /// other. For each vertex the first one of those that it nearly meets, or itself; nothing where there are none.
+    fn find_near(&mut self, mesh: &Welded) -> Option<Vec<u32>> {
+        let mut near = self.pairs_within_a_grain(mesh);
+        if near.is_empty() {
+            return None;
+        }
+        // A side this short is a side all the same.
+        let mut sides = Vec::new();
+        for triangle in &mesh.triangles {
+            for side in triangle.sides() {
+                if near.binary_search(&side).is_ok() {
+                    sides.push(side);
+                }
+            }
+        }
+        sides.sort_unstable();
+        near.retain(|pair| sides.binary_search(pair).is_err());
+        // Each vertex meets itself, until a pair says otherwise.
+        let mut met: Vec<u32> = (0..mesh.points.len() as u32).collect();
+        for [a, b] in near {
+            // In this order, the vertex that the first of a pair meets is known.
+            met[b as usize] = met[b as usize].min(met[a as usize]);
+        }
+        let is_apart = vertices_of_sheets(mesh, &met);
+        for vertex in 0..met.len() {
+            if is_apart[vertex] || is_apart[met[vertex] as usize] {
+                met[vertex] = vertex as u32;
+            }
+            let apart = mesh.points[vertex].distance(mesh.point(met[vertex]));
+            self.near_apart = self.near_apart.max(apart);
+        }
+        self.list_near(mesh, &met);
+        (!self.near.is_empty()).then_some(met)
+    }
+
+    /// Pairs of vertices at borders that are at most a grain apart, sorted, the smaller one first.
+    fn pairs_within_a_grain(&mut self, mesh: &Welded) -> Vec<[u32; 2]> {
+        let vertices = mesh.vertices_of_borders();
+        // Boxes of half a grain around two points meet where the points are a grain apart, or less in each axis.
+        let around = |&vertex: &u32| Box::around(&[mesh.point(vertex)], mesh.grain / 2.0);
+        let boxes: Vec<Box> = vertices.iter().map(around).collect();
         let mut near: Vec<[u32; 2]> = Vec::new();
         let is_whole = pairs(&boxes, &mut |i, j| {
             let pair = [vertices[i], vertices[j]];
-            let [a, b] = pair.map_array(|v| points[v as usize]);
-            if a.distance(b) <= grain {
+            if mesh.point(pair[0]).distance(mesh.point(pair[1])) <= mesh.grain {
                 near.push(pair);
             }
             near.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
-        if near.is_empty() {
-            return None;
-        }
         near.sort_unstable();
-        // A side this short is a side all the same.
-        let mut sides = Vec::new();
-        for Triangle { vertices: [a, b, c], .. } in triangles {
-            for [a, b] in [[a, b], [b, c], [c, a]] {
-                let side = [*a.min(b), *a.max(b)];
-                sides.extend(near.binary_search(&side).is_ok().then_some(side));
-            }
-        }
-        sides.sort_unstable();
-        near.retain(|pair| sides.binary_search(pair).is_err());
-        let mut met: Vec<u32> = (0..points.len() as u32).collect();
-        // In this order, the vertex that the first of a pair meets is known.
-        for [a, b] in near {
-            met[b as usize] = met[b as usize].min(met[a as usize]);
-        }
-        // Two sheets on each other do not meet at a seam: what would make two faces one stays apart.
-        let mut merged = Vec::new();
-        for Triangle { vertices, .. } in triangles {
-            let mut of = vertices.map_array(|v| met[v as usize]);
-            of.sort_unstable();
-            merged.push((of, *vertices));
-        }
-        merged.sort_unstable();
-        let mut is_apart = vec![false; points.len()];
-        for same in merged.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
-            same.iter().flat_map(|(_, of)| of).for_each(|v| is_apart[*v as usize] = true);
-        }
-        for vertex in 0..met.len() {
-            if is_apart[vertex] || is_apart[met[vertex] as usize] {
-                met[vertex] = vertex as u32;
-            }
-            let apart = points[vertex].distance(points[met[vertex] as usize]);
-            self.near_apart = self.near_apart.max(apart);
-        }
-        self.list_near(points, border, &met);
-        (!self.near.is_empty()).then_some(met)
+        near
     }
 
     /// Lists the places where vertices of borders nearly meet, and what lies between borders there.
-    fn list_near(&mut self, points: &[DVec3], border: &[Border], met: &[u32]) {
-        let mut is_met = vec![false; points.len()];
+    fn list_near(&mut self, mesh: &Welded, met: &[u32]) {
+        let mut is_met = vec![false; mesh.points.len()];
         for (vertex, first) in met.iter().enumerate() {
             is_met[*first as usize] |= vertex != *first as usize;
         }
+        // Each place with the triangles of borders that end there, and each border between places.
         let mut at: Vec<(u32, u32)> = Vec::new();
-        let mut sides = Vec::new();
-        for &([a, b], triangle) in border {
-            let [of_a, of_b] = [a, b].map_array(|v| met[v as usize]);
-            for place in [of_a, of_b].into_iter().filter(|place| is_met[*place as usize]) {
-                at.push((place, triangle));
+        let mut sides: Vec<SideOfSeam> = Vec::new();
+        for &Border { ends: [a, b], triangle } in &mesh.borders {
+            let [of_a, of_b] = [met[a as usize], met[b as usize]];
+            for place in [of_a, of_b] {
+                if is_met[place as usize] {
+                    at.push((place, triangle));
+                }
             }
-            sides.push(if of_a < of_b {
-                ([of_a, of_b], [a, b], triangle)
-            } else {
-                ([of_b, of_a], [b, a], triangle)
-            });
+            // Both sides of a seam have their ends in one order, which is that of the places.
+            let (places, ends) =
+                if of_a < of_b { ([of_a, of_b], [a, b]) } else { ([of_b, of_a], [b, a]) };
+            sides.push(SideOfSeam { places, ends, triangle });
         }
         at.sort_unstable();
         at.dedup();
         for of_place in at.chunk_by(|a, b| a.0 == b.0) {
             let triangles = of_place.iter().map(|(_, triangle)| *triangle).collect();
-            self.near.push(edge(points, [of_place[0].0; 2], triangles));
+            self.near.push(edge(&mesh.points, [of_place[0].0; 2], triangles));
         }
         self.near.sort_by_key(|edge| edge.triangles[0]);
+        // Borders between the same two places are the sides of a seam: what lies between two of them is a quadrilateral.
         sides.sort_unstable();
-        for same in sides.chunk_by(|a, b| a.0 == b.0) {
+        for same in sides.chunk_by(|a, b| a.places == b.places) {
             for pair in same.windows(2) {
-                let ((_, [a, b], one), (_, [c, d], other)) = (pair[0], pair[1]);
-                let polygon = [a, b, d, c].map_array(|v| points[v as usize]).to_vec();
-                self.at_near.push(Gap { polygon, triangles: vec![one, other] });
+                let ([a, b], [c, d]) = (pair[0].ends, pair[1].ends);
+                let triangles = vec![pair[0].triangle, pair[1].triangle];
+                self.at_near.push(Gap { polygon: mesh.polygon(&[a, b, d, c]), triangles });
             }
         }
     }
 
     /// Vertices at a border that lie within the edge of a border.
-    fn find_t_junctions(&mut self, points: &[DVec3], border: &[Border], grain: f64) {
-        let mut vertices: Vec<u32> = border.iter().flat_map(|(ends, _)| *ends).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let ends = |i: usize| border[i].0.map_array(|v| points[v as usize]);
-        let edges = (0..border.len()).map(|i| Box::around(&ends(i), grain));
-        let boxes: Vec<Box> = edges
-            .chain(vertices.iter().map(|&v| Box::around(&[points[v as usize]], 0.0)))
-            .collect();
-        let mut on_edges: Vec<(usize, f64, DVec3)> = Vec::new();
+    fn find_t_junctions(&mut self, mesh: &Welded) {
+        let (borders, grain) = (&mesh.borders, mesh.grain);
+        let vertices = mesh.vertices_of_borders();
+        // One list for one search: first the boxes of all borders, then those of the vertices.
+        let mut boxes: Vec<Box> = Vec::with_capacity(borders.len() + vertices.len());
+        for border in borders {
+            boxes.push(Box::around(&mesh.ends(border), grain));
+        }
+        for &vertex in &vertices {
+            boxes.push(Box::around(&[mesh.point(vertex)], 0.0));
+        }
+        let mut on_borders: Vec<OnBorder> = Vec::new();
         let is_whole = pairs(&boxes, &mut |i, j| {
-            let (edge, vertex) = (i.min(j), i.max(j));
-            if edge >= border.len() || vertex < border.len() {
+            let (border, vertex) = (i.min(j), i.max(j));
+            if border >= borders.len() || vertex < borders.len() {
                 return true;
             }
-            let (point, [a, b]) = (points[vertices[vertex - border.len()] as usize], ends(edge));
-            let (along, length) = (b - a, a.distance(b));
-            let place = (point - a).dot(along) / length;
-            let away = (point - a - along * (place / length)).length();
-            if away <= grain && place > grain && place < length - grain {
-                let triangles = vec![border[edge].1];
+            let point = mesh.point(vertices[vertex - borders.len()]);
+            let ruler = Ruler::new(mesh.ends(&borders[border]));
+            let place = ruler.place(point);
+            if ruler.distance(point) <= grain && place > grain && place < ruler.length - grain {
+                let triangles = vec![borders[border].triangle];
                 self.t_junctions.push(Edge { ends: [point, point], triangles });
-                on_edges.push((edge, place, point));
+                on_borders.push(OnBorder { border, place, point });
             }
             self.t_junctions.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
         self.t_junctions.sort_by_key(|edge| edge.triangles[0]);
-        on_edges.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        for of_edge in on_edges.chunk_by(|a, b| a.0 == b.0) {
-            let number = of_edge[0].0;
-            let mut polygon = ends(number).to_vec();
-            polygon.splice(1..1, of_edge.iter().map(|(.., point)| *point));
-            self.at_t_junctions.push(Gap { polygon, triangles: vec![border[number].1] });
+        // The vertices on one border, in their order along it, make a thin polygon with its ends.
+        on_borders.sort_by(|a, b| a.border.cmp(&b.border).then(a.place.total_cmp(&b.place)));
+        for on_border in on_borders.chunk_by(|a, b| a.border == b.border) {
+            let border = &borders[on_border[0].border];
+            let [start, end] = mesh.ends(border);
+            let mut polygon = vec![start];
+            polygon.extend(on_border.iter().map(|on| on.point));
+            polygon.push(end);
+            self.at_t_junctions.push(Gap { polygon, triangles: vec![border.triangle] });
         }
     }
 
@@ -418,11 +504,13 @@ impl Shape {
         let planes: Vec<Plane> = corners.iter().map(Plane::of).collect();
         let boxes: Vec<Box> = corners.iter().map(|corners| Box::around(corners, grain)).collect();
         let is_whole = pairs(&boxes, &mut |i, j| {
+            // The triangles of one face share its plane, and each of its pixels is drawn by one of them.
             let (a, b) = (&planes[i], &planes[j]);
             let (first, second) = (triangles[i].face, triangles[j].face);
             if first == second {
                 return true;
             }
+            // Each lies in the plane of the other, and no side of either one keeps them apart.
             let is_flat = a.holds(&corners[j], grain) && b.holds(&corners[i], grain);
             if is_flat && !a.parts(&corners[j], grain) && !b.parts(&corners[i], grain) {
                 self.overlaps.push([first.max(second), first.min(second)]);
@@ -435,8 +523,77 @@ impl Shape {
     }
 }
 
+/// An edge between two vertices.
 fn edge(points: &[DVec3], ends: [u32; 2], triangles: Vec<u32>) -> Edge {
-    Edge { ends: ends.map_array(|v| points[v as usize]), triangles }
+    Edge { ends: positions(points, ends), triangles }
+}
+
+/// The chain of borders beside a border, from its first end to its second one, with the triangle of the border and those of the
+/// chain; nothing where there is none, or where there is nothing between the two.
+fn chain_beside(mesh: &Welded, steps: &[Border], border: &Border) -> Option<(Vec<u32>, Vec<u32>)> {
+    let &Border { ends: [a, b], triangle: own } = border;
+    let ruler = Ruler::new(mesh.ends(border));
+    let mut chain = vec![a];
+    let mut triangles = vec![own];
+    while chain.len() <= MOST_OF_CHAIN {
+        let at = chain[chain.len() - 1];
+        let from = ruler.place(mesh.point(at));
+        // Of the borders that lead on from here, towards the end and not beyond it, take the one closest to the border.
+        let mut next: Option<(f64, u32, u32)> = None;
+        for &Border { ends: [start, to], triangle } in
+            &steps[steps.partition_point(|step| step.ends[0] < at)..]
+        {
+            if start != at {
+                break;
+            }
+            let place = ruler.place(mesh.point(to));
+            let is_beside = to == b || place < ruler.length - mesh.grain;
+            if triangle == own || place <= from + mesh.grain || !is_beside {
+                continue;
+            }
+            let distance = ruler.distance(mesh.point(to));
+            if next.is_none_or(|(least, ..)| distance.total_cmp(&least).is_lt()) {
+                next = Some((distance, to, triangle));
+            }
+        }
+        let Some((distance, to, triangle)) = next else { break };
+        chain.push(to);
+        triangles.push(triangle);
+        if to == b || distance > BESIDE * ruler.length {
+            break;
+        }
+    }
+    // It must lead to the other end by vertices between, one of which lies off the border.
+    let [_, inner @ .., last] = &chain[..] else { return None };
+    let is_open = inner.iter().any(|&v| ruler.distance(mesh.point(v)) > mesh.grain);
+    if *last != b || inner.is_empty() || !is_open {
+        return None;
+    }
+    // The chain of a thin part that hangs on nothing has the third corner of the triangle.
+    let number = mesh.triangles.partition_point(|triangle| triangle.number < own);
+    let corners = mesh.triangles.get(number).map_or([b; 3], |triangle| triangle.vertices);
+    (!inner.iter().any(|v| corners.contains(v))).then_some((chain, triangles))
+}
+
+/// For each vertex whether it belongs to a triangle that would be the same as another one if vertices that nearly meet
+/// were merged. Such triangles are two sheets on each other, which do not meet at a seam, so their vertices stay apart.
+fn vertices_of_sheets(mesh: &Welded, met: &[u32]) -> Vec<bool> {
+    let mut merged = Vec::new();
+    for triangle in &mesh.triangles {
+        let mut vertices = triangle.vertices.map_array(|v| met[v as usize]);
+        vertices.sort_unstable();
+        merged.push((vertices, triangle.vertices));
+    }
+    merged.sort_unstable();
+    let mut is_apart = vec![false; mesh.points.len()];
+    for same in merged.chunk_by(|a, b| a.0 == b.0) {
+        if same.len() > 1 {
+            for vertex in same.iter().flat_map(|(_, vertices)| vertices) {
+                is_apart[*vertex as usize] = true;
+            }
+        }
+    }
+    is_apart
 }
 
 /// For each triangle the first one of its face.
@@ -452,50 +609,61 @@ fn first_triangles(scene: &Scene, origins: &[Origin]) -> Vec<u32> {
     first
 }
 
+/// A position that triangles use, in the order in which equal ones stand together.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct UsedPosition {
+    /// Of its coordinates.
+    bits: [u64; 3],
+    /// The same for items that are moved alike: where they are not, the same numbers are not the same position.
+    group: usize,
+    item: usize,
+    number: usize,
+}
+
 /// The positions that triangles use, each once, and the triangles.
-fn weld(scene: &Scene, face_of: &[u32]) -> (Vec<DVec3>, Vec<Triangle>) {
-    // Where items are moved differently, the same numbers are not the same position.
-    let group = |item: usize| {
-        let same =
-            |other: &&rasterproof_render::scene::Item| other.model == scene.items[item].model;
-        scene.items.iter().take_while(|other| !same(other)).count()
-    };
-    let mut used: Vec<([u64; 3], usize, u32, u32)> = Vec::new();
-    for (index, item) in scene.items.iter().enumerate() {
-        let group = group(index);
-        let mut is_used = vec![false; item.mesh.positions.len()];
-        for number in item.mesh.triangles.positions().as_flattened() {
+fn merge_positions(scene: &Scene, face_of: &[u32]) -> (Vec<DVec3>, Vec<Triangle>) {
+    let mut used: Vec<UsedPosition> = Vec::new();
+    let mut is_moved = false;
+    for (item, of) in scene.items.iter().enumerate() {
+        // The number of items before the first one that is moved as this one is.
+        let group = scene.items.iter().take_while(|other| other.model != of.model).count();
+        is_moved |= group > 0;
+        let mut is_used = vec![false; of.mesh.positions.len()];
+        for number in of.mesh.triangles.positions().as_flattened() {
             is_used[*number as usize] = true;
         }
-        for (number, position) in item.mesh.positions.iter().enumerate() {
+        for (number, position) in of.mesh.positions.iter().enumerate() {
             if is_used[number] {
                 // -0 is 0.
                 let bits = (*position + DVec3::ZERO).to_array().map_array(f64::to_bits);
-                used.push((bits, group, index as u32, number as u32));
+                used.push(UsedPosition { bits, group, item, number });
             }
         }
     }
     used.sort_unstable();
-    let is_moved = (0..scene.items.len()).any(|item| group(item) > 0);
+    // Equal positions become one vertex, which each of them is replaced by.
     let mut points = Vec::new();
-    let mut vertex_of: Vec<Vec<u32>> =
-        scene.items.iter().map(|item| vec![0; item.mesh.positions.len()]).collect();
-    for same in used.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let (bits, _, item, _) = same[0];
-        let position = DVec3::from_array(bits.map_array(f64::from_bits));
-        for (.., item, number) in same {
-            vertex_of[*item as usize][*number as usize] = points.len() as u32;
+    let mut vertex_of: Vec<Vec<u32>> = Vec::with_capacity(scene.items.len());
+    for item in &scene.items {
+        vertex_of.push(vec![0; item.mesh.positions.len()]);
+    }
+    for same in used.chunk_by(|a, b| (a.bits, a.group) == (b.bits, b.group)) {
+        for one in same {
+            vertex_of[one.item][one.number] = points.len() as u32;
         }
-        let model = &scene.items[item as usize].model;
+        let position = DVec3::from_array(same[0].bits.map_array(f64::from_bits));
+        let model = &scene.items[same[0].item].model;
         points.push(if is_moved { model.transform_point3(position) } else { position });
     }
-    let triangles = scene.items.iter().zip(&vertex_of).flat_map(|(item, vertex_of)| {
-        let triangles = item.mesh.triangles.positions().iter();
-        triangles.map(move |triangle| triangle.map(|number| vertex_of[number as usize]))
-    });
-    let numbered = triangles.zip(0..).zip(face_of);
-    let triangle = |((vertices, number), &face)| Triangle { vertices, number, face };
-    (points, numbered.map(triangle).collect())
+    let mut triangles = Vec::with_capacity(face_of.len());
+    for (item, vertex_of) in scene.items.iter().zip(&vertex_of) {
+        for numbers in item.mesh.triangles.positions() {
+            let vertices = numbers.map_array(|number| vertex_of[number as usize]);
+            let number = triangles.len() as u32;
+            triangles.push(Triangle { vertices, number, face: face_of[number as usize] });
+        }
+    }
+    (points, triangles)
 }
 
 /// The diagonal of the box around all points.
@@ -505,21 +673,20 @@ fn size(points: &[DVec3]) -> f64 {
 }
 
 /// Whether three points lie on a line, decided exactly: then they do so in each of three projections.
-fn has_no_area([a, b, c]: [DVec3; 3]) -> bool {
-    let flat = |x: fn(DVec3) -> [f64; 2]| {
-        let [a, b, c] = [a, b, c].map_array(|p| {
-            let [x, y] = x(p);
-            Coord { x, y }
-        });
-        orient2d(a, b, c) == 0.0
-    };
-    flat(|p| [p.x, p.y]) && flat(|p| [p.y, p.z]) && flat(|p| [p.z, p.x])
+fn has_no_area(corners: [DVec3; 3]) -> bool {
+    let mut is_flat = true;
+    for [x, y] in [[0, 1], [1, 2], [2, 0]] {
+        let [a, b, c] = corners.map_array(|p| Coord { x: p[x], y: p[y] });
+        is_flat &= orient2d(a, b, c) == 0.0;
+    }
+    is_flat
 }
 
 /// The longest side over the height on it.
 fn aspect([a, b, c]: [DVec3; 3]) -> f64 {
     let longest =
         (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    // The height is the doubled area over the longest side.
     let doubled_area = (b - a).cross(c - a).length();
     longest / doubled_area
 }
@@ -538,20 +705,21 @@ impl Plane {
         Self { normal, sides: [side(a, b), side(b, c), side(c, a)] }
     }
 
+    /// Whether a triangle lies in the plane.
     fn holds(&self, corners: &[DVec3; 3], grain: f64) -> bool {
-        let from = self.sides[0].0;
+        let (from, _) = self.sides[0];
         corners.iter().all(|corner| (*corner - from).dot(self.normal).abs() <= grain)
     }
 
     /// Whether a triangle lies beyond one of the sides.
     fn parts(&self, corners: &[DVec3; 3], grain: f64) -> bool {
-        let beyond = |(from, inwards): &(DVec3, DVec3)| {
+        self.sides.iter().any(|(from, inwards)| {
             corners.iter().all(|corner| (*corner - *from).dot(*inwards) <= grain)
-        };
-        self.sides.iter().any(beyond)
+        })
     }
 }
 
+/// A box along the axes.
 #[derive(Clone, Copy)]
 struct Box {
     min: DVec3,
@@ -559,14 +727,17 @@ struct Box {
 }
 
 impl Box {
+    /// The smallest box of some points, larger by a margin on each side; without points one that meets none.
     fn around(points: &[DVec3], margin: f64) -> Self {
-        let start = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-        let tight = points
-            .iter()
-            .fold(start, |bounds, p| Self { min: bounds.min.min(*p), max: bounds.max.max(*p) });
+        let mut tight = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+        for point in points {
+            tight.min = tight.min.min(*point);
+            tight.max = tight.max.max(*point);
+        }
         Self { min: tight.min - margin, max: tight.max + margin }
     }
 
+    /// Whether both have a point in common; touching is enough.
     fn meets(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
@@ -581,13 +752,20 @@ fn pairs(boxes: &[Box], visit: &mut dyn FnMut(usize, usize) -> bool) -> bool {
         sums += bounds.max - bounds.min;
         (min, max) = (min.min(bounds.min), max.max(bounds.max));
     }
-    let shares = (sums / (max - min))
-        .to_array()
-        .map_array(|share| if share >= 0.0 { share } else { f64::MAX });
-    let axis = (0..3).min_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0);
+    // The average length of a box as a share of all: the smaller, the fewer boxes begin before another one ends. Where
+    // all is flat this is no number, and no such axis is taken unless all are.
+    let shares = sums / (max - min);
+    let mut axis = 0;
+    let mut least = f64::MAX;
+    for (number, share) in shares.to_array().into_iter().enumerate() {
+        if share < least {
+            (axis, least) = (number, share);
+        }
+    }
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|&a, &b| boxes[a].min[axis].total_cmp(&boxes[b].min[axis]));
     let sorted: Vec<Box> = order.iter().map(|&i| boxes[i]).collect();
+    // From its place on, a box can meet only those that begin before it ends, and these come next.
     let mut comparisons = 0;
     for (place, bounds) in sorted.iter().enumerate() {
         let end = bounds.max[axis];

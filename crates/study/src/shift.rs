@@ -38,6 +38,7 @@ struct Place {
 }
 
 impl Place {
+    /// Keeps a change of a value here, if it is the largest so far; of equal ones the first.
     fn keep(self, largest: &mut Option<Shifted>, by: f64) {
         if by > largest.map_or(0.0, |largest| largest.by) {
             *largest = Some(Shifted { by, pixel: self.pixel, triangle: self.triangle });
@@ -63,6 +64,7 @@ pub(crate) fn shift(scene: &Scene, surfaces: &[Surfaces<'_>], sampled: &Sampled)
                 let piece = &pieces[front as usize];
                 let centre = [x, y].map_array(|at| f64::from(at) + 0.5);
                 let triangle = with_shares(piece);
+                // The same face at the same sample, with its corners in both places.
                 let (Some(given), Some(snapped)) = (
                     Value::at(centre, &triangle, piece.px),
                     Value::at(centre, &triangle, sampled.grid.place(piece.px)),
@@ -100,6 +102,7 @@ fn attributes(
 ) {
     let [a, b, c] = corners;
     let moved = snapped - given;
+    // Everything that is linear in the shares moves by the difference of corners times that of the shares.
     if let Some(texture) = &item.material.texture {
         let (width, height) = texture.size();
         let uv = ((b.uv - a.uv) * moved.x + (c.uv - a.uv) * moved.y).abs();

@@ -67,36 +67,20 @@ pub(crate) fn broken<'a>(
     let Some(step) = grid.step_px() else { return Vec::new() };
     let ring = RING * step;
     let Surfaces { pieces, window, .. } = *surfaces;
-    let is_culled = |piece: &Piece| scene.items[piece.item as usize].cull != Cull::None;
     // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
-    let is_given = |piece: &Piece| !is_culled(piece) || piece.change(grid) != Change::Over;
-    // By how many pieces more a sample is covered once they are snapped.
-    let mut more = Frame::new(window, 0i32);
-    let mut count = |piece: &Piece, is_given: bool, is_snapped: bool| {
-        let samples = samples_near(piece, ring).intersect(&window);
-        let Some(corners) = piece.free().filter(|_| !samples.is_empty()) else { return };
-        // Of corners on the grid, which snapping leaves, both counts are the same.
-        if is_given && is_snapped && corners.px() == grid.place(piece.px) {
-            return;
-        }
-        let mut add = |span: Span, by: i32| {
-            for more in more.span_mut(span.y_px, span.x0_px, span.x1_px) {
-                *more += by;
-            }
-        };
-        if is_given {
-            ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
-        }
-        if is_snapped {
-            grid.cover(piece.px, samples, &mut |span| add(span, 1));
-        }
+    let is_given = |piece: &Piece| {
+        let is_culled = scene.items[piece.item as usize].cull != Cull::None;
+        !is_culled || piece.change(grid) != Change::Over
     };
+    // First, a count for each sample: by how many pieces more it is covered once they are snapped.
+    let mut more = Frame::new(window, 0i32);
     for piece in pieces {
-        count(piece, is_given(piece), true);
+        count_piece(&mut more, piece, grid, Some(is_given(piece)));
     }
     for piece in lost {
-        count(piece, true, false);
+        count_piece(&mut more, piece, grid, None);
     }
+    // Where it is not 0, an outline has moved across the sample, or a surface is broken.
     let mut candidates = Vec::new();
     for (y, row) in more.rows() {
         for (x, more) in (window.x0..).zip(row) {
@@ -107,15 +91,19 @@ pub(crate) fn broken<'a>(
             }
         }
     }
+    // Only these few samples are looked at closely: which pieces cover the points around them as given, and which the sample
+    // itself once snapped.
     for piece in pieces.iter().filter(|piece| is_given(piece)).chain(lost) {
-        near(&mut candidates, piece, |candidate| look_around(candidate, piece, ring));
+        for candidate in candidates_near(&mut candidates, piece) {
+            look_around(candidate, piece, ring);
+        }
     }
     for piece in pieces {
-        near(&mut candidates, piece, |candidate| {
+        for candidate in candidates_near(&mut candidates, piece) {
             let [x, y] = candidate.sample;
             let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
             grid.cover(piece.px, pixel, &mut |_| candidate.snapped_here.push(piece));
-        });
+        }
     }
     let mut broken = Vec::new();
     for Candidate { sample, around, given_here, snapped_here } in candidates {
@@ -123,6 +111,7 @@ pub(crate) fn broken<'a>(
         let (given, snapped) = (around[0], snapped_here.len() as u32);
         let is_inside = given > 0 && around.iter().all(|count| *count == given);
         let is_crack = snapped < given;
+        // Of a fold each piece must be one that the points tell of, or one that is turned over.
         let is_known = |piece: &&Piece| {
             piece.change(grid) == Change::Over
                 || given_here.iter().any(|given| std::ptr::eq(*given, *piece))
@@ -137,6 +126,29 @@ pub(crate) fn broken<'a>(
         broken.push(BrokenSample { sample, is_crack, is_seen, pieces });
     }
     broken
+}
+
+/// Takes 1 from each sample that a piece covers as it is given, and adds 1 to each that it covers once snapped. `is_given` is whether
+/// the piece is part of the surface as given, and nothing for one that snapping has lost, which is part of that alone.
+fn count_piece(more: &mut Frame<i32>, piece: &Piece, grid: CornerGrid, is_given: Option<bool>) {
+    let Some(step) = grid.step_px() else { return };
+    let samples = samples_near(piece, RING * step).intersect(&more.bounds());
+    let Some(corners) = piece.free().filter(|_| !samples.is_empty()) else { return };
+    // Of corners on the grid, which snapping leaves, both counts are the same.
+    if is_given == Some(true) && corners.px() == grid.place(piece.px) {
+        return;
+    }
+    let mut add = |span: Span, by: i32| {
+        for more in more.span_mut(span.y_px, span.x0_px, span.x1_px) {
+            *more += by;
+        }
+    };
+    if is_given != Some(false) {
+        ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
+    }
+    if is_given.is_some() {
+        grid.cover(piece.px, samples, &mut |span| add(span, 1));
+    }
 }
 
 /// What snapping breaks in a picture, with the first of each kind. Pixels of cracks and folds are those that are seen; a
@@ -211,11 +223,11 @@ fn look_at_planes(
     each_plane(scene, target, grid, &mut |pieces, lost| {
         let surfaces = Surfaces::of(scene, pieces, target.bounds());
         classes.look(&surfaces, scale);
-        for broken in
-            broken(scene, &surfaces, lost, grid).into_iter().filter(|broken| broken.is_seen)
-        {
-            let [x, y] = broken.sample.map_array(|at| at.div_euclid(scale));
-            pixels[usize::from(broken.is_crack)].push([y, x]);
+        for broken in broken(scene, &surfaces, lost, grid) {
+            if broken.is_seen {
+                let [x, y] = broken.sample.map_array(|at| at.div_euclid(scale));
+                pixels[usize::from(broken.is_crack)].push([y, x]);
+            }
         }
         if !is_antialiased {
             found.count_turned(pieces, lost, grid);
@@ -226,6 +238,7 @@ fn look_at_planes(
         let (pieces, lost) = pieces_and_lost(scene, target.size(), grid)?;
         found.count_turned(&pieces, &lost, grid);
     }
+    // A pixel counts once, however many of its samples are broken; the first one is the leftmost of the upper row.
     for pixels in &mut pixels {
         pixels.sort_unstable();
         pixels.dedup();
@@ -237,40 +250,36 @@ fn look_at_planes(
     Ok((classes.counted(), found))
 }
 
+/// The least and the largest coordinate of the corners of a piece, in x (0) or in y (1).
+fn extent(piece: &Piece, axis: usize) -> [f64; 2] {
+    let [a, b, c] = piece.px.map_array(|corner| corner[axis]);
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
 /// The pixels whose samples a piece may cover as it is given or snapped.
 fn samples_near(piece: &Piece, ring: f64) -> PixelRect {
-    let [a, b, c] = piece.px;
-    let ends = |i: usize| {
-        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+    let [[x0, x1], [y0, y1]] = [0, 1].map_array(|axis| {
+        let [least, most] = extent(piece, axis);
         [(least - 0.5 - ring).ceil() as i32, (most - 0.5 + ring).floor() as i32 + 1]
-    };
-    let ([x0, x1], [y0, y1]) = (ends(0), ends(1));
+    });
     PixelRect { x0, y0, x1, y1 }
 }
 
-/// Calls `visit` with each candidate in or beside the box of a piece.
-fn near<'a>(
-    candidates: &mut [Candidate<'a>],
-    piece: &'a Piece,
-    mut visit: impl FnMut(&mut Candidate<'a>),
-) {
-    let [a, b, c] = piece.px;
-    let ends = |i: usize| {
-        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+/// The candidates in or beside the box of a piece.
+fn candidates_near<'c, 'a>(
+    candidates: &'c mut [Candidate<'a>],
+    piece: &Piece,
+) -> impl Iterator<Item = &'c mut Candidate<'a>> {
+    let [[x0, x1], [y0, y1]] = [0, 1].map_array(|axis| {
+        let [least, most] = extent(piece, axis);
         // A pixel more on both sides is more than snapping and the points around a sample need.
         [least.floor() as i32 - 1, most.ceil() as i32 + 1]
-    };
-    let ([x0, x1], [y0, y1]) = (ends(0), ends(1));
+    });
+    // They are sorted by row.
     let first = candidates.partition_point(|candidate| candidate.sample[1] < y0);
-    for candidate in &mut candidates[first..] {
-        let [x, y] = candidate.sample;
-        if y > y1 {
-            break;
-        }
-        if (x0..=x1).contains(&x) {
-            visit(candidate);
-        }
-    }
+    let end = candidates.partition_point(|candidate| candidate.sample[1] <= y1);
+    let rows = candidates[first..end.max(first)].iter_mut();
+    rows.filter(move |candidate| (x0..=x1).contains(&candidate.sample[0]))
 }
 
 /// Counts the points around a sample that a piece covers as it is given.
@@ -281,6 +290,7 @@ fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece, ring: f64) {
     if area(piece.px) == 0.0 {
         return;
     }
+    // A point lies within where it is on the same side of all three edges.
     let mut is_here = false;
     for (count, by) in around.iter_mut().zip(AROUND) {
         let [x, y] = candidate.sample.map_array(|at| f64::from(at) + 0.5);

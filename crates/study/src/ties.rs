@@ -67,6 +67,7 @@ pub(crate) struct DepthPlane {
     snapping: f64,
 }
 
+/// The unit roundoff of doubles: the largest relative error of a rounded sum, product or quotient.
 const U: f64 = f64::EPSILON / 2.0;
 
 impl DepthPlane {
@@ -121,9 +122,11 @@ pub(crate) fn blends(item: &Item) -> bool {
     item.material.opacity.as_ref().is_some_and(|opacity| opacity.mode == AlphaMode::Blend)
 }
 
+/// The depth and the piece of a sample at which nothing is seen.
 const NONE: (f64, u32) = (f64::INFINITY, NOTHING);
 
 impl<'a> Surfaces<'a> {
+    /// Finds the nearest piece at each sample by the depths of planes before corners are snapped; of equal ones the first.
     pub fn of(scene: &Scene, pieces: &'a [Piece], window: PixelRect) -> Self {
         let blends = |piece: &Piece| blends(&scene.items[piece.item as usize]);
         let mut surfaces = Self {
@@ -184,6 +187,8 @@ impl<'a> Surfaces<'a> {
                 return see([x, y], [number; 2], Class::Decided);
             }
             let ([_, off, wide], [z, own_off, own_wide]) = (front_plane.at(x, y), plane.at(x, y));
+            // What blends hides nothing: behind the front it is not seen, well in front of it nothing competes, and else
+            // the distance alone counts.
             let blends = self.blends[number as usize];
             let class = match if blends { (z - near).abs() } else { z - near } {
                 _ if blends && z < near - wide - own_wide => Class::Decided,
@@ -198,16 +203,19 @@ impl<'a> Surfaces<'a> {
 
     /// Whether two pieces have the same corners and depths, in any order.
     fn are_same(&self, a: u32, b: u32) -> bool {
-        let corners = |piece: u32| {
-            let vertices = &self.pieces[piece as usize].triangle.vertices;
-            let corners = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
-            sorted(corners, |a, b| a > b)
-        };
-        corners(a) == corners(b)
+        self.sorted_corners(a) == self.sorted_corners(b)
+    }
+
+    /// The corners of a piece with their depths, as bits, in an order of their own.
+    fn sorted_corners(&self, piece: u32) -> [(i32, i32, u64); 3] {
+        let vertices = &self.pieces[piece as usize].triangle.vertices;
+        let corners = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
+        sorted(corners, |a, b| a > b)
     }
 }
 
 impl Classes {
+    /// Without any sample yet: pixels are counted by [`Classes::counted`] once all are added.
     pub(crate) fn new(size: PixelRect) -> Self {
         let map = Frame::new(size, Class::Empty);
         Self { map, decided: 0, by_order: 0, by_rounding: 0, equal: 0, first: None }
@@ -235,13 +243,15 @@ impl Classes {
 
     /// The same with the pixels of each class counted.
     pub(crate) fn counted(self) -> Self {
-        let count = |class: Class| {
-            let all = self.map.rows().flat_map(|(_, row)| row);
-            all.filter(|held| **held == class).count() as u64
-        };
-        let equal = count(Class::Equal);
-        let (decided, by_order) = (count(Class::Decided), count(Class::ByOrder));
-        let by_rounding = count(Class::ByRounding) + equal;
+        let (mut decided, mut by_order, mut by_rounding, mut equal) = (0, 0, 0, 0);
+        for (_, row) in self.map.rows() {
+            for class in row {
+                decided += u64::from(*class == Class::Decided);
+                by_order += u64::from(*class == Class::ByOrder);
+                by_rounding += u64::from(*class >= Class::ByRounding);
+                equal += u64::from(*class == Class::Equal);
+            }
+        }
         Self { decided, by_order, by_rounding, equal, ..self }
     }
 }

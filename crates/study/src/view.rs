@@ -38,17 +38,14 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// The corners once they are snapped.
     pub fn corners(&self) -> Corners {
         self.triangle.corners()
     }
 
     /// The triangle with its depths alone.
     pub(crate) fn depth_only(&self) -> ScreenTriangle<f64> {
-        let vertices = self.triangle.vertices.map_array(|vertex| {
-            let ScreenVertex { position, depth, inv_w, .. } = vertex;
-            ScreenVertex { position, depth, inv_w, varying: 0.0 }
-        });
-        ScreenTriangle { vertices }
+        carrying(&self.triangle, |_| 0.0)
     }
 
     /// What putting its corners on a grid does to it.
@@ -60,6 +57,15 @@ impl Piece {
     pub fn free(&self) -> Option<FreeCorners> {
         FreeCorners::new(self.px).ok()
     }
+}
+
+/// The same triangle whose vertices carry something else, made of what they carry.
+fn carrying<V: Copy, U>(triangle: &ScreenTriangle<V>, of: fn(V) -> U) -> ScreenTriangle<U> {
+    let vertices = triangle.vertices.map_array(|vertex| {
+        let ScreenVertex { position, depth, inv_w, varying } = vertex;
+        ScreenVertex { position, depth, inv_w, varying: of(varying) }
+    });
+    ScreenTriangle { vertices }
 }
 
 /// The pieces of a scene in drawing order, culled as the scene asks.
@@ -85,22 +91,21 @@ pub(crate) fn pieces_and_lost(
             DVec4::new(x, y, second, third)
         };
         each_cut(scene, index, window, varying, &mut |cut: Cut<'_, DVec4>| {
-            let positions = cut.corners.map_array(|c| item.mesh.positions[c.position as usize]);
-            let most = positions.map_array(|position| sums * position.abs().extend(1.0));
-            let [a, b, c] = most;
+            // How large the terms of the sums in clip space are at most, at any of the three corners.
+            let mut most = DVec4::ZERO;
+            for corner in cut.corners {
+                let position = item.mesh.positions[corner.position as usize];
+                most = most.max(sums * position.abs().extend(1.0));
+            }
             let least_w = cut.w[0].min(cut.w[1]).min(cut.w[2]);
-            let off = MOST_OFF * a.max(b).max(c) / least_w;
+            let off = MOST_OFF * most / least_w;
             // Within the window |x|, |y| and |z| are at most w; half of that is the side of the window.
             let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
             let depth_error = (off.z + off.w) / 2.0;
             let Cut { face, px, w, triangle, .. } = cut;
-            let item_number = index as u32;
             let shares = triangle.vertices.map_array(|vertex| vertex.varying.zw());
-            let vertices = triangle.vertices.map_array(|vertex| {
-                let ScreenVertex { position, depth, inv_w, varying } = vertex;
-                ScreenVertex { position, depth, inv_w, varying: varying.xy() }
-            });
-            let triangle = ScreenTriangle { vertices };
+            let triangle = carrying(&triangle, DVec4::xy);
+            let item_number = index as u32;
             let piece =
                 Piece { face, item: item_number, px, w, px_error, depth_error, triangle, shares };
             if !grid.is_removed(item.cull, px) {
@@ -125,6 +130,14 @@ pub(crate) struct Cut<'a, V> {
     pub triangle: ScreenTriangle<V>,
 }
 
+/// A vertex of a clipped triangle, in pixels and snapped.
+#[derive(Clone, Copy)]
+struct PlacedVertex<V> {
+    px: [f64; 2],
+    w: f64,
+    snapped: ScreenVertex<V>,
+}
+
 /// Calls `see` with the parts of the triangles of an item that lie in the window. `varying` is what a corner carries, by the corner
 /// and its number in the triangle.
 pub(crate) fn each_cut<V: Varying>(
@@ -139,31 +152,33 @@ pub(crate) fn each_cut<V: Varying>(
     let before: usize = scene.items[..item].iter().map(|item| item.mesh.triangles.len()).sum();
     let points = clip_points(scene, item)?;
     for (number, corners) in scene.items[item].mesh.triangles.iter().enumerate() {
-        let vertex = |i: usize| ClipVertex {
+        let vertices = [0, 1, 2].map_array(|i| ClipVertex {
             position: points[corners[i].position as usize],
             varying: varying(&corners[i], i),
-        };
-        let vertices = [vertex(0), vertex(1), vertex(2)];
+        });
+        // A triangle with all corners outside of one plane has no part in the window.
         let [a, b, c] = vertices.map_array(|vertex| outcode(&vertex));
         if a & b & c != 0 {
             continue;
         }
+        // The polygon is cut into triangles around its first vertex, as the pipeline does.
         let (polygon, _) = clip(&vertices, a | b | c);
-        let mut placed = polygon.vertices().filter_map(|vertex| {
+        let mut first = None;
+        let mut previous = None;
+        for vertex in polygon.vertices() {
+            let Ok(snapped) = viewport.place(vertex) else { continue };
             let DVec4 { x, y, w, .. } = vertex.position;
             let px = [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height];
-            Some((px, w, viewport.place(vertex).ok()?))
-        });
-        let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else {
-            continue;
-        };
-        for next in placed {
-            let of = [first, previous, next];
-            previous = next;
-            let triangle = ScreenTriangle { vertices: of.map_array(|(.., v)| v) };
-            let (px, w) = (of.map_array(|(px, ..)| px), of.map_array(|(_, w, _)| w));
-            let face = (before + number) as u32;
-            see(Cut { face, corners: &corners, number, px, w, triangle });
+            let next = PlacedVertex { px, w, snapped };
+            if let (Some(first), Some(previous)) = (first, previous) {
+                let of = [first, previous, next];
+                let triangle = ScreenTriangle { vertices: of.map_array(|one| one.snapped) };
+                let (px, w) = (of.map_array(|one| one.px), of.map_array(|one| one.w));
+                let face = (before + number) as u32;
+                see(Cut { face, corners: &corners, number, px, w, triangle });
+            }
+            previous = first.and(Some(next));
+            first = first.or(Some(next));
         }
     }
     Ok(())
@@ -181,16 +196,19 @@ fn absolute(scene: &Scene, item: usize) -> DMat4 {
     positive(scene.projection) * positive(scene.view) * positive(model)
 }
 
+/// The positions of an item in clip space; an error where one of them is too large for the pipeline.
 pub(crate) fn clip_points(scene: &Scene, item: usize) -> Result<Vec<DVec4>, BadScene> {
     let Some(of) = scene.items.get(item) else { return Ok(Vec::new()) };
     let matrix = scene.projection * scene.view * of.model;
-    let points = of.mesh.positions.iter().enumerate().map(|(index, position)| {
+    let mut points = Vec::with_capacity(of.mesh.positions.len());
+    for (index, position) in of.mesh.positions.iter().enumerate() {
         let position = matrix * position.extend(1.0);
-        check_vertex(index, &ClipVertex { position, varying: () })
-            .map_err(|vertex| BadScene { item, vertex })?;
-        Ok(position)
-    });
-    points.collect()
+        if let Err(vertex) = check_vertex(index, &ClipVertex { position, varying: () }) {
+            return Err(BadScene { item, vertex });
+        }
+        points.push(position);
+    }
+    Ok(points)
 }
 
 /// The pieces of a scene at the samples of a picture.
@@ -211,6 +229,7 @@ pub struct Sampled {
 }
 
 impl Sampled {
+    /// The pieces at the samples of a target, on the grid of the engines.
     pub fn of(scene: &Scene, target: &Target) -> Result<Self, BadScene> {
         Self::on(scene, target, CornerGrid::USUAL)
     }
@@ -219,23 +238,24 @@ impl Sampled {
     pub fn on(scene: &Scene, target: &Target, grid: CornerGrid) -> Result<Self, BadScene> {
         let (size, window) = (target.size(), target.bounds());
         let (at_centres, lost) = pieces_and_lost(scene, size, grid)?;
-        let sampled = |planes, lost, centre| Self { size, window, planes, lost, grid, centre };
-        Ok(match target.antialias() {
-            Antialias::None => sampled(vec![at_centres], vec![lost], None),
-            Antialias::Supersample(_) => {
-                let (pieces, lost_there) = pieces_and_lost(scene, window, grid)?;
-                sampled(vec![pieces], vec![lost_there], Some([at_centres, lost]))
+        // Where the one sample of a pixel is its centre, the pieces there are the only plane.
+        if target.antialias() == Antialias::None {
+            let (planes, lost) = (vec![at_centres], vec![lost]);
+            return Ok(Self { size, window, planes, lost, grid, centre: None });
+        }
+        let mut planes = (Vec::new(), Vec::new());
+        if target.antialias() == Antialias::Multisample4 {
+            for sample in SAMPLES {
+                planes.0.push(all_moved(&at_centres, sample));
+                planes.1.push(all_moved(&lost, sample));
             }
-            Antialias::Multisample4 => {
-                let plane = |pieces: &[Piece], sample| {
-                    pieces.iter().filter_map(|piece| moved(piece, sample)).collect::<Vec<_>>()
-                };
-                let planes = |pieces: &[Piece]| {
-                    SAMPLES.into_iter().map(|sample| plane(pieces, sample)).collect()
-                };
-                sampled(planes(&at_centres), planes(&lost), Some([at_centres, lost]))
-            }
-        })
+        } else {
+            // A picture with more pixels, in which each sample is a centre.
+            let (pieces, lost) = pieces_and_lost(scene, window, grid)?;
+            planes = (vec![pieces], vec![lost]);
+        }
+        let centre = Some([at_centres, lost]);
+        Ok(Self { size, window, planes: planes.0, lost: planes.1, grid, centre })
     }
 
     /// The pieces with pixel centres as samples, whatever the picture has.
@@ -256,6 +276,7 @@ impl Sampled {
         }
     }
 
+    /// The pieces of all planes: with multisampling each triangle is there four times.
     pub fn all(&self) -> impl Iterator<Item = &Piece> {
         self.planes.iter().flatten()
     }
@@ -278,6 +299,7 @@ impl Sampled {
         if self.is_antialiased() { "samples" } else { "pixels" }
     }
 
+    /// The pixel of the picture that a sample belongs to.
     #[must_use]
     pub fn pixel(&self, sample: [i32; 2]) -> [i32; 2] {
         let scale = (self.window.width() / self.size.width().max(1)).max(1) as i32;
@@ -302,6 +324,7 @@ pub(crate) fn each_plane(
         // Made anew for each plane, since two lists of millions of pieces do not fit beside each other.
         let (mut pieces, mut lost) = pieces_and_lost(scene, target.size(), grid)?;
         for list in [&mut pieces, &mut lost] {
+            // In place, since a copy would be a second list.
             list.retain_mut(|piece| {
                 let moved = moved(piece, sample);
                 *piece = moved.unwrap_or(*piece);
@@ -316,9 +339,16 @@ pub(crate) fn each_plane(
 /// A piece moved so that a sample falls on the centre; none beyond the domain of the engines.
 fn moved(piece: &Piece, sample: (i32, i32)) -> Option<Piece> {
     let triangle = multisample::moved(&piece.triangle, sample)?;
-    let by = [sample.0, sample.1].map(|sixteenth| 0.5 - f64::from(sixteenth) / 16.0);
-    let px = piece.px.map_array(|[x, y]| [x + by[0], y + by[1]]);
+    // Samples are told in sixteenths of a pixel, of which the centre has eight.
+    let by_x = 0.5 - f64::from(sample.0) / 16.0;
+    let by_y = 0.5 - f64::from(sample.1) / 16.0;
+    let px = piece.px.map_array(|[x, y]| [x + by_x, y + by_y]);
     Some(Piece { px, triangle, ..*piece })
+}
+
+/// Pieces as a plane has them.
+fn all_moved(pieces: &[Piece], sample: (i32, i32)) -> Vec<Piece> {
+    pieces.iter().filter_map(|piece| moved(piece, sample)).collect()
 }
 
 /// No piece.

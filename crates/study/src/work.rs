@@ -54,20 +54,21 @@ impl Work {
         all
     }
 
+    /// The sum of both, at most the largest number: what is refused for its size is refused then, too.
     fn with(self, other: Self) -> Self {
-        let sum = |of: fn(&Self) -> u64| of(&self).saturating_add(of(&other));
         Self {
-            triangles: sum(|work| work.triangles),
-            rows: sum(|work| work.rows),
-            samples: sum(|work| work.samples),
-            blended: sum(|work| work.blended),
+            triangles: self.triangles.saturating_add(other.triangles),
+            rows: self.rows.saturating_add(other.rows),
+            samples: self.samples.saturating_add(other.samples),
+            blended: self.blended.saturating_add(other.blended),
         }
     }
 }
 
+/// The work of an item, whose triangles are shared between the threads.
 fn of_item(scene: &Scene, item: &Item, window: PixelRect) -> Work {
     let matrix = scene.projection * scene.view * item.model;
-    let size = [window.width(), window.height()].map_array(f64::from);
+    let size = [f64::from(window.width()), f64::from(window.height())];
     let shares: Vec<_> = item.mesh.triangles.positions().chunks(SHARE).collect();
     let of_shares = parallel::map(shares.len(), |number| {
         let mut work = Work::default();
@@ -83,20 +84,29 @@ fn of_item(scene: &Scene, item: &Item, window: PixelRect) -> Work {
     of_shares.into_iter().fold(Work::default(), Work::with)
 }
 
+/// Where a vertex in clip space lies in a window of this size, in pixels and not snapped.
+fn place(vertex: &ClipVertex<f64>, size: [f64; 2]) -> [f64; 2] {
+    let DVec4 { x, y, w, .. } = vertex.position;
+    [(x / w + 1.0) / 2.0 * size[0], (1.0 - y / w) / 2.0 * size[1]]
+}
+
 /// What a triangle has in the window; nothing where all of it is outside.
 fn of_triangle(corners: &[ClipVertex<f64>; 3], size: [f64; 2]) -> Work {
-    let [a, b, c] = corners.map_array(|corner| outcode(&corner));
-    if a & b & c != 0 || !corners.iter().all(|corner| corner.position.is_finite()) {
+    let [a, b, c] = corners;
+    let [outside_a, outside_b, outside_c] = [outcode(a), outcode(b), outcode(c)];
+    if outside_a & outside_b & outside_c != 0
+        || !(a.position.is_finite() && b.position.is_finite() && c.position.is_finite())
+    {
         return Work::default();
     }
-    let place = |DVec4 { x, y, w, .. }: DVec4| {
-        [(x / w + 1.0) / 2.0 * size[0], (1.0 - y / w) / 2.0 * size[1]]
-    };
-    if a | b | c == 0 {
-        return of_corners(corners.map_array(|corner| place(corner.position)));
+    // Most triangles lie within the window as they are.
+    let planes = outside_a | outside_b | outside_c;
+    if planes == 0 {
+        return of_corners([place(a, size), place(b, size), place(c, size)]);
     }
-    let (polygon, _) = clip(corners, a | b | c);
-    let mut placed = polygon.vertices().map(|vertex| place(vertex.position));
+    // What clipping leaves is cut into triangles around its first corner, as the pipeline does.
+    let (polygon, _) = clip(corners, planes);
+    let mut placed = polygon.vertices().map(|vertex| place(vertex, size));
     let (Some(first), Some(mut before)) = (placed.next(), placed.next()) else {
         return Work::default();
     };
@@ -112,7 +122,9 @@ fn of_triangle(corners: &[ClipVertex<f64>; 3], size: [f64; 2]) -> Work {
 /// circumference of a triangle is at most the width and the height of its box.
 fn of_corners([a, b, c]: [[f64; 2]; 3]) -> Work {
     let area = ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs() / 2.0;
-    let [width, height] = [0, 1].map_array(|i| a[i].max(b[i]).max(c[i]) - a[i].min(b[i]).min(c[i]));
+    let width = a[0].max(b[0]).max(c[0]) - a[0].min(b[0]).min(c[0]);
+    let height = a[1].max(b[1]).max(c[1]) - a[1].min(b[1]).min(c[1]);
+    // The box of a sliver that lies along an axis has fewer of them.
     let of_box = (width + 1.0) * (height + 1.0);
     // NaN becomes 0.
     let samples = (area + width + height + 1.0).min(of_box).ceil() as u64;

@@ -1,6 +1,7 @@
 //! A model of how dEQP, the base of Khronos' conformance suites, accepts pictures of triangles with one sample for each
 //! pixel (`framework/common/tcuRasterizationVerifier.cpp`).
 
+use glam::DVec2;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXEL_BITS};
 use rasterproof_verify::cases::Triangle;
@@ -19,6 +20,7 @@ pub const WEAK: usize = 10;
 /// How near to the centre an edge may pass before a pixel may be anything, in subpixels of the device.
 const NEAR: i64 = 3;
 
+/// A point in subpixels of the device, which has its own number of bits below the pixel.
 type DevicePoint = [i64; 2];
 
 /// Whether a picture of white triangles on black is accepted with at most `allowed` wrong pixels.
@@ -43,9 +45,13 @@ pub fn accepts(covers: &[Cover], pixels: &[[u8; 3]], allowed: usize) -> bool {
 /// Whether no pixel of grey triangles that are added was hit twice, and where the window is filled each was hit.
 #[must_use]
 pub fn added_once(pixels: &[[u8; 3]], fills_window: bool) -> bool {
-    let twice = |pixel: &[u8; 3]| pixel.iter().any(|&v| v > 128);
-    let missing = |pixel: &[u8; 3]| pixel.iter().any(|&v| v <= 1);
-    !pixels.iter().any(twice) && (!fills_window || !pixels.iter().any(missing))
+    // A triangle adds 127, so two of them come to more than 128, and none leaves black.
+    for channel in pixels.as_flattened() {
+        if *channel > 128 || fills_window && *channel <= 1 {
+            return false;
+        }
+    }
+    true
 }
 
 /// What dEQP says about every pixel of a window, for a device with so many bits below the pixel.
@@ -55,33 +61,33 @@ pub fn covers(triangles: &[Triangle], window: PixelRect, bits: u32) -> Vec<Cover
     let mut covers = Vec::with_capacity(window.width() as usize * window.height() as usize);
     for y in window.y0..window.y1 {
         for x in window.x0..window.x1 {
-            let pixel = [i64::from(x), i64::from(y)];
-            let mut result = Cover::None;
-            for (i, outline) in outlines.iter().enumerate() {
-                if result == Cover::Full {
-                    break;
-                }
-                match outline.cover(pixel) {
-                    Cover::None => {}
-                    Cover::Full => result = Cover::Full,
-                    // A pixel on nothing but a shared edge belongs to one of the two triangles.
-                    Cover::Partial
-                        if outline.only_on(pixel, shared[i])
-                            && (0..outlines.len()).any(|other| {
-                                other != i
-                                    && outlines[other].only_on(pixel, shared[other])
-                                    && outlines[other].cover(pixel) != Cover::None
-                            }) =>
-                    {
-                        result = Cover::Full;
-                    }
-                    Cover::Partial => result = Cover::Partial,
-                }
-            }
-            covers.push(result);
+            covers.push(cover_by_all(&outlines, &shared, [i64::from(x), i64::from(y)]));
         }
     }
     covers
+}
+
+/// What dEQP says about a pixel for all triangles together: full where one of them covers it without doubt, or two that share an
+/// edge cover it between them; else partial where an edge is near.
+fn cover_by_all(outlines: &[Outline], shared: &[[bool; 3]], pixel: DevicePoint) -> Cover {
+    let mut result = Cover::None;
+    for (i, outline) in outlines.iter().enumerate() {
+        match outline.cover(pixel) {
+            Cover::None => continue,
+            Cover::Full => return Cover::Full,
+            Cover::Partial => result = Cover::Partial,
+        }
+        // A pixel on nothing but a shared edge belongs to one of the two triangles.
+        if !outline.only_on(pixel, shared[i]) {
+            continue;
+        }
+        for (j, other) in outlines.iter().enumerate() {
+            if j != i && other.only_on(pixel, shared[j]) && other.cover(pixel) != Cover::None {
+                return Cover::Full;
+            }
+        }
+    }
+    result
 }
 
 /// The corners of a triangle, clockwise with y down.
@@ -94,17 +100,21 @@ struct Outline {
 }
 
 impl Outline {
+    /// For a device with so many bits below the pixel.
     fn new(triangle: &Triangle, bits: u32) -> Self {
         let mut exact = triangle.corners().map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         if cross(exact[0], exact[1], exact[2]) < 0 {
             exact.swap(1, 2);
         }
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(bits);
-        let down = |v: i64| v.div_euclid(step);
-        let up = |v: i64| -(-v).div_euclid(step);
-        Self { exact, rounded: exact.map_array(|p| [p.map_array(down), p.map_array(up)]), bits }
+        let rounded = exact.map_array(|[x, y]| {
+            let down = [x.div_euclid(step), y.div_euclid(step)];
+            [down, [-(-x).div_euclid(step), -(-y).div_euclid(step)]]
+        });
+        Self { exact, rounded, bits }
     }
 
+    /// What this triangle alone says about a pixel.
     fn cover(&self, pixel: DevicePoint) -> Cover {
         // Nothing but the box of the corners, one pixel wider, is looked at.
         for axis in 0..2 {
@@ -114,25 +124,35 @@ impl Outline {
                 return Cover::None;
             }
         }
+        // A square around the centre: an edge through it is near, however the device rounds its ends.
         let half = 1i64 << self.bits >> 1;
-        let centre = pixel.map_array(|px| (px << self.bits) + half);
-        let at = |dx: i64, dy: i64| [centre[0] + dx, centre[1] + dy];
-        let square = [at(-NEAR, -NEAR), at(NEAR, -NEAR), at(NEAR, NEAR), at(-NEAR, NEAR)];
+        let [x, y] = pixel.map_array(|px| (px << self.bits) + half);
+        let square = [
+            [x - NEAR, y - NEAR],
+            [x + NEAR, y - NEAR],
+            [x + NEAR, y + NEAR],
+            [x - NEAR, y + NEAR],
+        ];
         for edge in 0..3 {
             let (starts, ends) = (self.roundings(edge), self.roundings((edge + 1) % 3));
             for start in &starts {
                 for end in &ends {
-                    let touches =
-                        (0..4).any(|i| meet([*start, *end], [square[i], square[(i + 1) % 4]]));
-                    if touches {
-                        return Cover::Partial;
+                    for i in 0..4 {
+                        if meet([*start, *end], [square[i], square[(i + 1) % 4]]) {
+                            return Cover::Partial;
+                        }
                     }
                 }
             }
         }
-        let down = |i: usize| self.rounded[i % 3][0];
-        let inside = (0..3).all(|edge| cross(down(edge), down(edge + 1), square[0]) >= 0);
-        if inside { Cover::Full } else { Cover::None }
+        // No edge runs through the square, so that one of its corners tells for all of it.
+        let [[a, _], [b, _], [c, _]] = self.rounded;
+        let corner = square[0];
+        if cross(a, b, corner) >= 0 && cross(b, c, corner) >= 0 && cross(c, a, corner) >= 0 {
+            Cover::Full
+        } else {
+            Cover::None
+        }
     }
 
     /// A corner with each of its coordinates rounded either way.
@@ -151,27 +171,41 @@ impl Outline {
 
     /// Within 2 half diagonals of a pixel from the edge, and not beyond its ends.
     fn is_near(&self, pixel: DevicePoint, edge: usize) -> bool {
-        let px = |p: DevicePoint| p.map_array(|v| v as f64 / 256.0);
-        let (a, b) = (px(self.exact[edge]), px(self.exact[(edge + 1) % 3]));
-        let centre = pixel.map_array(|v| v as f64 + 0.5);
-        let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
-        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
-        let (line, v) = (minus(b, a), minus(centre, a));
-        let product = line[0] * v[1] - line[1] * v[0];
+        let [a, b] = [self.exact[edge], self.exact[(edge + 1) % 3]]
+            .map_array(|[x, y]| DVec2::new(x as f64 / 256.0, y as f64 / 256.0));
+        let centre = DVec2::new(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5);
+        let (line, v) = (b - a, centre - a);
+        let product = line.x * v.y - line.y * v.x;
         let farthest = length(line) + 1.414;
-        product * product <= 2.0 * (line[0] * line[0] + line[1] * line[1])
+        product * product <= 2.0 * (line.x * line.x + line.y * line.y)
             && length(v) <= farthest
-            && length(minus(centre, b)) <= farthest
+            && length(centre - b) <= farthest
+    }
+
+    /// The ends of an edge.
+    fn ends(&self, edge: usize) -> [DevicePoint; 2] {
+        [self.exact[edge], self.exact[(edge + 1) % 3]]
     }
 }
 
+/// In one order of the operations, whatever a processor has instructions for.
+fn length(v: DVec2) -> f64 {
+    (v.x * v.x + v.y * v.y).sqrt()
+}
+
+/// Which edges of a triangle another one has as well, in either direction.
 fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
-    let ends = |i: usize, edge: usize| [outlines[i].exact[edge], outlines[i].exact[(edge + 1) % 3]];
-    [0, 1, 2].map_array(|edge| {
-        let [a, b] = ends(of, edge);
-        let others = (0..outlines.len()).filter(|&i| i != of);
-        { others }.any(|i| (0..3).any(|e| ends(i, e) == [a, b] || ends(i, e) == [b, a]))
-    })
+    let mut shared = [false; 3];
+    for (i, other) in outlines.iter().enumerate() {
+        if i == of {
+            continue;
+        }
+        for (edge, shared) in shared.iter_mut().enumerate() {
+            let [a, b] = outlines[of].ends(edge);
+            *shared |= (0..3).any(|e| [[a, b], [b, a]].contains(&other.ends(e)));
+        }
+    }
+    shared
 }
 
 /// On which side of the line from a to b the point c lies: 1, 0 on the line, or -1.

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_faults::published::{Published, from_screen};
@@ -37,6 +37,7 @@ pub struct Permitted {
     single: bool,
 }
 
+/// A row of [`RIGHT`].
 const fn permitted(rule: Rule, bits: u32, single: bool) -> Permitted {
     Permitted { rule, bits, single }
 }
@@ -52,6 +53,7 @@ const RIGHT: [(&str, Permitted); 6] = [
 ];
 
 impl Rasterizer {
+    /// Those with a fault, and those that are right.
     pub fn all() -> Vec<Self> {
         // These two are faults by what this project declares. Specifications permit both, and they are among the right
         // rasterizers here.
@@ -67,6 +69,7 @@ impl Rasterizer {
         all
     }
 
+    /// Its name in the tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Reference => "scanline",
@@ -98,9 +101,8 @@ impl Rasterizer {
     /// Whether a scene is within its domain: f32 does not hold every w that f64 holds.
     #[must_use]
     pub fn can_draw(&self, scene: &Scene) -> bool {
-        let fits = |inv_w: f64| (1e-30..1e30).contains(&inv_w);
-        let vertices = || scene.triangles.iter().flat_map(|triangle| &triangle.vertices);
-        !self.is_single() || vertices().all(|vertex| fits(vertex.inv_w))
+        let mut vertices = scene.triangles.iter().flat_map(|triangle| &triangle.vertices);
+        !self.is_single() || vertices.all(|vertex| (1e-30..1e30).contains(&vertex.inv_w))
     }
 
     /// The fill rule that a right rasterizer declares; the default one of all others.
@@ -111,15 +113,15 @@ impl Rasterizer {
         }
     }
 
+    /// The triangle with its corners on the grid of the device, halves rounded towards larger coordinates.
     pub fn placed(&self, triangle: &Triangle) -> Triangle {
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits());
-        let snap = |v: i32| {
-            let snapped = (i64::from(v) + step / 2).div_euclid(step) * step;
-            snapped.clamp(i32::MIN.into(), i32::MAX.into()) as i32
-        };
         let mut placed = *triangle;
         for vertex in &mut placed.vertices {
-            vertex.position = SubpixelPoint::new(snap(vertex.position.x), snap(vertex.position.y));
+            for at in [&mut vertex.position.x, &mut vertex.position.y] {
+                let snapped = (i64::from(*at) + step / 2).div_euclid(step) * step;
+                *at = snapped.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+            }
         }
         placed
     }
@@ -188,6 +190,8 @@ fn fill(
 /// The values at the centre of a pixel: weights are areas, those of attributes divided by w. Colours have 8 bits, so
 /// plain arithmetic suffices where f32 is not wanted.
 fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragment<DVec2> {
+    // A double has more than twice the digits of a float, so that a sum, product or quotient of floats that is rounded to a
+    // double and then to a float is the same as one that is rounded to a float at once.
     let round = |v: f64| if single { f64::from(v as f32) } else { v };
     let centre =
         [x_px, y_px].map_array(|px| f64::from(px) + f64::from(HALF_PIXEL) / f64::from(SUBPIXELS));
@@ -240,6 +244,7 @@ impl Rendering {
 #[must_use]
 pub fn draw(subject: &Rasterizer, scene: &Scene) -> Rendering {
     let mut fragments = Vec::new();
+    // A fragment is kept with the number of its triangle; a program that panics has drawn what it drew before.
     let drawing = caught(|| {
         scene.triangles.iter().enumerate().all(|(i, triangle)| {
             subject.fragments(triangle, scene, &mut |fragment| fragments.push((i, fragment)))
@@ -252,6 +257,7 @@ pub fn draw(subject: &Rasterizer, scene: &Scene) -> Rendering {
         fragments,
         failed: !matches!(drawing, Ok(true)),
     };
+    // Fragments become a picture in drawing order, nearer ones in front where the scene asks for a depth test.
     let mut nearest = vec![f64::INFINITY; width * height];
     for (_, fragment) in &drawn.fragments {
         // A pixel right of the window is the first of the next row, as in a buffer of rows one after the other.
@@ -268,6 +274,7 @@ pub fn draw(subject: &Rasterizer, scene: &Scene) -> Rendering {
     drawn
 }
 
+/// The colour of a pixel after a fragment is drawn there.
 fn painted(paint: Paint, under: [u8; 3], varying: DVec2) -> [u8; 3] {
     // A conversion to an integer saturates, and turns what is no number into 0.
     let byte = |v: f64| (v * 255.0 + 0.5) as u8;

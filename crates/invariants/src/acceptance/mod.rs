@@ -17,6 +17,7 @@ use rules::{RULES, View};
 use scenes::{Scene, scenes};
 use serde::Serialize;
 
+/// What a rule accepted and refused of a set of pictures.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Row {
     pub rule: &'static str,
@@ -35,6 +36,7 @@ pub struct Row {
     pub refused_right_pictures: u64,
 }
 
+/// A fault that was accepted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passed {
     #[serde(rename = "fault")]
@@ -60,11 +62,13 @@ impl Row {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).min_by_key(|f| f.wrong_pixels)
     }
 
+    /// The accepted fault with the most wrong pixels.
     pub fn most_harmful(&self) -> Option<&Passed> {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).max_by_key(|f| f.wrong_pixels)
     }
 }
 
+/// What all rules accepted and refused, on both sets of pictures.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Acceptance {
     pub faults: Vec<&'static str>,
@@ -79,6 +83,7 @@ pub struct Acceptance {
     pub visible: [usize; 2],
 }
 
+/// What the picture of one rasterizer came to in one scene.
 struct SceneJudgement {
     wrong_pixels: u64,
     pixels: u64,
@@ -95,29 +100,33 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
         step();
         judged
     });
-    let names = |right: bool| -> Vec<&'static str> {
-        subjects.iter().filter(|s| s.is_right() == right).map(Rasterizer::name).collect()
-    };
-    let mut report =
-        Acceptance { faults: names(false), right: names(true), ..Acceptance::default() };
+    let mut report = Acceptance::default();
+    for subject in &subjects {
+        let of = if subject.is_right() { &mut report.right } else { &mut report.faults };
+        of.push(subject.name());
+    }
     for (set, of_suites) in [(0, true), (1, false)] {
-        let scenes: Vec<usize> =
-            (0..list.len()).filter(|&i| list[i].of_suites == of_suites).collect();
-        let of_set: Vec<(&Scene, &[SceneJudgement])> =
-            scenes.iter().map(|&i| (&list[i], judged[i].0.as_slice())).collect();
-        let rows = (0..RULES.len()).map(|rule| {
-            let refused = |&&i: &&usize| judged[i].1[rule] == Some(false);
-            let unusable_pictures = scenes.iter().filter(refused).count() as u64;
-            let row = row(rule, &subjects, &of_set);
-            Row { rule: RULES[rule].name, unusable_pictures, ..row }
-        });
-        let rows = rows.collect();
-        *(if of_suites { &mut report.suites } else { &mut report.hard }) = rows;
-        report.scenes[set] = scenes.len();
-        report.visible[set] = (0..subjects.len())
-            .filter(|&s| !subjects[s].is_right())
-            .filter(|&s| of_set.iter().any(|(_, judged)| judged[s].wrong_pixels > 0))
-            .count();
+        // The scenes of this set, with what all subjects drew there, and which rules accept the right picture.
+        let mut of_set: Vec<(&Scene, &[SceneJudgement])> = Vec::new();
+        let mut usable: Vec<&[Option<bool>]> = Vec::new();
+        for (scene, (judgements, accepts_right)) in list.iter().zip(&judged) {
+            if scene.of_suites == of_suites {
+                of_set.push((scene, judgements));
+                usable.push(accepts_right);
+            }
+        }
+        let rows = if of_suites { &mut report.suites } else { &mut report.hard };
+        for (number, rule) in RULES.iter().enumerate() {
+            let refused = usable.iter().filter(|accepts| accepts[number] == Some(false));
+            let unusable_pictures = refused.count() as u64;
+            let row = row(number, &subjects, &of_set);
+            rows.push(Row { rule: rule.name, unusable_pictures, ..row });
+        }
+        report.scenes[set] = of_set.len();
+        for (s, subject) in subjects.iter().enumerate() {
+            let changes = of_set.iter().any(|(_, judged)| judged[s].wrong_pixels > 0);
+            report.visible[set] += usize::from(changes && !subject.is_right());
+        }
     }
     report
 }
@@ -130,6 +139,7 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Op
         let view = View { scene, seen: &seen, right: &right, drawn, subject };
         RULES.iter().map(|rule| rule.accepts(&view)).collect()
     };
+    // A rule that refuses the right picture is of no use in this scene.
     let usable = accepts(&Rasterizer::Reference, &right);
     let mut all = Vec::new();
     for subject in subjects {
@@ -161,6 +171,7 @@ fn differing(right: &Rendering, drawn: &Rendering) -> u64 {
     right.pixels.iter().zip(&drawn.pixels).filter(|(a, b)| a != b).count() as u64
 }
 
+/// What a rule, by its number, accepts and refuses of the pictures that subjects drew of scenes.
 fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[SceneJudgement])]) -> Row {
     let mut row = Row::default();
     for (s, subject) in subjects.iter().enumerate() {
@@ -175,6 +186,7 @@ fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[SceneJudgement
             if subject.is_right() || judged.wrong_pixels == 0 {
                 continue;
             }
+            // From here on the picture is wrong: one that is accepted is the worst where it has the largest share of wrong pixels.
             row.wrong_pictures += 1;
             row.refused_pictures += u64::from(!accepts);
             if accepts {

@@ -11,9 +11,16 @@ const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 /// X, Y and Z of the standard daylight D65.
 const WHITE: [f64; 3] = [0.950_428_545, 1.0, 1.088_900_371];
 
+/// A channel of sRGB as linear light, from 0 to 1.
 fn linear(byte: u8) -> f64 {
     let v = f64::from(byte) / 255.0;
     if v > 0.040_45 { libm::pow((v + 0.055) / 1.055, 2.4) } else { v / 12.92 }
+}
+
+/// The pixels of a picture in linear light. Powers take long, and there are only 256 of them.
+fn linear_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
+    let table: Vec<f64> = (0..=255).map(linear).collect();
+    pixels.iter().map(|pixel| pixel.map_array(|byte| table[usize::from(byte)])).collect()
 }
 
 /// Linear RGB to XYZ, in units of the white.
@@ -41,75 +48,99 @@ fn opponent([x, y, z]: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
+/// L*a*b* of a colour in linear light.
 fn lab(rgb: [f64; 3]) -> [f64; 3] {
-    let root = |v: f64| {
-        if v > 216.0 / 24_389.0 { libm::cbrt(v) } else { v * 841.0 / 108.0 + 4.0 / 29.0 }
-    };
-    opponent(to_xyz(rgb).map_array(root))
+    opponent(to_xyz(rgb).map_array(root_of_lab))
 }
 
+/// The cube root, and a line near 0, where the root would be too steep.
+fn root_of_lab(v: f64) -> f64 {
+    if v > 216.0 / 24_389.0 { libm::cbrt(v) } else { v * 841.0 / 108.0 + 4.0 / 29.0 }
+}
+
+/// The pixels of a picture in L*a*b*.
 pub fn lab_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
-    let linear: Vec<f64> = (0..=255).map(linear).collect();
-    pixels.iter().map(|pixel| lab(pixel.map_array(|v| linear[usize::from(v)]))).collect()
+    linear_of_all(pixels).into_iter().map(lab).collect()
 }
 
 /// One number for each pixel, row after row.
 type Channel = Vec<f64>;
 
+/// The weights of the pixels from one radius before a pixel to one radius behind it.
 type Kernel = Vec<f64>;
 
-fn gaussian(radius: i32, of: impl Fn(f64) -> f64) -> Kernel {
+/// The kernel of a function of the distance.
+fn kernel(radius: i32, of: impl Fn(f64) -> f64) -> Kernel {
     (-radius..=radius).map(|i| of(f64::from(i))).collect()
 }
 
 /// Filters with one kernel along rows and another along columns; pixels beyond the border are those of the border.
 fn filtered(plane: &[f64], width: usize, along_rows: &[f64], along_columns: &[f64]) -> Channel {
     let height = plane.len() / width;
-    let pass = |from: &[f64], kernel: &[f64], length: usize, stride: usize, place: usize| -> f64 {
+    let rows = filtered_along(plane, along_rows, width, 1);
+    filtered_along(&rows, along_columns, height, width)
+}
+
+/// Filters along one axis, on which there are `length` pixels, each `stride` after the one before it.
+fn filtered_along(from: &[f64], kernel: &[f64], length: usize, stride: usize) -> Channel {
+    let radius = kernel.len() / 2;
+    let mut filtered = Vec::with_capacity(from.len());
+    for place in 0..from.len() {
         let at = place / stride % length;
-        let (radius, first) = (kernel.len() / 2, place - at * stride);
-        let near = |k: usize| (at + k).saturating_sub(radius).min(length - 1);
-        kernel.iter().enumerate().map(|(k, weight)| weight * from[first + near(k) * stride]).sum()
-    };
-    let rows: Channel = (0..plane.len()).map(|i| pass(plane, along_rows, width, 1, i)).collect();
-    (0..plane.len()).map(|i| pass(&rows, along_columns, height, width, i)).collect()
+        let first = place - at * stride;
+        let mut sum = 0.0;
+        for (k, weight) in kernel.iter().enumerate() {
+            let near = (at + k).saturating_sub(radius).min(length - 1);
+            sum += weight * from[first + near * stride];
+        }
+        filtered.push(sum);
+    }
+    filtered
 }
 
 /// What FLIP computes of one of its two pictures.
 pub struct Flip {
     /// The filtered picture in L*a*b*, with colours less vivid where it is dark (Hunt).
     colours: Vec<[f64; 3]>,
+    /// The strength of edges and of points.
     features: Vec<[f64; 2]>,
 }
 
 impl Flip {
     pub fn new(width: usize, pixels: &[[u8; 3]]) -> Self {
-        let linear: Vec<f64> = (0..=255).map(linear).collect();
-        let seen: Vec<[f64; 3]> = pixels
-            .iter()
-            .map(|pixel| opponent(to_xyz(pixel.map_array(|v| linear[usize::from(v)]))))
-            .collect();
-        let plane = |i: usize| -> Channel { seen.iter().map(|v| v[i]).collect() };
-        let channels = [0, 1, 2].map_array(|i| contrast_filtered(&plane(i), width, CONTRAST[i]));
-        let colours = (0..pixels.len())
-            .map(|p| {
-                let [y, cx, cz] = [0, 1, 2].map_array(|i| channels[i][p]);
-                let y = (y + 16.0) / 116.0;
-                let rgb =
-                    from_xyz([y + cx / 500.0, y, y - cz / 200.0]).map_array(|v| v.clamp(0.0, 1.0));
-                hunt(lab(rgb))
-            })
-            .collect();
+        // First the picture in an opponent space, whose channels the eye resolves differently well.
+        let mut seen = Vec::with_capacity(pixels.len());
+        for rgb in linear_of_all(pixels) {
+            seen.push(opponent(to_xyz(rgb)));
+        }
+        let channels = [0, 1, 2].map_array(|i| {
+            let plane: Channel = seen.iter().map(|v| v[i]).collect();
+            contrast_filtered(&plane, width, CONTRAST[i])
+        });
+        // What is left of it is looked at as a picture again.
+        let mut colours = Vec::with_capacity(pixels.len());
+        let [lightness, reds, blues] = &channels;
+        for ((y, cx), cz) in lightness.iter().zip(reds).zip(blues) {
+            let y = (y + 16.0) / 116.0;
+            let rgb =
+                from_xyz([y + cx / 500.0, y, y - cz / 200.0]).map_array(|v| v.clamp(0.0, 1.0));
+            colours.push(hunt(lab(rgb)));
+        }
+        // Features are looked for in the lightness of the picture as it was.
         let grey: Channel = seen.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
-        let [edges, points] = [false, true].map_array(|points| strengths(&grey, width, points));
+        let edges = strengths(&grey, width, false);
+        let points = strengths(&grey, width, true);
         let features = edges.into_iter().zip(points).map(|(edge, point)| [edge, point]).collect();
         Self { colours, features }
     }
 
+    /// The mean error of another picture, from 0 to 1.
     pub fn mean(&self, width: usize, pixels: &[[u8; 3]]) -> f64 {
         let other = Self::new(width, pixels);
+        // The largest difference of colours on a screen is that of green and blue.
         let largest = libm::pow(hyab(hunt(lab([0.0, 1.0, 0.0])), hunt(lab([0.0, 0.0, 1.0]))), 0.7);
-        let errors = (0..pixels.len()).map(|p| {
+        let mut sum = 0.0;
+        for p in 0..pixels.len() {
             let colour = libm::pow(hyab(self.colours[p], other.colours[p]), 0.7);
             // Errors up to 0.4 of the largest take up 0.95 of the scale.
             let knee = 0.4 * largest;
@@ -117,11 +148,13 @@ impl Flip {
                 true => colour * 0.95 / knee,
                 false => 0.95 + 0.05 * (colour - knee) / (largest - knee),
             };
-            let difference = |i: usize| (self.features[p][i] - other.features[p][i]).abs();
-            let feature = (difference(0).max(difference(1)) / std::f64::consts::SQRT_2).sqrt();
-            libm::pow(colour, 1.0 - feature)
-        });
-        errors.sum::<f64>() / pixels.len() as f64
+            let ([edge, point], [other_edge, other_point]) = (self.features[p], other.features[p]);
+            let difference = (edge - other_edge).abs().max((point - other_point).abs());
+            let feature = (difference / std::f64::consts::SQRT_2).sqrt();
+            // A feature that only one of both has makes an error of the colour weigh more.
+            sum += libm::pow(colour, 1.0 - feature);
+        }
+        sum / pixels.len() as f64
     }
 }
 
@@ -129,6 +162,7 @@ impl Flip {
 const CONTRAST: [[[f64; 2]; 2]; 3] =
     [[[1.0, 0.0047], [0.0, 1e-5]], [[1.0, 0.0053], [0.0, 1e-5]], [[34.1, 0.04], [13.5, 0.025]]];
 
+/// A channel as an eye sees it that does not resolve all of it: filtered with a sum of Gaussians whose weights come to 1.
 fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> Channel {
     // As wide as the widest of all channels.
     let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;
@@ -139,7 +173,7 @@ fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> C
             continue;
         }
         let scale = -PI * PI / (spread * PIXELS_PER_DEGREE * PIXELS_PER_DEGREE);
-        let kernel = gaussian(radius, |x| libm::exp(scale * x * x));
+        let kernel = kernel(radius, |x| libm::exp(scale * x * x));
         let weight = weight * (PI / spread).sqrt();
         let total: f64 = kernel.iter().sum();
         weights += weight * total * total;
@@ -154,9 +188,10 @@ fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> C
 fn strengths(grey: &[f64], width: usize, points: bool) -> Channel {
     let deviation = 0.5 * 0.082 * PIXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
-    let bell = gaussian(radius, |x| libm::exp(-x * x / (2.0 * deviation * deviation)));
-    let across = gaussian(radius, |x| {
+    let bell = kernel(radius, |x| libm::exp(-x * x / (2.0 * deviation * deviation)));
+    let across = kernel(radius, |x| {
         let bell = libm::exp(-x * x / (2.0 * deviation * deviation));
+        // The first derivative of the bell answers to edges, the second one to points.
         bell * if points { x * x / (deviation * deviation) - 1.0 } else { -x }
     });
     // Positive and negative weights of the plane come to 1 each.
@@ -170,10 +205,12 @@ fn strengths(grey: &[f64], width: usize, points: bool) -> Channel {
     x.iter().zip(&y).map(|(x, y)| (x * x + y * y).sqrt()).collect()
 }
 
+/// Colours are less vivid where it is dark.
 fn hunt([l, a, b]: [f64; 3]) -> [f64; 3] {
     [l, 0.01 * l * a, 0.01 * l * b]
 }
 
+/// How far two colours are apart, by a distance that also holds for large ones: lightness and the rest are added.
 fn hyab(p: [f64; 3], q: [f64; 3]) -> f64 {
     let [l, a, b] = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     l.abs() + (a * a + b * b).sqrt()
@@ -183,6 +220,7 @@ fn hyab(p: [f64; 3], q: [f64; 3]) -> f64 {
 const PATCH: i64 = 6;
 /// The constants that keep SSIM from dividing by zero, for L*, a* and b*.
 const STEADY: [[f64; 2]; 3] = [[100.0, 900.0], [650.25, 5852.25], [650.25, 5852.25]];
+/// Of the histogram of SSIM, from -1 to 1.
 const BINS: usize = 200;
 
 /// How far SSIM is from 1, by VTK's tight measure: the root of the mean square, or the distance of the histogram, of the
@@ -191,12 +229,17 @@ pub fn ssim_error(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]]) -> f64 {
     (0..3).map(|channel| ssim_error_of(width, right, drawn, channel)).fold(0.0, f64::max)
 }
 
+/// The same of one channel.
 fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: usize) -> f64 {
     let height = (right.len() / width) as i64;
-    let disc: Vec<[i64; 2]> = (-PATCH..=PATCH)
-        .flat_map(|y| (-PATCH..=PATCH).map(move |x| [x, y]))
-        .filter(|[x, y]| x * x + y * y <= PATCH * PATCH)
-        .collect();
+    let mut disc = Vec::new();
+    for y in -PATCH..=PATCH {
+        for x in -PATCH..=PATCH {
+            if x * x + y * y <= PATCH * PATCH {
+                disc.push([x, y]);
+            }
+        }
+    }
     let mut squares = 0.0;
     let mut histogram = [0u64; BINS];
     // Where both pictures are equal all around, SSIM is 1.
@@ -208,6 +251,7 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
             most[axis] = most[axis].max(at[axis].saturating_add(PATCH));
         }
     }
+    // SSIM of each pixel, from the sums over the part of the disc around it that lies in the picture.
     for place in 0..right.len() as i64 {
         let (x, y) = (place % width as i64, place / width as i64);
         if !(least[0]..=most[0]).contains(&x) || !(least[1]..=most[1]).contains(&y) {
@@ -225,6 +269,7 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
                 products = [products[0] + a * a, products[1] + b * b, products[2] + a * b];
             }
         }
+        // Means, variances and the covariance of both pictures within the disc.
         let [m, n] = sums.map_array(|sum| sum / count);
         let [of_right, of_drawn, joint] =
             [products[0] / count - m * m, products[1] / count - n * n, products[2] / count - m * n];
@@ -235,6 +280,7 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
         let bin = (ssim + 1.0) / 2.0 * (BINS - 1) as f64;
         histogram[((bin + 0.5) as usize).min(BINS - 1)] += 1;
     }
+    // How far the histogram is from one in which all pixels have the best value: the distance of both distributions.
     let count = right.len() as f64;
     let (mut below, mut distance) = (0.0, 0.0);
     for of_bin in &histogram[..BINS - 1] {
@@ -248,15 +294,19 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
 /// The number of pixels that pixelmatch counts as different at this threshold.
 pub fn pixelmatch(right: &Rendering, drawn: &Rendering, threshold: f64) -> usize {
     let most = 35_215.0 * threshold * threshold;
-    let differs = |place: usize| {
+    let mut count = 0;
+    for place in 0..right.pixels.len() {
         let [y, i, q] = yiq(right.pixels[place], drawn.pixels[place]);
-        0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q > most
+        // What either picture smooths along an edge is forgiven.
+        let differs = 0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q > most
             && !is_smoothed(right, drawn, place)
-            && !is_smoothed(drawn, right, place)
-    };
-    (0..right.pixels.len()).filter(|&place| differs(place)).count()
+            && !is_smoothed(drawn, right, place);
+        count += usize::from(differs);
+    }
+    count
 }
 
+/// The difference of two colours in lightness and in two numbers for the hue.
 fn yiq(a: [u8; 3], b: [u8; 3]) -> [f64; 3] {
     let [r, g, b] = [0, 1, 2].map_array(|i| f64::from(a[i]) - f64::from(b[i]));
     [
@@ -272,14 +322,21 @@ fn around(picture: &Rendering, place: usize) -> (Vec<usize>, bool) {
     let (x, y) = (place % width, place / width);
     let (x0, x1) = (x.saturating_sub(1), (x + 1).min(width - 1));
     let (y0, y1) = (y.saturating_sub(1), (y + 1).min(height - 1));
-    let columns = |x: usize| (y0..=y1).map(move |y| y * width + x);
-    let places = (x0..=x1).flat_map(columns).filter(|&other| other != place).collect();
+    let mut places = Vec::with_capacity(8);
+    for x in x0..=x1 {
+        for y in y0..=y1 {
+            if y * width + x != place {
+                places.push(y * width + x);
+            }
+        }
+    }
     (places, x == 0 || y == 0 || x == width - 1 || y == height - 1)
 }
 
 /// Whether pixelmatch takes a pixel for one of a smoothed edge.
 fn is_smoothed(picture: &Rendering, other: &Rendering, place: usize) -> bool {
     let (places, on_border) = around(picture, place);
+    // With three equal pixels around it a pixel lies in a plane of one colour, which the border counts as one of.
     let mut equal = usize::from(on_border);
     let (mut darkest, mut brightest) = ((0.0, place), (0.0, place));
     for near in places {
@@ -299,6 +356,7 @@ fn is_smoothed(picture: &Rendering, other: &Rendering, place: usize) -> bool {
     if darkest.0 == 0.0 || brightest.0 == 0.0 {
         return false;
     }
+    // It is smoothed where it lies between a darker and a brighter pixel, one of which is in a plane in both pictures.
     let is_even = |place: usize| has_siblings(picture, place) && has_siblings(other, place);
     is_even(darkest.1) || is_even(brightest.1)
 }

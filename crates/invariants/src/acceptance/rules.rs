@@ -12,6 +12,7 @@ use super::drawing::{Rasterizer, Rendering};
 use super::perceptual;
 use super::scenes::{Paint, Scene};
 
+/// What a rule decides by: a picture beside the right one.
 pub struct View<'a> {
     pub scene: &'a Scene,
     pub seen: &'a RightPicture,
@@ -21,6 +22,7 @@ pub struct View<'a> {
     pub subject: &'a Rasterizer,
 }
 
+/// What several rules compute of the right picture, once for all that are compared with it.
 pub struct RightPicture {
     /// dEQP's three kinds of pixels, for devices with 8 and with 4 bits below the pixel.
     covers: Option<[Vec<Cover>; 2]>,
@@ -30,6 +32,7 @@ pub struct RightPicture {
 
 impl RightPicture {
     pub fn new(scene: &Scene, right: &Rendering) -> Self {
+        // Only pictures of white triangles are judged by kinds of pixels.
         let covers = (scene.paint == Paint::White)
             .then(|| [8, 4].map(|bits| deqp::covers(&scene.triangles, scene.window, bits)));
         let flip = perceptual::Flip::new(right.width, &right.pixels);
@@ -159,24 +162,29 @@ pub const RULES: [Rule; 12] = [
 ];
 
 impl View<'_> {
+    /// dEQP's kinds of pixels for the device that drew; none for scenes that it is not about.
     fn covers(&self) -> Option<&[Cover]> {
         let covers = self.seen.covers.as_ref()?;
         Some(&covers[usize::from(self.subject.subpixel_bits() == 4)])
     }
 
+    /// Whether both pictures are identical, which every rule accepts.
     fn same(&self) -> bool {
         self.right.pixels == self.drawn.pixels
     }
 
+    /// In how many pixels the two colours differ, by what a rule calls different.
     fn count(&self, differs: fn([u8; 3], [u8; 3]) -> bool) -> usize {
         self.right.pixels.iter().zip(&self.drawn.pixels).filter(|(a, b)| differs(**a, **b)).count()
     }
 }
 
+/// The largest difference in a channel.
 fn largest(a: [u8; 3], b: [u8; 3]) -> u8 {
-    (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0)
+    a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(a[2].abs_diff(b[2]))
 }
 
+/// Whether the first, the middle and the last pixel are as good as the same.
 fn samples_agree(right: &Rendering, drawn: &Rendering) -> bool {
     let height = right.pixels.len() / right.width;
     let middle = height / 2 * right.width + right.width / 2;
@@ -187,6 +195,7 @@ fn samples_agree(right: &Rendering, drawn: &Rendering) -> bool {
 /// This project's comparison of one scene: hits with the exact ones under the declared convention, and values where both
 /// have one. Both engines lie within their bounds of the exact value, so they differ by at most the sum.
 fn own(view: &View<'_>) -> bool {
+    // How often each triangle hits each pixel more than it should.
     let convention = view.subject.convention();
     let mut hits: HashMap<(usize, i32, i32), i32> = HashMap::new();
     for (i, fragment) in &view.drawn.fragments {
@@ -206,41 +215,39 @@ fn own(view: &View<'_>) -> bool {
     if !view.scene.shows_values() {
         return true;
     }
-    let right: HashMap<_, _> =
-        view.right.fragments.iter().map(|(i, f)| ((*i, f.x_px, f.y_px), *f)).collect();
-    view.drawn.fragments.iter().all(|(i, fragment)| {
-        let Some(right) = right.get(&(*i, fragment.x_px, fragment.y_px)) else { return true };
+    // A coarser grid moves the corners, so its values are those of another triangle.
+    if view.subject.subpixel_bits() < 8 {
+        return true;
+    }
+    let mut right = HashMap::new();
+    for (i, fragment) in &view.right.fragments {
+        right.insert((*i, fragment.x_px, fragment.y_px), fragment);
+    }
+    let side = f64::from(view.scene.window.width().max(view.scene.window.height()));
+    for (i, fragment) in &view.drawn.fragments {
+        let Some(right) = right.get(&(*i, fragment.x_px, fragment.y_px)) else { continue };
         let triangle = &view.scene.triangles[*i];
         let bounds = match view.subject.is_single() {
-            true => {
-                let side = f64::from(view.scene.window.width().max(view.scene.window.height()));
-                perspective_bounds(triangle, (fragment.x_px, fragment.y_px), side)
-            }
+            true => perspective_bounds(triangle, (fragment.x_px, fragment.y_px), side),
             false => double_bounds(triangle),
         };
-        // A coarser grid moves the corners, so its values are those of another triangle.
-        view.subject.subpixel_bits() < 8
-            || [
-                (fragment.depth, right.depth),
-                (fragment.varying.x, right.varying.x),
-                (fragment.varying.y, right.varying.y),
-            ]
-            .iter()
-            .zip(bounds)
-            .all(|((a, b), bound)| (a - b).abs() <= bound)
-    })
+        let off = (fragment.varying - right.varying).abs();
+        let off = [(fragment.depth - right.depth).abs(), off.x, off.y];
+        // What is no number lies within no bound.
+        if !off.iter().zip(bounds).all(|(off, bound)| *off <= bound) {
+            return false;
+        }
+    }
+    true
 }
 
 /// What the values of two right engines may differ by: depth, then both attributes.
 fn double_bounds(triangle: &Triangle) -> [f64; 3] {
     let v = &triangle.vertices;
-    let of = |values: [f64; 3], depth: bool| -> f64 {
-        let of = |t: &tolerance::Tolerance| (if depth { t.depth } else { t.attribute }).at(values);
-        of(&tolerance::SCANLINE) + of(&tolerance::SCANLINE)
-    };
-    [
-        of(v.each_ref().map(|v| v.depth), true),
-        of(v.each_ref().map(|v| v.varying.x), false),
-        of(v.each_ref().map(|v| v.varying.y), false),
-    ]
+    // Of one engine, and so twice that.
+    let tolerance::Tolerance { depth, attribute, .. } = tolerance::SCANLINE;
+    let depths = depth.at(v.each_ref().map(|v| v.depth));
+    let x = attribute.at(v.each_ref().map(|v| v.varying.x));
+    let y = attribute.at(v.each_ref().map(|v| v.varying.y));
+    [depths + depths, x + x, y + y]
 }

@@ -41,6 +41,7 @@ impl Scene {
         Self { name, of_suites, paint, window, triangles, fills_window, depth_test }
     }
 
+    /// Whether its colours depend on interpolated values.
     #[must_use]
     pub fn shows_values(&self) -> bool {
         matches!(self.paint, Paint::Values | Paint::Checker)
@@ -72,6 +73,7 @@ pub fn scenes(seed: u64) -> Vec<Scene> {
     scenes
 }
 
+/// The paint in the name of a scene.
 fn word(paint: Paint) -> &'static str {
     match paint {
         Paint::White => "white",
@@ -99,6 +101,7 @@ fn corner(px: [f64; 2], depth: f64, w: f64, varying: [f64; 2]) -> ScreenVertex<D
     ScreenVertex { position, depth, inv_w: 1.0 / w, varying: DVec2::from_array(varying) }
 }
 
+/// Both triangles of a quadrilateral, which share a diagonal.
 fn quad(corners: [ScreenVertex<DVec2>; 4]) -> [Triangle; 2] {
     let [a, b, c, d] = corners;
     [ScreenTriangle { vertices: [a, b, c] }, ScreenTriangle { vertices: [c, a, d] }]
@@ -115,6 +118,7 @@ fn turned(centre: [f64; 2], half: f64, t: f64) -> [Triangle; 2] {
     quad([at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)])
 }
 
+/// Scenes such as test suites draw: few large triangles, meshes, and values over a window.
 fn of_suites(seed: u64) -> Vec<Scene> {
     let window = PixelRect::window(SIDE as u32, SIDE as u32);
     let scene = |name: &str, paint: Paint, triangles: Vec<Triangle>| Scene {

@@ -31,6 +31,7 @@ impl Input {
     }
 }
 
+/// A choice with so many samples in a pixel.
 fn entry<A: Antialias + 'static>(
     name: &'static str,
     about: &'static str,
@@ -75,6 +76,7 @@ struct Truth {
     pixels: u64,
 }
 
+/// The shares of all triangles added up, as the choices do that draw them one after the other.
 fn truth(triangles: &[Corners], bounds: PixelRect) -> Truth {
     let (mut shares, mut on_edge) = (Frame::new(bounds, 0.0), Frame::new(bounds, false));
     let mut sum = 0.0;
@@ -88,6 +90,7 @@ fn truth(triangles: &[Corners], bounds: PixelRect) -> Truth {
     Truth { shares, on_edge, pixels: sum as u64 }
 }
 
+/// How far shares are from the exact ones, over the pixels on an edge.
 fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     let (mut sum, mut count) = (0.0, 0u64);
     for (y_px, row) in truth.on_edge.rows() {
@@ -100,6 +103,7 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
+/// The classes of scenes, without those that differ in w alone.
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     classes(options, (256, [8_000, 30_000]), |scene| {
         scene.is_of_coverage()?;

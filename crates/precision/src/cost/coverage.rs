@@ -28,6 +28,7 @@ use rasterproof_verify::oracle::Oracle;
 
 /// Errors of coverage, by their number in [`Board::measures`](super::Board).
 pub const GIVEN: usize = 0;
+/// The measure of the error against the corners once they are snapped.
 pub const SNAPPED: usize = 1;
 const HOLES: usize = 2;
 const TWICE: usize = 3;
@@ -290,6 +291,7 @@ fn score(spans: &[Vec<Span>], input: &Input, own_truth: usize) -> Run {
     Run { found, ..Run::of(errors) }
 }
 
+/// The classes of scenes, without those that differ in w alone.
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     classes(options, (1024, [60_000, 800_000]), |scene| {
         scene.is_of_coverage()?;

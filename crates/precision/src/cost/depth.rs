@@ -21,6 +21,7 @@ const TILE: usize = SIDE_PX * SIDE_PX;
 /// Two layers over a tile of pixels: the distances from the eye at the corners (0, 0), (SIDE, 0), (0, SIDE) of the front one.
 type Layers = [f64; 3];
 
+/// So many pairs of layers about a distance from the eye.
 fn layers(seed: u64, name: &str, z: f64, count: usize) -> Vec<Layers> {
     let mut rng = Rng::new(name, seed, 2);
     // Slanted by up to a percent of the distance, within the planes.
@@ -92,6 +93,7 @@ fn gap<F: Format>(z: f64) -> f64 {
     high
 }
 
+/// The largest gap near a distance: a gap depends on where in a step of the format it begins.
 fn step<F: Format>(z: f64) -> f64 {
     // Whole numbers over a number that no power of two divides hit all phases of a step.
     (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
@@ -103,6 +105,7 @@ pub(super) struct Input {
     layers: Vec<Layers>,
 }
 
+/// A format of depths, with what it gets wrong: pixels in a million, the gap here, and the largest one near here.
 fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<Input> {
     tiled(
         Choice::new(name, about, &[]),

@@ -120,6 +120,7 @@ fn ways<T: Real>() -> Vec<Entry<Input>> {
     ]
 }
 
+/// The choices of the group.
 #[must_use]
 pub fn choices() -> Vec<Entry<Input>> {
     let planes = Planes::default();

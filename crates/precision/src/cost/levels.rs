@@ -35,10 +35,12 @@ fn input(scene: &Scene) -> Input {
     of(drawn, scene.bounds)
 }
 
+/// Triangles with the exact levels at the usual number of samples.
 fn of(drawn: Vec<CoveredTriangle<Textured>>, bounds: PixelRect) -> Input {
     Input::new(drawn, bounds, SAMPLES, |&of| Some(move |x_px, y_px| exact(&of, x_px, y_px)))
 }
 
+/// A float as the quotient that it is.
 fn exactly(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap_or_else(BigRational::zero)
 }
@@ -60,6 +62,7 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
         let by_y = (&c * &to_b[0] - &b * &to_c[0]) / &area;
         [first + &by_x * &to[0] + &by_y * &to[1], by_x, by_y]
     };
+    // Texture coordinates times 1/w are linear, and 1/w is; the quotient rule makes slopes of the texture of them.
     let inv = plane(&|i| exactly(inv_w[i]));
     let square = |axis: usize| {
         let along = |coordinate: usize| {
@@ -74,6 +77,7 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
     (square > 0.0).then(|| 0.5 * libm::log2(square))
 }
 
+/// A choice of levels, which promises nothing.
 fn entry(
     name: &'static str,
     about: &'static str,
@@ -82,6 +86,7 @@ fn entry(
     sampled::entry(Choice::new(name, about, &[]), body, judge)
 }
 
+/// The worst and the mean error of a choice, in levels.
 fn judge(input: &Input, choice: Emit<'_, Textured>) -> Run {
     let (mut worst, mut sum) = (0f64, 0.0);
     input.at_samples(choice, &mut |_, exact, _, level| {
@@ -94,6 +99,7 @@ fn judge(input: &Input, choice: Emit<'_, Textured>) -> Run {
     Run::of(vec![Some(worst), Some(sum / input.judged().part.max(1) as f64)])
 }
 
+/// The choices of the group, from the cheapest idea to the most accurate one.
 pub(super) fn choices() -> Vec<Entry<Input>> {
     vec![
         entry("one a triangle", "by the areas in texels and in pixels", OfTriangle),
@@ -108,6 +114,7 @@ pub(super) fn choices() -> Vec<Entry<Input>> {
     ]
 }
 
+/// All classes of scenes: a level depends on the shape of a triangle as well as on its w.
 pub(super) fn columns(options: &CostOptions) -> impl PreparedColumns<Input> {
     classes(options, (512, [20_000, 200_000]), |scene| Ok(input(scene).counted()))
 }

@@ -120,6 +120,7 @@ fn lines(
     Ok((lines.collect(), about))
 }
 
+/// The pixels that are right for a line.
 fn truth(ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
     let line =
         ScreenLine { ends: ends.map_array(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };

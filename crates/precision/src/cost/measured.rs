@@ -53,17 +53,21 @@ fn time_column(
     timing: Timing,
     progress: &dyn Fn(f64),
 ) {
+    // Which passes are compared with each other: all, and the exact ones of each board by each measure.
     let mut sets = vec![(0..passes.len()).collect::<Vec<_>>()];
     for (number, board) in boards.iter().enumerate() {
         let column = board.columns.len() - 1;
         for measure in board.ranking() {
-            let is_exact = |&pass: &usize| {
-                let [of, choice] = places[pass];
-                of == number && board.meets(choice, column, measure)
-            };
-            sets.push((0..places.len()).filter(is_exact).collect());
+            let mut exact = Vec::new();
+            for (pass, [of, choice]) in places.iter().enumerate() {
+                if *of == number && board.meets(*choice, column, measure) {
+                    exact.push(pass);
+                }
+            }
+            sets.push(exact);
         }
     }
+    // All passes of the column ran in the same rounds, so that each may be told as a ratio to the fastest one.
     let times = compare(&mut passes, timing, &sets, progress);
     let Some(fastest) = times.iter().min_by(|a, b| a.median().total_cmp(&b.median())) else {
         return;
@@ -98,6 +102,7 @@ pub fn measure_with(
     external: Vec<Box<dyn ExternalChoice>>,
     progress: &dyn Fn(f64, &str),
 ) -> Vec<Board> {
+    // Neighbours of the list that do the same job are measured together.
     let mut external = external.into_iter().map(coverage::external);
     let jobs = || ladders.chunk_by(|a, b| a.is_coverage() && b.is_coverage());
     let mut boards = Vec::new();
@@ -109,8 +114,9 @@ pub fn measure_with(
         boards.extend(match of[0] {
             Ladder::Scanline | Ladder::EdgeFunction => {
                 let mut choices: Vec<_> = of.iter().map(|one| coverage::choices(*one)).collect();
-                if of.ends_with(&[Ladder::EdgeFunction]) {
-                    choices.last_mut().into_iter().for_each(|last| last.extend(external.by_ref()));
+                // External choices are edge functions, too, and are measured once.
+                if let (Some(last), [.., Ladder::EdgeFunction]) = (choices.last_mut(), of) {
+                    last.extend(external.by_ref());
                 }
                 // A round of both groups takes longer than that of any other, as the slowest choice takes hundreds of times as
                 // long as the fastest.
@@ -150,11 +156,12 @@ impl Job<'_> {
         columns: impl PreparedColumns<I>,
     ) -> Vec<Board> {
         let CostOptions { seed, timing, .. } = *self.options;
-        let board = |(ladder, entries): (&Ladder, &Vec<Entry<I>>)| {
+        let mut boards = Vec::with_capacity(choices.len());
+        for (ladder, entries) in self.ladders.iter().zip(&choices) {
             let choices = entries.iter().map(|entry| entry.choice.clone()).collect();
-            Board::new(*ladder, seed, ladder.measures(), choices)
-        };
-        let mut boards: Vec<Board> = self.ladders.iter().zip(&choices).map(board).collect();
+            boards.push(Board::new(*ladder, seed, ladder.measures(), choices));
+        }
+        // Column by column, so that the input of one is freed before the next one is made.
         let count = columns.len() as f64;
         for (number, (column, input)) in columns.enumerate() {
             let told = |share: f64| (self.progress)((number as f64 + share) / count);

@@ -67,6 +67,7 @@ impl<T, E> Input<T, E> {
             input.drawn.iter().enumerate()
         {
             let pixels = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(move |x| (x, s.y_px)));
+            // What is right in a triangle is set up at its first sample, since most triangles have none.
             let mut exact_at = None;
             for (number, (x_px, y_px)) in pixels.enumerate() {
                 if (before + number).is_multiple_of(stride) {
@@ -103,6 +104,7 @@ impl<T, E> Input<T, E> {
         choice: Emit<'_, T>,
         see: &mut dyn FnMut(&'a CoveredTriangle<T>, &'a E, [i32; 2], f64),
     ) {
+        // Samples are in drawing order, as the pixels are that a choice emits, so that one walk through both is enough.
         let mut samples = self.samples.iter().peekable();
         for (triangle, of_this) in self.drawn.iter().enumerate() {
             if samples.peek().is_none_or(|sample| sample.triangle != triangle) {

@@ -10,6 +10,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::FreeCorners;
 
+/// Triangles that every choice of a group is measured on.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: &'static str,
@@ -64,6 +65,7 @@ const CLASSES: [Class; 12] = [
 
 const MESH: &str = "a net of shared edges, many through or past a sample by an ulp of f32 or f64";
 
+/// All classes, of one size.
 pub fn scenes(seed: u64, size: Size) -> Vec<Scene> {
     CLASSES.iter().map(|class| scene(class, seed, size)).collect()
 }
@@ -92,6 +94,7 @@ fn scene(&(name, about, ratio, make): &Class, seed: u64, size: Size) -> Scene {
     }
 }
 
+/// How far from the origin the window of the class `far` begins.
 const FAR_PX: i32 = 1 << 14;
 
 /// A w in [1, ratio], often one of the ends, since the whole ratio is the danger.
@@ -103,10 +106,12 @@ fn spread(rng: &mut Rng, ratio: f64) -> f64 {
     }
 }
 
+/// The nearest number of 24 bits.
 fn f32_of(v: f64) -> f64 {
     f64::from(v as f32)
 }
 
+/// Triangles of a tenth of the window each.
 fn large(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = f64::from(size.side_px);
     compact(rng, size, side * side / 10.0)
@@ -120,10 +125,12 @@ fn small(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     })
 }
 
+/// Triangles of 1000 px each.
 fn thousand(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     compact(rng, size, 1000.0)
 }
 
+/// As many triangles of an area as cover about the pixels that are asked for, at least two.
 fn compact(rng: &mut Rng, size: &Size, area_px: f64) -> Vec<Corners> {
     let count = (size.pixels / area_px as u64).max(2);
     placed(rng, size, count, |rng| shape(rng, area_px))
@@ -162,6 +169,7 @@ fn placed(
     (0..count).map(place).collect()
 }
 
+/// Triangles half a window long and 1/2 to 2 px wide.
 fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let length = f64::from(size.side_px) / 2.0;
     // A quarter of the pixels: the bounding box of a sliver holds many times more.
@@ -191,6 +199,7 @@ fn half(rng: &mut Rng, size: &Size) -> Vec<Corners> {
         .collect()
 }
 
+/// The float that a corner is rounded to, and by whose steps it is nudged.
 #[derive(Clone, Copy)]
 enum Grain {
     F32,
@@ -228,6 +237,7 @@ impl Grain {
     }
 }
 
+/// Triangles of which one edge runs through a sample, or past it by a step of a float.
 fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = i64::from(size.side_px);
     (0..size.pixels / 130)
@@ -246,8 +256,10 @@ fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
         .collect()
 }
 
+/// The side of a cell of the net.
 const CELL_PX: f64 = 16.0;
 
+/// How many cells the net has on a side.
 fn cells(size: &Size) -> usize {
     let most = f64::from(size.side_px.max(48) - 16) / CELL_PX;
     ((size.pixels as f64).sqrt() / CELL_PX).clamp(2.0, most) as usize

@@ -41,6 +41,7 @@ pub(super) struct Tile {
     place: [f64; 2],
 }
 
+/// So many tiles of a class, each with a depth, a slope and a place of its own.
 fn tiles(seed: u64, &(name, apart, slope): &Class, count: usize) -> Vec<Tile> {
     let mut rng = Rng::new(name, seed, 4);
     let mut tile = || {
@@ -102,6 +103,7 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
     vec![share(0), share(1)]
 }
 
+/// A format of the depths in a map.
 fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<Vec<Tile>> {
     tiled(
         Choice::new(name, about, &[]),

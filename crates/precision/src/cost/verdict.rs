@@ -49,11 +49,13 @@ impl<'a> JudgedChoice<'a> {
         self.run.time.as_ref()?.rounds.as_ref()
     }
 
+    /// How many times as long it takes as another choice; nothing where either was not timed.
     #[must_use]
     pub fn over(&self, other: &Self) -> Option<Ratio> {
         if self.is(other) { Some(Ratio::ONE) } else { self.times()?.over(other.times()?) }
     }
 
+    /// Whether both are one choice of one board, on any column.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         self.number == other.number && std::ptr::eq(self.board, other.board)
@@ -70,15 +72,20 @@ impl<'a> JudgedChoice<'a> {
         if self.promises(measure) && !other.promises(measure) {
             return false;
         }
-        let mut measures = self.board.measures.iter().enumerate();
-        let is_no_worse = measures.all(|(number, one)| {
-            let both = other.error(number).zip(self.error(number));
-            let counts = number == measure || one.goal.is_none();
-            !counts || both.is_none_or(|(other, own)| other <= own)
-        });
-        let times = |one: &Self| one.run.time.as_ref().map(|time| time.times);
-        let both = times(other).zip(times(self));
-        is_no_worse && both.is_some_and(|(other, own)| other.high < own.low)
+        for (number, one) in self.board.measures.iter().enumerate() {
+            // Of the measures that rank, only the one that is asked about counts.
+            if number != measure && one.goal.is_some() {
+                continue;
+            }
+            if let (Some(other), Some(own)) = (other.error(number), self.error(number)) {
+                let is_no_worse = other <= own;
+                if !is_no_worse {
+                    return false;
+                }
+            }
+        }
+        let (Some(own), Some(other)) = (&self.run.time, &other.run.time) else { return false };
+        other.times.high < own.times.low
     }
 }
 
@@ -99,25 +106,27 @@ pub struct Cheapest<'a> {
 }
 
 impl<'a> Cheapest<'a> {
+    /// Sorts all others by what their times over that of the fastest one say; nothing where none was timed.
     #[must_use]
     pub fn of(exact: &[JudgedChoice<'a>]) -> Option<Self> {
         let choice = fastest(exact.iter().copied())?;
-        let others = |is_rival: fn(&Ratio) -> bool| {
-            let ratio = |other: &JudgedChoice<'_>| other.over(&choice);
-            let is_rival = |other: &&JudgedChoice<'a>| {
-                ratio(other).is_some_and(|ratio| ratio != Ratio::ONE && is_rival(&ratio))
+        let (mut equal, mut undecided) = (Vec::new(), Vec::new());
+        for other in exact {
+            let Some(ratio) = other.over(&choice).filter(|ratio| *ratio != Ratio::ONE) else {
+                continue;
             };
-            exact.iter().filter(is_rival).copied().collect()
-        };
-        Some(Self {
-            choice,
-            equal: others(|ratio| ratio.said() == RatioKind::NoDifference),
-            undecided: others(|ratio| ratio.said() == RatioKind::CannotBeTold && ratio.low <= 1.0),
-        })
+            match ratio.said() {
+                RatioKind::NoDifference => equal.push(*other),
+                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(*other),
+                _ => {}
+            }
+        }
+        Some(Self { choice, equal, undecided })
     }
 }
 
 impl Board {
+    /// The measures that say which choices are exact, by their numbers.
     pub fn ranking(&self) -> impl Iterator<Item = usize> {
         self.measures.iter().enumerate().filter(|(_, m)| m.goal.is_some()).map(|(i, _)| i)
     }
@@ -125,9 +134,11 @@ impl Board {
     /// Whether an error was measured and is as good as none.
     #[must_use]
     pub fn meets(&self, choice: usize, column: usize, measure: usize) -> bool {
-        let goal = self.measures.get(measure).and_then(|measure| measure.goal);
-        let both = self.error(choice, column, measure).zip(goal);
-        both.is_some_and(|(error, goal)| error <= goal) && self.columns[column].is_judged()
+        let Some(goal) = self.measures.get(measure).and_then(|measure| measure.goal) else {
+            return false;
+        };
+        let error = self.error(choice, column, measure);
+        error.is_some_and(|error| error <= goal) && self.columns[column].is_judged()
     }
 
     /// The choices that ran on a column.
@@ -137,6 +148,7 @@ impl Board {
         })
     }
 
+    /// The columns on which any choice ran.
     pub fn columns_run(&self) -> impl Iterator<Item = usize> {
         (0..self.columns.len()).filter(|&column| self.ran(column).next().is_some())
     }
@@ -161,21 +173,29 @@ impl Board {
     /// The choices that others beat in every column in which they ran, each with those others.
     #[must_use]
     pub fn dominated(&self, measure: usize) -> Vec<(&Choice, Vec<&Choice>)> {
-        let beaten = |choice: usize| {
-            let mut by: Vec<usize> = Vec::new();
-            for column in self.columns_run().filter(|&column| self.time(choice, column).is_some()) {
-                let this = self.ran(column).find(|one| one.number == choice)?;
-                let better = || self.ran(column).filter(|other| this.is_beaten(other, measure));
-                // One that is known already, or else the fastest.
-                if !better().any(|other| by.contains(&other.number)) {
-                    by.push(fastest(better())?.number);
-                }
+        let mut dominated = Vec::new();
+        for (number, choice) in self.choices.iter().enumerate() {
+            let by = self.beaten_by(number, measure).unwrap_or_default();
+            if !by.is_empty() {
+                dominated.push((choice, by));
             }
-            by.sort_unstable();
-            let by: Vec<&Choice> = by.into_iter().map(|other| &self.choices[other]).collect();
-            (!by.is_empty()).then_some((&self.choices[choice], by))
-        };
-        (0..self.choices.len()).filter_map(beaten).collect()
+        }
+        dominated
+    }
+
+    /// For each column in which a choice was timed one that beats it; nothing where in one of them none does.
+    fn beaten_by(&self, choice: usize, measure: usize) -> Option<Vec<&Choice>> {
+        let mut by: Vec<usize> = Vec::new();
+        for column in self.columns_run().filter(|&column| self.time(choice, column).is_some()) {
+            let this = self.ran(column).find(|one| one.number == choice)?;
+            let better = || self.ran(column).filter(|other| this.is_beaten(other, measure));
+            // One that is known already, or else the fastest.
+            if !better().any(|other| by.contains(&other.number)) {
+                by.push(fastest(better())?.number);
+            }
+        }
+        by.sort_unstable();
+        Some(by.into_iter().map(|other| &self.choices[other]).collect())
     }
 }
 
@@ -192,6 +212,7 @@ pub struct Price {
     pub given: Option<Priced>,
 }
 
+/// A choice and what it takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Priced {
     pub name: String,
@@ -203,21 +224,27 @@ pub struct Priced {
 pub fn prices(boards: &[Board]) -> Vec<Price> {
     let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
     let Some(first) = coverage.first() else { return Vec::new() };
-    let price = |column: usize| {
-        let cheapest = |is_meant: &dyn Fn(&JudgedChoice<'_>) -> bool| {
-            let all = coverage.iter().flat_map(|board| board.ran(column));
-            let cheapest = fastest(all.filter(is_meant))?;
-            let name = format!("{} {}", cheapest.board.ladder.short(), cheapest.name());
-            let time = cheapest.run.time.as_ref()?;
-            Some(Priced { name, pixel_ns: time.pixel_ns.median, ratio: time.times })
-        };
-        Some(Price {
+    let mut prices = Vec::new();
+    for column in first.columns_run() {
+        // The choices of both groups compete, by what they promise.
+        let all: Vec<JudgedChoice<'_>> =
+            coverage.iter().flat_map(|board| board.ran(column)).collect();
+        let Some(cheapest) = priced(&all, |_| true) else { continue };
+        prices.push(Price {
             column: first.columns[column].name.to_string(),
-            cheapest: cheapest(&|_| true)?,
-            unpromised: cheapest(&|one| one.choice().promises.is_empty()),
-            snapped: cheapest(&|one| one.promises(SNAPPED)),
-            given: cheapest(&|one| one.promises(GIVEN)),
-        })
-    };
-    first.columns_run().filter_map(price).collect()
+            cheapest,
+            unpromised: priced(&all, |one| one.choice().promises.is_empty()),
+            snapped: priced(&all, |one| one.promises(SNAPPED)),
+            given: priced(&all, |one| one.promises(GIVEN)),
+        });
+    }
+    prices
+}
+
+/// The cheapest of the choices that are meant.
+fn priced(all: &[JudgedChoice<'_>], is_meant: fn(&JudgedChoice<'_>) -> bool) -> Option<Priced> {
+    let cheapest = fastest(all.iter().copied().filter(is_meant))?;
+    let name = format!("{} {}", cheapest.board.ladder.short(), cheapest.name());
+    let time = cheapest.run.time.as_ref()?;
+    Some(Priced { name, pixel_ns: time.pixel_ns.median, ratio: time.times })
 }

@@ -40,6 +40,7 @@ pub struct Integer<T, W>(PhantomData<(T, W)>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Robust;
 
+/// A point in the arithmetic of a choice.
 type PointIn<T> = [T; 2];
 
 /// Whether an edge that runs from `a` to `b` with the inside on its right hand (y down) keeps the
@@ -66,6 +67,7 @@ fn visit(
         while x_px < rect.x1 && !inside(x_px, y_px) {
             x_px += 1;
         }
+        // Here the first sample inside is found, or the row has none.
         let x0_px = x_px;
         if x0_px == rect.x1 {
             asked += u64::from(rect.width());
@@ -161,11 +163,13 @@ fn clockwise<T: Real>(
     }
 }
 
+/// The three edges, each opposite to the corner of its number.
 #[inline]
 fn edges<T: Copy>([a, b, c]: [PointIn<T>; 3]) -> [[PointIn<T>; 2]; 3] {
     [[b, c], [c, a], [a, b]]
 }
 
+/// Visits the bounding box with three functions that `side` computes at each sample.
 #[inline]
 fn cover_by<T: Real>(
     corners: &FreeCorners,
@@ -247,6 +251,7 @@ where
             && holds(W::max_value().to_u128(), bound >> SUBPIXEL_BITS)
     }
 
+    /// Covers a triangle whose numbers [`Self::fits`] has found to fit.
     #[inline]
     fn cover_lattice(corners: &Corners, bounds: PixelRect, emit: impl FnMut(Span)) -> Work {
         let [a, b, c] = corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
@@ -275,7 +280,7 @@ where
         let start = [rect.x0, rect.y0].map_array(geometry::centre);
         let row = edges.map_array(|[a, b]| -> W {
             let bias = if is_top_left(&a, &b) { T::zero() } else { T::one() };
-            // An arithmetic shift is a floor.
+            // The bias of 1 makes a sample on an edge that does not keep it negative. An arithmetic shift is a floor.
             ((side(&a, &b, &start) - bias) >> SUBPIXEL_BITS as usize).as_()
         });
         let right = edges.map_array(|[a, b]| -> W { (a[1] - b[1]).as_() });

@@ -10,6 +10,7 @@ use rasterproof_report::words::{number, thousands};
 
 use crate::hard::{HardCases, Kind};
 
+/// What was found in one view.
 #[derive(serde::Serialize)]
 struct Turned {
     /// By how many degrees the model is turned about its vertical axis.
@@ -62,26 +63,29 @@ impl Around {
 
     /// Two tables, for a scene of this name.
     pub fn report(&self, scene: &str) -> Report {
-        let best = self.best.iter().map(|((_, name), &(title, count))| (title, &**name, count));
-        let best: Vec<_> = best.collect();
-        let row = |of: &Turned| {
-            let counts = [of.kinds, of.slivers, of.order, of.by_rounding, of.equal].map(thousands);
-            [vec![number(of.turn, 9)], counts.to_vec()].concat().into()
-        };
-        let (title, columns) = (
-            "Hard cases by the turn of the model",
-            ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11",
-        );
-        let hard = Table::new(title, columns, self.views.iter().map(row).collect());
-        let hard = hard.noted(vec![COUNTED.to_owned()]);
-        let row = |(title, name, count): &(&str, &str, u32)| Row::of(&[title, name, count]);
+        let mut rows = Vec::new();
+        for of in &self.views {
+            let mut cells = vec![number(of.turn, 9)];
+            for count in [of.kinds, of.slivers, of.order, of.by_rounding, of.equal] {
+                cells.push(thousands(count));
+            }
+            rows.push(Row::from(cells));
+        }
+        let columns =
+            ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11";
+        let hard = Table::new("Hard cases by the turn of the model", columns, rows);
+        // By the order of the groups, then by name, as the map has them.
+        let (mut best, mut rows) = (Vec::new(), Vec::new());
+        for ((_, name), (title, count)) in &self.best {
+            best.push((*title, &**name, *count));
+            rows.push(Row::of(&[title, name, count]));
+        }
         let columns = "job 28 | choice 24 | >views 6 in how many of the views";
-        let rows = best.iter().map(row).collect();
         let cheapest = Table::new("Cheapest exact choice", columns, rows);
         Report {
             about: format!("{scene}: seen from {} sides", self.views.len()),
             data: value(&Data { views: &self.views, cheapest_exact: best }),
-            tables: vec![hard, cheapest],
+            tables: vec![hard.noted(vec![COUNTED.to_owned()]), cheapest],
             ..Report::default()
         }
     }

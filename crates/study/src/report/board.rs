@@ -7,8 +7,8 @@
 use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Choice, Column, Ladder, Measure, Price, Priced, Ratio, RatioKind, Recorded,
-    Time, fastest, prices,
+    Board, CELLS, Cell, Column, Ladder, Measure, Priced, Ratio, RatioKind, Recorded, Time, fastest,
+    prices,
 };
 use rasterproof_precision::ladder::Work;
 use rasterproof_report::canvas;
@@ -16,6 +16,7 @@ use rasterproof_report::html::{Figure, PicturedAnswer, Report};
 use rasterproof_report::table::{self, Row, Table};
 use rasterproof_report::words::number;
 
+/// The width of a table in a terminal.
 const WIDTH: usize = 100;
 /// The width of the names of choices, which are indented.
 const NAME: usize = 18;
@@ -28,6 +29,7 @@ pub fn tables(board: &Board) -> Vec<Table> {
         tables.extend(times(board));
     }
     tables.extend(work(board));
+    // A count of work that no choice of a group does has no table.
     tables.retain(|table| !table.rows.is_empty());
     if let (Some(first), title) = (tables.first_mut(), board.ladder.title()) {
         first.caption = format!("{title}: {}", first.caption);
@@ -41,45 +43,47 @@ pub fn tables(board: &Board) -> Vec<Table> {
     tables
 }
 
+/// A table for each measure of the error.
 fn errors(board: &Board) -> Vec<Table> {
-    let of_measure = |(measure, Measure { title, goal, .. }): (usize, &Measure)| {
+    let mut tables = Vec::new();
+    for (measure, Measure { title, goal, .. }) in board.measures.iter().enumerate() {
         let (title, exact) = match goal {
+            // What is exact is known by its 0, so it has no mark unless it is the cheapest.
             Some(0.0) => (format!("{title} (0 is exact, * the cheapest such)"), ' '),
             Some(goal) => (format!("{title} (up to {goal:.4} is +, * the cheapest such)"), '+'),
             None => (title.to_string(), ' '),
         };
-        block(board, title, &|choice, column| {
-            let is_best =
-                || board.cheapest_exact(column, measure).is_some_and(|best| best.number == choice);
-            let mark = match board.meets(choice, column, measure) {
-                true => Mark::Good(if is_best() { '*' } else { exact }),
-                false => Mark::Plain(' '),
-            };
-            Some((board.error(choice, column, measure)?, mark))
-        })
-    };
-    board.measures.iter().enumerate().map(of_measure).collect()
+        tables.push(block(board, title, &|choice, column| {
+            let error = board.error(choice, column, measure)?;
+            if !board.meets(choice, column, measure) {
+                return Some((error, Mark::Plain(' ')));
+            }
+            let best = board.cheapest_exact(column, measure);
+            let is_best = best.is_some_and(|best| best.number == choice);
+            Some((error, Mark::Good(if is_best { '*' } else { exact })))
+        }));
+    }
+    tables
 }
 
+/// Times for each pixel and for each item, with how much they vary.
 fn times(board: &Board) -> [Table; 2] {
-    let cell = |choice: usize, column: usize| {
-        let median = board.time(choice, column)?.pixel_ns.median;
-        let fastest = fastest(board.ran(column)).and_then(|one| one.run.time.as_ref());
-        let is_fastest = fastest.is_some_and(|time| time.pixel_ns.median >= median);
-        Some((median, Mark::Plain(if is_fastest { '<' } else { ' ' })))
-    };
     let rounds = board.rounds;
     let title =
         format!("ns for each covered pixel, median of {rounds} rounds or more (< the fastest)");
-    let pixels = block(board, title, &cell);
+    let pixels = block(board, title, &|choice, column| pixel_ns(board, choice, column));
     let mut items = block(board, "ns for each triangle or line".to_owned(), &|choice, column| {
         let Column { items, pixels, .. } = board.columns[column];
-        let (ns, mark) = cell(choice, column)?;
+        let (ns, mark) = pixel_ns(board, choice, column)?;
         Some((ns * pixels.max(1) as f64 / items.max(1) as f64, mark))
     });
-    let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time.as_ref());
-    let spread = |t: &Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
-    let mut spreads: Vec<f64> = timed.map(|time| spread(time) * 100.0).collect();
+    // How far the quartiles are apart, in percent of the median.
+    let mut spreads = Vec::new();
+    for cell in board.cells.iter().flatten() {
+        if let Some(Time { pixel_ns: ns, .. }) = cell.run().and_then(|run| run.time.as_ref()) {
+            spreads.push((ns.high - ns.low) / ns.median * 100.0);
+        }
+    }
     spreads.sort_by(f64::total_cmp);
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
         items.notes.push(format!(
@@ -94,6 +98,15 @@ fn times(board: &Board) -> [Table; 2] {
     [pixels, items]
 }
 
+/// The time of a choice, marked where it is the fastest of its column.
+fn pixel_ns(board: &Board, choice: usize, column: usize) -> Option<(f64, Mark)> {
+    let median = board.time(choice, column)?.pixel_ns.median;
+    let fastest = fastest(board.ran(column)).and_then(|one| one.run.time.as_ref());
+    let is_fastest = fastest.is_some_and(|time| time.pixel_ns.median >= median);
+    Some((median, Mark::Plain(if is_fastest { '<' } else { ' ' })))
+}
+
+/// A table for each count of work.
 fn work(board: &Board) -> [Table; 3] {
     type Count = fn(&Work) -> u64;
     let counts: [(&str, Count); 3] = [
@@ -104,12 +117,13 @@ fn work(board: &Board) -> [Table; 3] {
     counts.map(|(title, count)| {
         let count = |cell: &Cell| cell.run()?.work.as_ref().map(count);
         block(board, title.to_owned(), &|choice, column| {
-            // Choices that do none of it have no row.
             let row = &board.cells[choice];
-            let does_any = row.iter().filter_map(count).any(|number| number > 0);
-            let number = does_any.then(|| count(&row[column]))??;
+            // Choices that do none of it have no row.
+            if !row.iter().filter_map(count).any(|number| number > 0) {
+                return None;
+            }
             let pixels = board.columns[column].pixels.max(1);
-            Some((number as f64 / pixels as f64, Mark::Plain(' ')))
+            Some((count(&row[column])? as f64 / pixels as f64, Mark::Plain(' ')))
         })
     })
 }
@@ -120,6 +134,7 @@ enum Mark {
     Good(char),
 }
 
+/// How wide a number may be, so that all columns fit beside each other.
 fn cell_width(board: &Board) -> usize {
     // A gap stands before each.
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
@@ -131,53 +146,60 @@ fn block(
     caption: String,
     cell: &dyn Fn(usize, usize) -> Option<(f64, Mark)>,
 ) -> Table {
+    // Only columns in which any choice has a number are shown, and only choices that have one in any of them.
     let choices = 0..board.choices.len();
     let width = cell_width(board);
     let applies = |&column: &usize| choices.clone().any(|choice| cell(choice, column).is_some());
     let columns: Vec<usize> = board.columns_run().filter(applies).collect();
-    let row = |choice: usize| {
+    let mut rows = Vec::new();
+    for choice in choices.clone() {
         let mut row = Row::from(vec![board.choices[choice].name.to_string()]);
-        for (place, &column) in (1..).zip(&columns) {
-            row.cells.push(match cell(choice, column) {
-                Some((value, Mark::Plain(mark))) => format!("{}{mark}", number(value, width)),
-                Some((value, Mark::Good(mark))) => {
-                    row.good.push(place);
-                    format!("{}{mark}", number(value, width))
-                }
-                None if board.run(choice, column).is_some() => "-".to_owned(),
-                None => "not run".to_owned(),
-            });
+        let mut is_shown = false;
+        for &column in &columns {
+            let Some((value, mark)) = cell(choice, column) else {
+                let has_run = board.run(choice, column).is_some();
+                row.cells.push(if has_run { "-" } else { "not run" }.to_owned());
+                continue;
+            };
+            is_shown = true;
+            let (Mark::Plain(sign) | Mark::Good(sign)) = mark;
+            if matches!(mark, Mark::Good(_)) {
+                row.good.push(row.cells.len());
+            }
+            row.cells.push(format!("{}{sign}", number(value, width)));
         }
-        row
-    };
-    let has_cell = |&choice: &usize| columns.iter().any(|&column| cell(choice, column).is_some());
-    // A mark stands behind each number.
-    let head = |&column: &usize| {
+        if is_shown {
+            rows.push(row);
+        }
+    }
+    let mut heads = vec![table::Column::words("choice").short("").least(NAME - INDENT)];
+    for &column in &columns {
         let name = &board.columns[column].name;
+        // A mark stands behind each number.
         let gap = if name.chars().count() < width.max(6) { " " } else { "" };
-        table::Column::numbers(name, "").short(format!("{name}{gap}")).least(width)
-    };
-    let first = table::Column::words("choice").short("").least(NAME - INDENT);
-    let columns = [first].into_iter().chain(columns.iter().map(head)).collect();
-    Table::of(&caption, columns, choices.clone().filter(has_cell).map(row).collect())
+        let head = table::Column::numbers(name, "").short(format!("{name}{gap}"));
+        heads.push(head.least(width));
+    }
+    Table::of(&caption, heads, rows)
 }
 
 /// Says which columns nobody ran and why, and why single cells were not run.
 fn not_run(board: &Board) -> Vec<String> {
+    // Each reason with what was not run for it, in the order in which they are met.
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
-    let mut add = |why, what: String| match reasons.iter_mut().find(|(known, _)| *known == why) {
-        Some((_, list)) => list.push(what),
-        None => reasons.push((why, vec![what])),
-    };
     for (column, info) in board.columns.iter().enumerate() {
         let ran = (0..board.choices.len()).any(|choice| board.run(choice, column).is_some());
         for (choice, row) in board.cells.iter().enumerate() {
-            if let Cell::NotRun(why) = &row[column] {
-                if ran {
-                    add(why, format!("{} on {}", board.choices[choice].name, info.name));
-                } else if choice == 0 {
-                    add(why, info.name.to_string());
-                }
+            let Cell::NotRun(why) = &row[column] else { continue };
+            let what = match (ran, choice) {
+                (true, _) => format!("{} on {}", board.choices[choice].name, info.name),
+                // A column that nobody ran is said once.
+                (false, 0) => info.name.to_string(),
+                (false, _) => continue,
+            };
+            match reasons.iter_mut().find(|(known, _)| known == why) {
+                Some((_, list)) => list.push(what),
+                None => reasons.push((why, vec![what])),
             }
         }
     }
@@ -187,33 +209,42 @@ fn not_run(board: &Board) -> Vec<String> {
 
 /// By each measure the choices that others dominate in every class of scenes, with those others.
 fn dominated(board: &Board) -> Vec<String> {
-    let line = |measure: usize| {
-        let names = |all: Vec<&Choice>| {
-            all.iter().map(|choice| &*choice.name).collect::<Vec<_>>().join(", ")
-        };
-        let all = board.dominated(measure).into_iter();
-        let all = all.map(|(choice, by)| format!("{} (by {})", choice.name, names(by)));
-        let list = Some(all.collect::<Vec<_>>().join("; ")).filter(|list| !list.is_empty());
-        let list = list.unwrap_or("none".to_owned());
-        format!("dominated in every class, by {}: {list}", board.measures[measure].title)
-    };
-    board.ranking().map(line).collect()
+    let mut lines = Vec::new();
+    for measure in board.ranking() {
+        let mut all = Vec::new();
+        for (choice, by) in board.dominated(measure) {
+            let names: Vec<&str> = by.iter().map(|other| &*other.name).collect();
+            all.push(format!("{} (by {})", choice.name, names.join(", ")));
+        }
+        let list = if all.is_empty() { "none".to_owned() } else { all.join("; ") };
+        let title = &board.measures[measure].title;
+        lines.push(format!("dominated in every class, by {title}: {list}"));
+    }
+    lines
 }
 
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
-    let prices = prices(boards);
-    let columns = "~class 6 | cheapest in floats 40 | exact on the lattice 40 | :exact as given";
-    let cell = |p: &Option<Priced>| {
-        p.as_ref().map_or("not run".to_owned(), |p| format!("{} {}", p.name, p.ratio))
-    };
-    let row = |price: &Price| {
-        let [floats, snapped, given] = [&price.unpromised, &price.snapped, &price.given].map(cell);
-        Row::of(&[&price.column, &floats, &snapped, &given])
-    };
+    let mut rows = Vec::new();
+    for price in prices(boards) {
+        let [floats, snapped, given] =
+            [&price.unpromised, &price.snapped, &price.given].map(name_and_ratio);
+        rows.push(Row::of(&[&price.column, &floats, &snapped, &given]));
+    }
+    if rows.is_empty() {
+        return None;
+    }
     let caption = "Exact coverage over the cheapest choice, by ns for each covered pixel";
-    let table = || Table::new(caption, columns, prices.iter().map(row).collect());
-    (!prices.is_empty()).then(|| table().noted(vec![CELLS.to_owned()]))
+    let columns = "~class 6 | cheapest in floats 40 | exact on the lattice 40 | :exact as given";
+    Some(Table::new(caption, columns, rows).noted(vec![CELLS.to_owned()]))
+}
+
+/// The cheapest choice of a kind, and how many times as long it takes as the cheapest of all.
+fn name_and_ratio(priced: &Option<Priced>) -> String {
+    match priced {
+        Some(Priced { name, ratio, .. }) => format!("{name} {ratio}"),
+        None => "not run".to_owned(),
+    }
 }
 
 /// What was measured, with plots that are given, the one that answers first.
@@ -238,34 +269,51 @@ pub fn report(recorded: &Recorded, mut figures: Vec<Figure>) -> Report {
 fn sentence(boards: &[Board]) -> Option<String> {
     let prices = prices(boards);
     if prices.is_empty() {
-        let board = boards.last()?;
-        let best = board.columns_run().filter_map(|column| fastest(board.ran(column)));
-        let best: Vec<_> = best.collect();
-        let exact = best.iter().filter(|choice| choice.is_exact(0)).count();
-        let (title, all) = (board.ladder.title(), best.len());
-        return (all > 0).then(|| format!(
-            "{title}: in {exact} of {all} classes of scenes the cheapest choice of all is exact or good enough."
-        ));
+        return sentence_of_cheapest(boards.last()?);
     }
-    let takes = |of: &dyn Fn(&Price) -> Option<&Priced>| {
-        let ratios: Vec<Ratio> = prices.iter().filter_map(of).map(|priced| priced.ratio).collect();
-        let is_free =
-            |ratio: &Ratio| *ratio == Ratio::ONE || ratio.said() == RatioKind::NoDifference;
-        let low = ratios.iter().map(|ratio| ratio.low).fold(f64::INFINITY, f64::min);
-        let high = ratios.iter().map(|ratio| ratio.high).fold(0.0, f64::max);
-        match &ratios[..] {
-            [] => "was not measured".to_owned(),
-            all if all.iter().all(is_free) => {
-                "takes no longer than the cheapest choice of all".to_owned()
-            }
-            _ => format!("takes {low:.1} to {high:.1} times as long as the cheapest choice of all"),
-        }
-    };
+    let (mut snapped, mut given) = (Vec::new(), Vec::new());
+    for price in &prices {
+        snapped.extend(price.snapped.as_ref().map(|priced| priced.ratio));
+        given.extend(price.given.as_ref().map(|priced| priced.ratio));
+    }
     Some(format!(
         "By class of scenes, coverage that is exact once corners are snapped {}; exact for the corners as given, it {}.",
-        takes(&|price| price.snapped.as_ref()),
-        takes(&|price| price.given.as_ref()),
+        range_of_times(&snapped),
+        range_of_times(&given),
     ))
+}
+
+/// In how many classes of scenes accuracy costs nothing; nothing where no choice was timed.
+fn sentence_of_cheapest(board: &Board) -> Option<String> {
+    let (mut exact, mut all) = (0, 0);
+    for column in board.columns_run() {
+        if let Some(best) = fastest(board.ran(column)) {
+            all += 1;
+            exact += usize::from(best.is_exact(0));
+        }
+    }
+    let title = board.ladder.title();
+    (all > 0).then(|| format!(
+        "{title}: in {exact} of {all} classes of scenes the cheapest choice of all is exact or good enough."
+    ))
+}
+
+/// What a kind of coverage takes, by its ratios to the cheapest choice in all classes of scenes.
+fn range_of_times(ratios: &[Ratio]) -> String {
+    if ratios.is_empty() {
+        return "was not measured".to_owned();
+    }
+    let mut is_free = true;
+    let (mut low, mut high) = (f64::INFINITY, 0.0f64);
+    for ratio in ratios {
+        is_free &= *ratio == Ratio::ONE || ratio.said() == RatioKind::NoDifference;
+        low = low.min(ratio.low);
+        high = high.max(ratio.high);
+    }
+    match is_free {
+        true => "takes no longer than the cheapest choice of all".to_owned(),
+        false => format!("takes {low:.1} to {high:.1} times as long as the cheapest choice of all"),
+    }
 }
 
 /// The name of the plot of a group, as a file.
@@ -278,16 +326,17 @@ pub const PRICE: &str = "cost-price";
 
 /// The plots with their names, what answers the question first.
 pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
-    let of_board = |board: &Board| {
-        let caption = format!("Time against error: {}", board.ladder.name());
-        let drawn = [3, 2, 1].map(|in_row| cost_plots::pareto(std::slice::from_ref(board), in_row));
-        (plot_name(board.ladder), canvas::figure(&caption, drawn))
-    };
+    let mut plots = Vec::new();
     let prices = prices(boards);
-    let price = (!prices.is_empty()).then(|| {
+    if !prices.is_empty() {
         let caption = "What exact coverage costs over the cheapest choice";
         let drawn = cost_plots::WIDTHS.map(|width| cost_plots::price(&prices, width));
-        (PRICE.to_owned(), canvas::figure(caption, drawn))
-    });
-    price.into_iter().chain(boards.iter().rev().map(of_board)).collect()
+        plots.push((PRICE.to_owned(), canvas::figure(caption, drawn)));
+    }
+    for board in boards.iter().rev() {
+        let caption = format!("Time against error: {}", board.ladder.name());
+        let drawn = [3, 2, 1].map(|in_row| cost_plots::pareto(std::slice::from_ref(board), in_row));
+        plots.push((plot_name(board.ladder), canvas::figure(&caption, drawn)));
+    }
+    plots
 }

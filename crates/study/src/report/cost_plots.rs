@@ -16,6 +16,7 @@ const SHELF: Ink = [233, 245, 236];
 
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
+/// The height of a line of text, a bar, or a choice on the shelf, in px.
 const SCATTER: f64 = 150.0;
 /// Room left of a panel for its axis, over it for its name, and below for the other axis.
 const AXIS: f64 = 48.0;
@@ -23,6 +24,7 @@ const HEAD: f64 = 70.0;
 const FOOT: f64 = 46.0;
 const RADIUS: f64 = 3.5;
 
+/// A choice in a panel.
 struct Dot {
     label: String,
     /// Quartiles: a line from the first to the last one, and a disc at the median.
@@ -36,6 +38,7 @@ struct Dot {
     around: Option<Ink>,
 }
 
+/// A plot of its own, with what stands above it and at its axes.
 struct Panel {
     head: String,
     up: String,
@@ -48,34 +51,35 @@ struct Panel {
 /// Error against time, a panel for each column of each board, as many in a row as are said, or fewer and wider ones. The
 /// first measure is the error.
 pub fn pareto(boards: &[Board], in_row: usize) -> Drawing {
-    let panel = |board: &Board, column: usize| {
-        let info = &board.columns[column];
-        let up = board.measures[0].title.to_string();
-        let best = |measure| board.cheapest_exact(column, measure);
-        match info.sampling {
-            Some(_) => {
-                let best: Vec<_> = board.ranking().filter_map(best).collect();
-                let (head, dots) = (board.ladder.title().to_owned(), dots(board, column, &best));
-                Panel { head, up, right: "time in ms", snapping: None, dots }
-            }
-            None => Panel {
-                head: format!("{}: {}", info.name, info.about),
-                up,
-                right: "time in ns for each pixel",
-                snapping: snapping(board, column),
-                dots: dots(board, column, best(0).as_slice()),
-            },
-        }
-    };
-    let of_board =
-        |board| Board::columns_run(board).map(move |column| panel(board, column)).collect();
-    let panels = boards.iter().flat_map(|board| -> Vec<Panel> { of_board(board) }).collect();
+    let mut panels = Vec::new();
+    for board in boards {
+        panels.extend(board.columns_run().map(|column| panel(board, column)));
+    }
     match boards {
         [board] if board.columns.iter().all(|column| column.sampling.is_none()) => {
             let title = format!("{}: error against time", board.ladder.title());
             drawn(&title, legend(board), panels, in_rows_of(in_row))
         }
         _ => drawn("Error against time", LEGEND, panels, in_rows_of(in_row)),
+    }
+}
+
+/// The panel of a column, which is a model, whose pixels are counted, or a class of scenes.
+fn panel(board: &Board, column: usize) -> Panel {
+    let info = &board.columns[column];
+    let up = board.measures[0].title.to_string();
+    let best = |measure| board.cheapest_exact(column, measure);
+    if info.sampling.is_some() {
+        let best: Vec<_> = board.ranking().filter_map(best).collect();
+        let (head, dots) = (board.ladder.title().to_owned(), dots(board, column, &best));
+        return Panel { head, up, right: "time in ms", snapping: None, dots };
+    }
+    Panel {
+        head: format!("{}: {}", info.name, info.about),
+        up,
+        right: "time in ns for each pixel",
+        snapping: snapping(board, column),
+        dots: dots(board, column, best(0).as_slice()),
     }
 }
 
@@ -86,20 +90,24 @@ const LEGEND: &str = "green: exact here, as a ring once corners are snapped; blu
 /// The answer in one picture: both groups of coverage on a model, which do the same job, in one panel of this width.
 pub fn coverage_of_model(boards: &[Board], width: f64) -> Drawing {
     let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
-    let measures = coverage.first().into_iter().flat_map(|board| board.ranking());
-    let exact = |measure| coverage.iter().flat_map(move |board| board.exact(0, measure));
-    let best: Vec<_> = measures.filter_map(|measure| fastest(exact(measure))).collect();
-    let of_board = |board: &&Board| {
-        let short = board.ladder.short();
-        let dots = dots(board, 0, &best).into_iter();
-        dots.map(move |dot| Dot { label: format!("{short} {}", dot.label), ..dot })
-    };
+    // By each measure the best choice of both groups has a circle.
+    let mut best = Vec::new();
+    for measure in coverage.first().into_iter().flat_map(|board| board.ranking()) {
+        best.extend(fastest(coverage.iter().flat_map(|board| board.exact(0, measure))));
+    }
+    let mut all = Vec::new();
+    for board in &coverage {
+        for dot in dots(board, 0, &best) {
+            // Both groups have choices of one name.
+            all.push(Dot { label: format!("{} {}", board.ladder.short(), dot.label), ..dot });
+        }
+    }
     let panel = Panel {
         head: String::new(),
         up: "wrong pixels of this view".to_owned(),
         right: "time in ms",
         snapping: None,
-        dots: coverage.iter().flat_map(of_board).collect(),
+        dots: all,
     };
     drawn("Coverage: error against time", LEGEND, vec![panel], (width, 1))
 }
@@ -111,27 +119,26 @@ fn in_rows_of(in_row: usize) -> (f64, usize) {
 
 /// Pixels that change against time, a dot for each grid and a panel for each engine.
 pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
-    let panel = |engine: &str, time: fn(&GridPrice) -> f64| {
-        let dot = |price: &GridPrice| Dot {
-            label: price.bits.map_or("unsnapped".to_owned(), |bits| format!("{bits} bits")),
-            time: [time(price); 3],
-            error: (price.changed > 0).then_some(price.changed as f64),
-            ink: if price.changed == 0 { GREEN } else { BLUE },
-            is_hollow: false,
-            around: None,
-        };
-        Panel {
-            head: format!("Coverage by {engine}"),
-            up: "px that change".to_owned(),
-            right: "time in ms",
-            snapping: None,
-            dots: prices.iter().map(dot).collect(),
+    let mut panels = Vec::from(["scanline", "edge function"].map(|engine| Panel {
+        head: format!("Coverage by {engine}"),
+        up: "px that change".to_owned(),
+        right: "time in ms",
+        snapping: None,
+        dots: Vec::new(),
+    }));
+    for price in prices {
+        let times = [price.scanline_ms, price.edge_function_ms];
+        for (panel, time) in panels.iter_mut().zip(times) {
+            panel.dots.push(Dot {
+                label: price.bits.map_or("unsnapped".to_owned(), |bits| format!("{bits} bits")),
+                time: [time; 3],
+                error: (price.changed > 0).then_some(price.changed as f64),
+                ink: if price.changed == 0 { GREEN } else { BLUE },
+                is_hollow: false,
+                around: None,
+            });
         }
-    };
-    let panels = vec![
-        panel("scanline", |price| price.scanline_ms),
-        panel("edge function", |price| price.edge_function_ms),
-    ];
+    }
     let legend = "each dot a grid: bits below the pixel; shelf: no pixel changes here\n\
                   up to 8 bits by whole numbers, beyond by the exact engines";
     drawn("Pixels that the grid changes, against time", legend, panels, in_rows_of(in_row))
@@ -142,31 +149,39 @@ pub type Bar = (f64, Ink, String);
 
 /// Rows of bars below each other, each row with its name, under a legend of their colours.
 pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], width: f64) -> Drawing {
+    // The head is as high as its lines: of the title, then of the legend.
     let titles = wrapped(title, width - 24.0);
-    let wrap = |(ink, words): &(Ink, &str)| {
-        let lines = wrapped(words, width - 52.0).into_iter().enumerate();
-        // The colour stands before the first line.
-        lines.map(|(line, text)| ((line == 0).then_some(*ink), text)).collect::<Vec<_>>()
-    };
-    let legend: Vec<_> = legend.iter().flat_map(wrap).collect();
-    let head = 24.0 + 16.0 * (titles.len() + legend.len()) as f64;
-    let widest = |of: &mut dyn Iterator<Item = &str>| of.map(canvas::width).fold(0.0, f64::max);
-    let labels = widest(&mut rows.iter().flat_map(|row| row.1.iter().map(|bar| &*bar.2)));
+    let mut lines = Vec::new();
+    for (ink, words) in legend {
+        for (line, text) in wrapped(words, width - 52.0).into_iter().enumerate() {
+            // The colour stands before the first line.
+            lines.push(((line == 0).then_some(*ink), text));
+        }
+    }
+    let head = 24.0 + 16.0 * (titles.len() + lines.len()) as f64;
+    // Bars get what names and labels leave of the width.
+    let (mut names, mut labels) = (0.0f64, 0.0f64);
+    for (name, bars) in rows {
+        names = names.max(canvas::width(name));
+        for (_, _, label) in bars {
+            labels = labels.max(canvas::width(label));
+        }
+    }
     // On a narrow page names stand over their bars.
-    let (left, down) = match width < WIDTHS[1] {
-        true => (12.0, 14.0),
-        false => (widest(&mut rows.iter().map(|row| row.0)) + 28.0, 0.0),
-    };
+    let (left, down) = if width < WIDTHS[1] { (12.0, 14.0) } else { (names + 28.0, 0.0) };
     let room = width - left - labels - 18.0;
-    let heights = rows.iter().map(|row| down + ROW * row.1.len() as f64 + 6.0);
+    let heights = rows.iter().map(|(_, bars)| down + ROW * bars.len() as f64 + 6.0);
     let mut drawing = Drawing::new(title, [width, head + heights.sum::<f64>() + 6.0]);
+    // Everything is drawn from the top down; y is where the next line begins.
     let mut y = 16.0;
     for text in &titles {
         drawing.text([12.0, y], text, INK);
         y += 16.0;
     }
-    for (ink, text) in &legend {
-        ink.iter().for_each(|ink| drawing.filled_box([14.0, y - 4.0], [18.0, 8.0], *ink));
+    for (ink, text) in &lines {
+        if let Some(ink) = ink {
+            drawing.filled_box([14.0, y - 4.0], [18.0, 8.0], *ink);
+        }
         drawing.text([40.0, y], text, SOFT);
         y += 16.0;
     }
@@ -185,54 +200,74 @@ pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], widt
     drawing
 }
 
+/// What is drawn of an effect.
+pub struct EffectBars {
+    pub name: &'static str,
+    /// What it takes, or what is saved where it is left out; nothing where that cannot be told.
+    pub ms: Option<f64>,
+    pub is_saved: bool,
+    /// Pixels that are wrong without it.
+    pub wrong: u64,
+}
+
 /// The milliseconds that each effect takes, or saves where it is left out, and the pixels that are wrong without it.
-pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
+pub fn effects(effects: &[EffectBars], width: f64) -> Drawing {
     let legend = [
         (BLUE, "ms that it takes, where it is paid for"),
         (GREEN, "ms that are saved, where it is left out"),
         (RED, "pixels that are wrong without it"),
     ];
-    let most_ms = rows.iter().filter_map(|row| row.1).fold(1e-9, f64::max);
-    let most_px = rows.iter().map(|row| row.3).fold(1, u64::max) as f64;
-    let row = |&(name, ms, is_saved, wrong): &(_, Option<f64>, bool, u64)| {
+    // The longest bar of each kind is as long as there is room.
+    let most_ms = effects.iter().filter_map(|effect| effect.ms).fold(1e-9, f64::max);
+    let most_px = effects.iter().map(|effect| effect.wrong).fold(1, u64::max) as f64;
+    let mut rows = Vec::new();
+    for &EffectBars { name, ms, is_saved, wrong } in effects {
         let ink = if is_saved { GREEN } else { BLUE };
         let time = match ms {
             Some(ms) => (ms / most_ms, ink, format!("{} ms", number(ms, 8))),
             None => (0.0, SOFT, "no time".to_owned()),
         };
         let pixels = (wrong as f64 / most_px, RED, format!("{} px", thousands(wrong)));
-        (name, vec![time, pixels])
-    };
-    let rows: Vec<_> = rows.iter().map(row).collect();
+        rows.push((name, vec![time, pixels]));
+    }
     bars("Effects: time, and pixels that are wrong without", &legend, &rows, width)
 }
 
 /// What exact coverage costs over the cheapest choice, for each class of scenes: the one picture.
 pub fn price(prices: &[Price], width: f64) -> Drawing {
-    let kinds = |price: &Price| [&price.unpromised, &price.snapped, &price.given].map(Clone::clone);
     let legend = [
         (BLUE, "the cheapest choice that promises nothing (floats)"),
         (GREEN, "the cheapest that is exact on the 1/256-px lattice (snaps)"),
         (SAND, "the cheapest that is exact for the vertices as given"),
     ];
-    let most =
-        prices.iter().flat_map(kinds).flatten().map(|one| one.ratio.median).fold(1.0, f64::max);
-    let bar = |(priced, ink): (Option<Priced>, Ink)| {
-        let Priced { name, ratio, pixel_ns } = priced?;
-        let label = match ratio == Ratio::ONE {
-            true => format!("{name} {} ns/px", number(pixel_ns, 8)),
-            false => format!("{name} {ratio}"),
-        };
-        Some((ratio.median / most, ink, label))
-    };
-    let row = |price: &'_ Price| {
-        kinds(price).into_iter().zip(legend.map(|one| one.0)).filter_map(bar).collect()
-    };
-    let rows: Vec<_> = prices.iter().map(|price| (&*price.column, row(price))).collect();
+    let mut most: f64 = 1.0;
+    for priced in prices.iter().flat_map(kinds).flatten() {
+        most = most.max(priced.ratio.median);
+    }
+    let mut rows: Vec<(&str, Vec<Bar>)> = Vec::new();
+    for price in prices {
+        let mut row = Vec::new();
+        for (priced, (ink, _)) in kinds(price).into_iter().zip(legend) {
+            let Some(Priced { name, ratio, pixel_ns }) = priced else { continue };
+            // The cheapest of all has no ratio to itself, so its time is said.
+            let label = match *ratio == Ratio::ONE {
+                true => format!("{name} {} ns/px", number(*pixel_ns, 8)),
+                false => format!("{name} {ratio}"),
+            };
+            row.push((ratio.median / most, ink, label));
+        }
+        rows.push((&price.column, row));
+    }
     let title = "Time of exact coverage over that of the cheapest choice of any accuracy, by class of scenes";
     bars(title, &legend, &rows, width)
 }
 
+/// What is compared of a class of scenes, in the order of the legend.
+fn kinds(price: &Price) -> [&Option<Priced>; 3] {
+    [&price.unpromised, &price.snapped, &price.given]
+}
+
+/// Panels side by side under a title and a legend, on a drawing of this width with at most so many in a row.
 fn drawn(
     title: &str,
     legend: &str,
@@ -243,6 +278,7 @@ fn drawn(
     panels.retain(|panel| !panel.dots.is_empty());
     let in_row = in_row.min(panels.len()).max(1);
     let panel_width = width / in_row as f64;
+    // All shelves are as high as the one with the most choices.
     let on_shelf = |panel: &Panel| panel.dots.iter().filter(|d| d.error.is_none()).count();
     let shelf = panels.iter().map(on_shelf).max().unwrap_or(0) as f64 * ROW;
     let shelf = if shelf > 0.0 { shelf + 8.0 } else { 0.0 };
@@ -253,9 +289,10 @@ fn drawn(
     let titles = wrapped(title, width - 24.0);
     let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
     let rows = panels.len().div_ceil(in_row) as f64;
+    // Title and legend share one list of lines, and the panels follow from left to right, row by row.
     let mut drawing = Drawing::new(title, [width, head + rows * panel_height]);
-    let lines = titles.iter().map(|text| (text, INK)).chain(legend.iter().map(|l| (l, SOFT)));
-    for (line, (text, ink)) in lines.enumerate() {
+    for (line, text) in titles.iter().chain(&legend).enumerate() {
+        let ink = if line < titles.len() { INK } else { SOFT };
         drawing.text([12.0, 16.0 + 16.0 * line as f64], text, ink);
     }
     for (i, panel) in panels.iter().enumerate() {
@@ -266,10 +303,12 @@ fn drawn(
     drawing
 }
 
+/// The lines of a text in a room of this width.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
     ascii::lines(text, room, canvas::width)
 }
 
+/// What the colours mean in the panels of classes of scenes, which differs from job to job.
 fn legend(board: &Board) -> &'static str {
     match board.ladder {
         Ladder::Scanline | Ladder::EdgeFunction => {
@@ -293,6 +332,7 @@ fn dots(board: &Board, column: usize, best: &[JudgedChoice<'_>]) -> Vec<Dot> {
             true => choice.times()?.spread().times(1e-6),
             false => choice.run.time.as_ref()?.pixel_ns,
         };
+        // Without an error by the first measure there is no place for it.
         let first = choice.error(0)?;
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
         // vertices as given is the error of snapping, of classes of scenes a line of its own.
@@ -328,14 +368,19 @@ struct Axis {
 
 impl Axis {
     fn new(values: impl Iterator<Item = f64>, margin: f64, places: [f64; 2]) -> Self {
-        let ends = values.map(f64::log10).map(|v| (v, v));
-        let ends = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (low, high) = ends.unwrap_or((0.0, 1.0));
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.map(f64::log10) {
+            (low, high) = (low.min(value), high.max(value));
+        }
+        // An axis without values is drawn, too.
+        let [low, high] = if low <= high { [low, high] } else { [0.0, 1.0] };
         Self { values: [low - margin, high + margin], places }
     }
 
+    /// Where a value lies in the drawing.
     fn place(&self, value: f64) -> f64 {
         let [low, high] = self.values;
+        // An axis with one value has no length; the value is then drawn at its beginning.
         let t = (value.log10() - low) / (high - low).max(1e-9);
         self.places[0] + (self.places[1] - self.places[0]) * t
     }
@@ -346,20 +391,30 @@ impl Axis {
         let (first, last) = (low.floor() as i32, high.ceil() as i32);
         let step = ((high - low) / count as f64).ceil().max(1.0) as i32;
         let factors: &[f64] = if high - low < 1.6 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let decades = (first..=last).filter(|e| e.rem_euclid(step) == 0);
-        let all = decades.flat_map(|e| factors.iter().map(move |f| f * 10f64.powi(e)));
-        all.filter(|v| (low..=high).contains(&v.log10())).collect()
+        let mut ticks = Vec::new();
+        for decade in (first..=last).filter(|decade| decade.rem_euclid(step) == 0) {
+            for factor in factors {
+                let value = factor * 10f64.powi(decade);
+                if (low..=high).contains(&value.log10()) {
+                    ticks.push(value);
+                }
+            }
+        }
+        ticks
     }
 }
 
+/// A number at an axis, with an exponent where it would be long.
 fn tick(value: f64) -> String {
     if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }
 
+/// Draws a panel from its upper left corner to its right end: texts, axes, the line of what is best, and the dots.
 fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, panel: &Panel) {
     let (x0, x1) = (left + AXIS + 6.0, end - 10.0);
     let (y0, y1) = (top + HEAD, top + HEAD + SCATTER);
     let bottom = y1 + shelf;
+    // Texts around the plot first: its name, and what grows upwards and to the right.
     let dots = &panel.dots;
     for (line, text) in wrapped(&panel.head, x1 - left - 14.0).iter().take(2).enumerate() {
         drawing.text([left + 12.0, top + 14.0 + 14.0 * line as f64], text, INK);
@@ -371,6 +426,7 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     let right = format!("right: {}", panel.right);
     drawing.text_before([x1, y1 + shelf + 24.0], &right, SOFT);
     drawing.filled_box([x0, y1], [x1 - x0, shelf], SHELF);
+    // Axes that hold all quartiles and all errors, with a margin.
     let times = dots.iter().flat_map(|dot| dot.time);
     let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
     let snapping = panel.snapping;
@@ -393,9 +449,11 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     if shelf > 0.0 {
         drawing.text_before([x0 - 4.0, y1 + shelf / 2.0], "0", GREEN);
     }
+    // The frame: the floor of the errors, that of the shelf, and the axis on the left.
     drawing.line([x0, y1], [x1, y1], SOFT);
     drawing.line([x0, bottom], [x1, bottom], SOFT);
     drawing.line([x0, y0], [x0, bottom], SOFT);
+    // What is best at each price lies under the dots, and the error of snapping between both.
     let placed = places(dots, [&time, &error], y1);
     frontier(drawing, &placed);
     let mut taken = Vec::new();
@@ -413,12 +471,17 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
 fn places<'a>(dots: &'a [Dot], [time, error]: [&Axis; 2], shelf: f64) -> Vec<(&'a Dot, [f64; 2])> {
     let mut all: Vec<&Dot> = dots.iter().collect();
     all.sort_by(|a, b| a.time[1].total_cmp(&b.time[1]));
-    let mut rows = (0..).map(|row| shelf + 10.0 + ROW * f64::from(row));
-    let place = |dot: &'a Dot| {
-        let y = dot.error.map_or_else(|| rows.next(), |error_of| Some(error.place(error_of)));
-        Some((dot, [time.place(dot.time[1]), y?]))
-    };
-    all.into_iter().filter_map(place).collect()
+    let mut rows = 0;
+    let mut placed = Vec::with_capacity(all.len());
+    for dot in all {
+        let y = match dot.error {
+            Some(of_dot) => error.place(of_dot),
+            None => shelf + 10.0 + ROW * f64::from(rows),
+        };
+        rows += i32::from(dot.error.is_none());
+        placed.push((dot, [time.place(dot.time[1]), y]));
+    }
+    placed
 }
 
 /// The error that snapping alone makes, which choices exact on the lattice share.
@@ -447,24 +510,28 @@ fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
 
 /// Joins the choices to which none is as fast and more accurate: from each there is a step to the next.
 fn frontier(drawing: &mut Drawing, placed: &[(&Dot, [f64; 2])]) {
-    let of = |dot: &Dot| dot.error.unwrap_or(0.0);
-    let mut before: Option<&(&Dot, [f64; 2])> = None;
-    for next in placed.iter().filter(|(dot, _)| dot.time[1] > 0.0) {
-        if before.is_some_and(|before| of(next.0) >= of(before.0)) {
+    let mut before: Option<(&Dot, [f64; 2])> = None;
+    for &(dot, at) in placed {
+        if dot.time[1] <= 0.0 {
             continue;
         }
-        if let Some((_, from)) = before.filter(|(dot, _)| dot.error.is_some()) {
-            let corner = [next.1[0], from[1]];
-            drawing.wide_line(*from, corner, SAND);
-            drawing.wide_line(corner, next.1, SAND);
+        if let Some((last, from)) = before {
+            // Slower, and no more accurate than the last one on the line.
+            if dot.error.unwrap_or(0.0) >= last.error.unwrap_or(0.0) {
+                continue;
+            }
+            let corner = [at[0], from[1]];
+            drawing.wide_line(from, corner, SAND);
+            drawing.wide_line(corner, at, SAND);
         }
-        before = Some(next);
+        before = Some((dot, at));
     }
 }
 
 /// Left, top, right and bottom.
 type Area = [f64; 4];
 
+/// Whether two areas have a part in common; touching is not enough.
 fn overlap(a: &Area, b: &Area) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
@@ -479,57 +546,97 @@ fn labelled(
     mut taken: Vec<Area>,
 ) {
     placed.sort_by(|a, b| a.1[1].total_cmp(&b.1[1]));
-    let around = |[x, y]: [f64; 2]| [x - 6.0, y - 6.0, x + 6.0, y + 6.0];
-    taken.extend(placed.iter().map(|(_, at)| around(*at)));
+    // No label may lie on a dot.
+    for (_, at) in &placed {
+        taken.push(area_around(*at));
+    }
     for (dot, at) in &placed {
         let room = canvas::width(&dot.label);
-        // Beside the dot, then higher and lower by half lines, on both sides.
-        let shifts = (0..56).flat_map(|i| {
-            let down = f64::from((i + 1) / 2) * ROW / 2.0 * if i % 2 == 0 { 1.0 } else { -1.0 };
-            // Where neither side has room, above or below.
-            let over = (at[0] - room / 2.0).clamp(x0 + 2.0, (x1 - room - 2.0).max(x0 + 2.0));
-            // Clear of the quartiles where it stands beside the dot.
-            let [low, high] = if i == 0 { ends(dot, time) } else { [at[0]; 2] };
-            [high + 10.0, low - 10.0 - room, over].map(|x| [x, at[1] + down])
-        });
-        let area = |[x, y]: [f64; 2]| [x, y - 6.0, x + room, y + 6.0];
-        let leader = |[x, y]: [f64; 2]| {
-            let edge = if y > at[1] { -6.0 } else { 6.0 };
-            let to = match (x > at[0], x + room < at[0]) {
-                (true, _) => [x - 2.0, y],
-                (_, true) => [x + room + 2.0, y],
-                _ => [at[0], y + edge],
-            };
-            [*at, to]
-        };
+        let label = Label { at: *at, room };
+        let own = area_around(*at);
         let is_free = |place: [f64; 2], strict: bool| {
-            let (area, own) = (area(place), around(*at));
+            let area = label.area(place);
             let is_high = area[1] >= y0 && area[3] <= y1;
-            let inside = area[0] >= x0 && area[2] <= x1 && is_high == dot.error.is_some();
-            let clear =
-                |other: &Area| !(overlap(&area, other) || strict && crosses(leader(place), other));
-            inside && !overlap(&area, &own) && taken.iter().filter(|one| **one != own).all(clear)
+            if area[0] < x0 || area[2] > x1 || is_high != dot.error.is_some() {
+                return false;
+            }
+            let clear = |other: &Area| {
+                !(overlap(&area, other) || strict && crosses(label.leader(place), other))
+            };
+            !overlap(&area, &own) && taken.iter().filter(|one| **one != own).all(clear)
         };
-        let [low, high] = ends(dot, time);
+        let quartiles @ [low, high] = ends(dot, time);
         drawing.wide_line([low, at[1]], [high, at[1]], SOFT);
         let ink = mark(drawing, *at, dot);
         // Better a line across something than no label, and better across the quartiles.
-        let found = |strict| shifts.clone().find(|&place| is_free(place, strict));
-        let found = found(true).or_else(|| found(false));
-        let place = found.unwrap_or([(high + 10.0).min(x1 - room), at[1]]);
+        let places = label.places(quartiles, [x0, x1]);
+        let strictly_free = places.iter().find(|place| is_free(**place, true));
+        let found = strictly_free.or_else(|| places.iter().find(|place| is_free(**place, false)));
+        let place = found.copied().unwrap_or([(high + 10.0).min(x1 - room), at[1]]);
         if (place[1] - at[1]).abs() > 1.0 {
-            let [from, to] = leader(place);
+            let [from, to] = label.leader(place);
             drawing.line(from, to, SOFT);
         }
         drawing.text(place, &dot.label, ink);
-        taken.push(area(place));
+        taken.push(label.area(place));
+    }
+}
+
+/// The area of a dot.
+fn area_around([x, y]: [f64; 2]) -> Area {
+    [x - 6.0, y - 6.0, x + 6.0, y + 6.0]
+}
+
+/// A label on its way to a place: where its dot is, and how wide it is.
+struct Label {
+    at: [f64; 2],
+    room: f64,
+}
+
+impl Label {
+    /// Where its text may begin, the best place first: beside the dot, then higher and lower by half lines, on both sides.
+    fn places(&self, quartiles: [f64; 2], [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
+        let Self { at, room } = *self;
+        // Where neither side has room, above or below.
+        let over = (at[0] - room / 2.0).clamp(x0 + 2.0, (x1 - room - 2.0).max(x0 + 2.0));
+        let mut places = Vec::new();
+        for i in 0..56 {
+            let down = f64::from((i + 1) / 2) * ROW / 2.0 * if i % 2 == 0 { 1.0 } else { -1.0 };
+            // Clear of the quartiles where it stands beside the dot.
+            let [low, high] = if i == 0 { quartiles } else { [at[0]; 2] };
+            for x in [high + 10.0, low - 10.0 - room, over] {
+                places.push([x, at[1] + down]);
+            }
+        }
+        places
+    }
+
+    /// What the text covers, if it begins there.
+    fn area(&self, [x, y]: [f64; 2]) -> Area {
+        [x, y - 6.0, x + self.room, y + 6.0]
+    }
+
+    /// The line from the dot to the nearest end of the text, or to its middle where it stands above or below.
+    fn leader(&self, [x, y]: [f64; 2]) -> [[f64; 2]; 2] {
+        let at = self.at;
+        let edge = if y > at[1] { -6.0 } else { 6.0 };
+        let to = match (x > at[0], x + self.room < at[0]) {
+            (true, _) => [x - 2.0, y],
+            (_, true) => [x + self.room + 2.0, y],
+            _ => [at[0], y + edge],
+        };
+        [at, to]
     }
 }
 
 /// Whether a line from a dot crosses an area, looked at in short steps.
 fn crosses([from, to]: [[f64; 2]; 2], area: &Area) -> bool {
-    (0..=32).map(|i| f64::from(i) / 32.0).any(|t| {
-        let [x, y] = [0, 1].map(|k| from[k] + (to[k] - from[k]) * t);
-        overlap(&[x, y, x + 0.1, y + 0.1], area)
-    })
+    for i in 0..=32 {
+        let t = f64::from(i) / 32.0;
+        let [x, y] = [from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t];
+        if overlap(&[x, y, x + 0.1, y + 0.1], area) {
+            return true;
+        }
+    }
+    false
 }

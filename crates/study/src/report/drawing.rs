@@ -85,11 +85,13 @@ pub fn compare(
     if is_nothing_drawn(drawings) {
         return Ok(None);
     }
+    // Where a depth is missing, since the plan needed none there, no tie can be looked for.
     let drawn = [(Engine::Scanline, a), (Engine::EdgeFunction, b)];
     let drawn = drawn.map(|(engine, drawing)| EngineFrame { engine, target: &drawing.target });
     let is_complete = a.is_complete && b.is_complete;
     let ties = is_complete.then(|| undecided::find(scene, drawn)).transpose()?;
     let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
+    // What a plan changes is wrong in one of the two, even if both follow it.
     let mut comparison = frame_comparison::compare(first, second, ties.as_ref());
     comparison.wrong_pixels += a.unplanned + b.unplanned;
     if follows_plan {
@@ -106,6 +108,7 @@ pub fn undecided_and_broken(
     target: &Target,
     grid: CornerGrid,
 ) -> Result<(ByRounding, BySnapping), Box<dyn Error + Send + Sync>> {
+    // Without a depth buffer no depth decides.
     if scene.hidden == Hidden::Painter {
         return Ok(Default::default());
     }
@@ -125,6 +128,7 @@ pub struct ByGrid {
 }
 
 impl ByGrid {
+    /// Compares the picture on the usual grid with a drawing on another one.
     pub fn between((usual, usual_target): (&Frame<Colour>, &Target), drawing: &Drawing) -> Self {
         let (picture, target) = (&drawing.rendered.picture, &drawing.target);
         let compared = frame_comparison::compare((usual, usual_target), (picture, target), None);
@@ -180,6 +184,7 @@ pub fn snapped(found: BySnapping, grid: CornerGrid, study: &str) -> Vec<String> 
             "SNAPPING: {pixels} {what} once its corners are {grid}; the first is at {x}, {y}"
         ))
     };
+    // A line for each kind that occurs, then where to read more.
     let mut lines: Vec<String> = kinds.into_iter().filter_map(line).collect();
     if let Some(first) = found.first_turned {
         let BySnapping { turned_over, flattened, .. } = found;
@@ -227,6 +232,7 @@ pub fn outcome(
     let Some(c) = comparison else {
         return is_nothing_drawn(drawings).then(Outcome::nothing_drawn);
     };
+    // Alike, alike but for the plan, or different: the first two need no second look at the engines.
     let names = names(drawings).join(" and ");
     let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;
     let sentence = if c.agrees() {
@@ -250,6 +256,7 @@ pub fn add_to_page(
     comparison: Option<&Comparison>,
 ) {
     let layer = |d: &Drawing| PictureLayer::new(d.name, &picture::of_frame(&d.rendered.picture));
+    // A third layer, where there is something to mark.
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
     let marked = marked.map(|c| {
         let picture = picture::of_frame(&c.picture);
@@ -281,6 +288,7 @@ pub fn notes(
     comparison: Option<&Comparison>,
     [output, difference]: [Option<&Path>; 2],
 ) -> Vec<String> {
+    // The counters are those of the first rasterizer, whose plan is shown as well.
     let c = &drawings[0].rendered.counters;
     let mut notes = vec![
         format!(
@@ -304,6 +312,7 @@ pub fn notes(
     if changed > 0 {
         notes.push(format!("what is switched off is called for: it changes {changed} pixels"));
     }
+    // What follows is of two pictures that were compared.
     let Some(c) = comparison else { return notes };
     let Comparison { undecided, undecided_differ, far_texture, .. } = c;
     if *undecided > 0 {

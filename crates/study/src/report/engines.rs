@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::check_value;
 use rasterproof_registry::comparison::EnginesToJudge;
@@ -30,71 +31,56 @@ pub fn report(
     // The engines see samples as the picture has them, and values up to their limit.
     let window = studied.sampled.window;
     let drawn: Vec<&Piece> = studied.sampled.all().collect();
-    let has_values = |piece: &&&Piece| {
-        let uv = piece.triangle.vertices.iter().map(|vertex| vertex.varying);
-        uv.flat_map(|uv| uv.to_array()).all(|value| check_value(value).is_ok())
-    };
-    let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).copied().collect();
-    let mut faults = Vec::new();
-    let snapped = |chunk: &[&Piece]| {
-        let list = chunk.iter().map(|piece| piece.triangle).collect();
-        Case { window, shape: Shape::Triangles { list, disjoint: false } }
-    };
-    let unsnapped = |chunk: &[&Piece]| {
-        Case::unsnapped(window, chunk.iter().filter_map(|piece| piece.free()).collect())
-    };
+    let judgeable: Vec<&Piece> = drawn.iter().copied().filter(|piece| has_values(piece)).collect();
+    let mut findings = Vec::new();
     for &engine in &judged.triangles {
-        faults.push((engine.name(), judge(&judgeable, &engine.into(), &snapped)));
+        let snapped = |chunk: &[&Piece]| snapped_case(chunk, window);
+        findings.push(JudgedEngine::new(engine.name(), &judgeable, &engine.into(), &snapped));
     }
     for &engine in &judged.unsnapped {
-        faults.push((engine.name(), judge(&judgeable, &engine.into(), &unsnapped)));
+        let unsnapped = |chunk: &[&Piece]| unsnapped_case(chunk, window);
+        findings.push(JudgedEngine::new(engine.name(), &judgeable, &engine.into(), &unsnapped));
     }
     // To draw nothing where nothing is expected shows nothing of an engine.
     let expects = judgeable.iter().any(|piece| has_pixel(piece, window));
-    let is_wrong = faults.iter().any(|(_, fault)| fault.is_some());
+    let is_wrong = findings.iter().any(|finding| finding.fault.is_some());
     let agrees = (expects || is_wrong).then_some(!is_wrong);
     if agrees.is_none() {
-        faults.clear();
+        findings.clear();
+    }
+    // The same findings twice: as rows of a table, and as data.
+    let (mut rows, mut engines) = (Vec::new(), Vec::new());
+    for finding in &findings {
+        rows.push(finding.row(subject));
+        engines.push(finding.data(subject));
     }
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
-    let engine = |(name, fault): &(&'static str, Option<Fault>)| {
-        let face = fault.as_ref().and_then(|fault| fault.triangle);
-        let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
-        json::Engine { engine: name, fault: fault.as_ref().map(|fault| fault.what.clone()), face }
-    };
-    let row = |(name, fault): &(&str, Option<Fault>)| {
-        let what = fault.as_ref().map_or("agrees", |fault| &fault.what);
-        let first = fault.as_ref().and_then(|fault| fault.triangle);
-        let first =
-            first.map(|one| format!("first at {}\n{}", subject.place(one), subject.command(one)));
-        let name = format!("{name} against the oracle:");
-        Row::of(&[&name, &what, &first.unwrap_or_default()]).marked(fault.is_none())
-    };
-    let why = "whose texture coordinates are too large for the engines";
-    let is_left =
-        (left > 0).then(|| format!("not judged: {} pieces, {why}", thousands(left as u64)));
-    let columns = "~engine 1 | ~found 1 | first fault";
-    let engines = Table::new("", columns, faults.iter().map(row).collect());
-    let engines = engines.judged().noted(Vec::from_iter(is_left));
+    // What the engines refuse is counted, so that nobody takes it for judged.
+    let mut table = Table::new("", "~engine 1 | ~found 1 | first fault", rows).judged();
+    if left > 0 {
+        let why = "whose texture coordinates are too large for the engines";
+        table.notes.push(format!("not judged: {} pieces, {why}", thousands(left as u64)));
+    }
     let pieces = thousands(count as u64);
+    let outcome = match agrees {
+        Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
+        None => Outcome::new(
+            false,
+            "NOT JUDGED",
+            format!(
+                "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
+                 look at it from another side (--yaw, --pitch, --zoom)"
+            ),
+        ),
+    };
     let report = Report {
         about: studied.head(),
-        tables: vec![hard_cases(subject, &studied.hard, &[]), engines],
-        outcome: Some(match agrees {
-            Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
-            None => Outcome::new(
-                false,
-                "NOT JUDGED",
-                format!(
-                    "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
-                     look at it from another side (--yaw, --pitch, --zoom)"
-                ),
-            ),
-        }),
+        tables: vec![hard_cases(subject, &studied.hard, &[]), table],
+        outcome: Some(outcome),
         data: value(&json::OnModel {
             scene: &studied.scene.name,
             hard_cases: json::hard_cases(subject, &studied.hard),
-            engines: faults.iter().map(engine).collect(),
+            engines,
             pieces: count,
             not_judged: left,
             agrees,
@@ -104,10 +90,71 @@ pub fn report(
     (report, agrees)
 }
 
+/// Whether the engines take all texture coordinates of a piece.
+fn has_values(piece: &Piece) -> bool {
+    let vertices = piece.triangle.vertices.iter();
+    vertices.flat_map(|vertex| vertex.varying.to_array()).all(|value| check_value(value).is_ok())
+}
+
+/// Pieces as engines see them that take corners on the grid.
+fn snapped_case(pieces: &[&Piece], window: PixelRect) -> Case {
+    let list = pieces.iter().map(|piece| piece.triangle).collect();
+    Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// The same for engines that take corners as they are given.
+fn unsnapped_case(pieces: &[&Piece], window: PixelRect) -> Case {
+    Case::unsnapped(window, pieces.iter().filter_map(|piece| piece.free()).collect())
+}
+
+/// What was found of an engine.
+struct JudgedEngine {
+    engine: &'static str,
+    fault: Option<Fault>,
+}
+
+impl JudgedEngine {
+    fn new(
+        engine: &'static str,
+        pieces: &[&Piece],
+        judged: &EnginesToJudge,
+        case: &(dyn Fn(&[&Piece]) -> Case + Sync),
+    ) -> Self {
+        Self { engine, fault: judge(pieces, judged, case) }
+    }
+
+    fn row(&self, subject: &Places<'_>) -> Row {
+        let name = format!("{} against the oracle:", self.engine);
+        let Some(Fault { what, triangle }) = &self.fault else {
+            return Row::of(&[&name, &"agrees", &""]).marked(true);
+        };
+        let first = match *triangle {
+            Some(one) => format!("first at {}\n{}", subject.place(one), subject.command(one)),
+            None => String::new(),
+        };
+        Row::of(&[&name, what, &first]).marked(false)
+    }
+
+    fn data(&self, subject: &Places<'_>) -> json::Engine {
+        let (mut fault, mut face) = (None, None);
+        if let Some(Fault { what, triangle }) = &self.fault {
+            fault = Some(what.clone());
+            face = triangle.map(|one| face_of(subject.scene, subject.origins, one));
+        }
+        json::Engine { engine: self.engine, fault, face }
+    }
+}
+
 /// What an engine gets wrong, and the first triangle for which it does so alone.
 struct Fault {
     what: String,
     triangle: Option<u32>,
+}
+
+/// What an engine gets wrong of a case first, in words.
+fn first_fault(engine: &EnginesToJudge, case: &Case) -> Option<String> {
+    let findings = engine.judge_case(case);
+    findings.iter().find(|(_, f)| f.is_wrong()).map(|(_, finding)| finding.describe())
 }
 
 /// Judges an engine on all pieces, some of them together as a case.
@@ -116,16 +163,14 @@ fn judge(
     engine: &EnginesToJudge,
     case: &(dyn Fn(&[&Piece]) -> Case + Sync),
 ) -> Option<Fault> {
-    let wrong = |chunk: &[&Piece]| {
-        let findings = engine.judge_case(&case(chunk));
-        findings.iter().find(|(_, f)| f.is_wrong()).map(|(_, finding)| finding.describe())
-    };
     let chunks: Vec<&[&Piece]> = pieces.chunks(CHUNK).collect();
-    let faults = parallel::map(chunks.len(), |number| wrong(chunks[number]));
-    let (first, together) = chunks.iter().zip(faults).find_map(|(c, f)| Some((c, f?)))?;
-    let alone = first.iter().find_map(|piece| Some((piece.face, wrong(&[*piece])?)));
-    Some(match alone {
-        Some((triangle, what)) => Fault { what, triangle: Some(triangle) },
-        None => Fault { what: format!("several pieces together: {together}"), triangle: None },
-    })
+    let faults = parallel::map(chunks.len(), |number| first_fault(engine, &case(chunks[number])));
+    let (chunk, together) = chunks.iter().zip(faults).find_map(|(c, f)| Some((c, f?)))?;
+    // Of the first chunk that is wrong, the first piece that is wrong alone.
+    for piece in *chunk {
+        if let Some(what) = first_fault(engine, &case(&[*piece])) {
+            return Some(Fault { what, triangle: Some(piece.face) });
+        }
+    }
+    Some(Fault { what: format!("several pieces together: {together}"), triangle: None })
 }

@@ -1,13 +1,14 @@
 //! A study and the boards of `cost` for machines.
 
 use rasterproof_precision::cost::{
-    Board, Cell, Cheapest, JudgedChoice, Recorded, Run, Spread, Time, Times, fastest, prices,
+    Board, Cell, Cheapest, JudgedChoice, Recorded, Run, Sampling, Spread, Time, Times, fastest,
+    prices,
 };
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Places, StudyFindings, names};
-use crate::effects::{Adds, Need, Needs, State};
+use crate::effects::{Adds, Needs, State};
 use crate::hard::HardCases;
 use crate::shift::Shifted;
 use crate::{face_of, triangle_of};
@@ -16,36 +17,40 @@ use crate::{face_of, triangle_of};
 /// [`Recorded::read`] takes it back.
 pub fn cost(recorded: &Recorded) -> Value {
     let boards = &recorded.boards;
-    let verdicts: Vec<_> = boards
-        .iter()
-        .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
-        .map(|(board, measure)| {
-            let best = |column: usize| {
-                let promises = |choice: &JudgedChoice<'_>| choice.promises(measure);
-                let good = board.cheapest_exact(column, measure);
-                let certain = fastest(board.ran(column).filter(promises));
-                Some(json!({
-                    "column": board.columns[column].name,
-                    "fastest": fastest(board.ran(column))?.name(),
-                    "cheapest_good": good.as_ref().map(JudgedChoice::name),
-                    "cheapest_certain": certain.as_ref().map(JudgedChoice::name),
-                }))
-            };
-            let dominated = board.dominated(measure).into_iter().map(|(choice, by)| {
-                let by: Vec<_> = by.into_iter().map(|other| &other.name).collect();
-                json!({ "choice": choice.name, "by": by })
-            });
-            json!({
-                "group": board.ladder, "measure": board.measures[measure].title,
-                "best": board.columns_run().filter_map(best).collect::<Vec<_>>(),
-                "dominated": dominated.collect::<Vec<_>>(),
-            })
-        })
-        .collect();
+    let mut verdicts = Vec::new();
+    for board in boards {
+        verdicts.extend(board.ranking().map(|measure| verdict(board, measure)));
+    }
     json!({
         "version": recorded.version, "repeat": recorded.repeat, "seed": recorded.seed,
         "quick": recorded.quick, "boards": boards,
         "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
+    })
+}
+
+/// Which choices are the best by a measure, for each class of scenes, and which are beaten everywhere.
+fn verdict(board: &Board, measure: usize) -> Value {
+    let mut best = Vec::new();
+    for column in board.columns_run() {
+        // Without times there is no fastest choice, and nothing is said of the column.
+        let Some(fastest_of_all) = fastest(board.ran(column)) else { continue };
+        let good = board.cheapest_exact(column, measure);
+        let certain = fastest(board.ran(column).filter(|choice| choice.promises(measure)));
+        best.push(json!({
+            "column": board.columns[column].name,
+            "fastest": fastest_of_all.name(),
+            "cheapest_good": good.as_ref().map(JudgedChoice::name),
+            "cheapest_certain": certain.as_ref().map(JudgedChoice::name),
+        }));
+    }
+    let mut dominated = Vec::new();
+    for (choice, by) in board.dominated(measure) {
+        let by: Vec<_> = by.into_iter().map(|other| &other.name).collect();
+        dominated.push(json!({ "choice": choice.name, "by": by }));
+    }
+    json!({
+        "group": board.ladder, "measure": board.measures[measure].title,
+        "best": best, "dominated": dominated,
     })
 }
 
@@ -61,6 +66,7 @@ pub struct OnModel<'a> {
     pub agrees: Option<bool>,
 }
 
+/// What one engine gets wrong first; nothing where it agrees.
 #[derive(Serialize)]
 pub struct Engine {
     pub engine: &'static str,
@@ -68,6 +74,7 @@ pub struct Engine {
     pub face: Option<u32>,
 }
 
+/// Everything that was found, with the answers as sentences.
 pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Serialize) -> Value {
     let (scene, hard) = (subject.scene, found.hard);
     json!({
@@ -79,90 +86,108 @@ pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Ser
     })
 }
 
+/// The hard cases of a scene, and what else was found on the way.
 pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
-    let face = |&triangle: &u32| {
-        let origin = triangle_of(subject.scene, triangle)
-            .and_then(|(item, number)| Some((subject.origins.get(item)?, number)));
-        json!({
-            "face": face_of(subject.scene, subject.origins, triangle),
-            "line": origin.and_then(|(origin, number)| origin.lines.get(number)),
-            "part": origin.map(|(origin, _)| &origin.part),
-            "material": origin.map(|(origin, _)| &origin.material),
-            "command": subject.command(triangle),
-        })
-    };
-    let cases = found.cases.iter().map(|case| {
-        json!({
+    let mut cases = Vec::new();
+    for case in &found.cases {
+        let faces: Vec<_> = case.triangles.iter().map(|one| face(subject, *one)).collect();
+        cases.push(json!({
             "kind": case.kind.name(), "count": case.count, "in_view": case.in_view,
-            "pixels": case.pixels, "note": case.note,
-            "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
-        })
-    });
-    let shifted = |shifted: &Shifted| {
-        let Shifted { by, pixel, triangle } = shifted;
-        json!({ "by": by, "pixel": pixel, "face": face_of(subject.scene, subject.origins, *triangle) })
+            "pixels": case.pixels, "note": case.note, "faces": faces,
+        }));
+    }
+    let shifted = |shifted: Option<Shifted>| {
+        let Shifted { by, pixel, triangle } = shifted?;
+        let face = face_of(subject.scene, subject.origins, triangle);
+        Some(json!({ "by": by, "pixel": pixel, "face": face }))
     };
     json!({
-        "cases": cases.collect::<Vec<_>>(), "w": found.w, "f32_pixels": found.f32_pixels,
+        "cases": cases, "w": found.w, "f32_pixels": found.f32_pixels,
         "is_cut_short": found.is_cut_short,
-        "moved_depth": found.shift.depth.as_ref().map(shifted),
-        "moved_texels": found.shift.texels.as_ref().map(shifted),
-        "moved_colour": found.shift.colour.as_ref().map(shifted),
-        "moved_normal": found.shift.normal.as_ref().map(shifted),
+        "moved_depth": shifted(found.shift.depth), "moved_texels": shifted(found.shift.texels),
+        "moved_colour": shifted(found.shift.colour), "moved_normal": shifted(found.shift.normal),
     })
 }
 
+/// A face, with what the file says of it where the scene is of one.
+fn face(subject: &Places<'_>, triangle: u32) -> Value {
+    let (mut line, mut part, mut material) = (None, None, None);
+    if let Some((item, number)) = triangle_of(subject.scene, triangle)
+        && let Some(origin) = subject.origins.get(item)
+    {
+        line = origin.lines.get(number);
+        (part, material) = (Some(&origin.part), Some(&origin.material));
+    }
+    json!({
+        "face": face_of(subject.scene, subject.origins, triangle),
+        "line": line, "part": part, "material": material,
+        "command": subject.command(triangle),
+    })
+}
+
+/// The boards of a model, each of which has one column.
 pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Value {
-    let board = |board: &Board| {
-        let choice = |(number, row): (usize, &Vec<Cell>)| {
-            let (choice, not_run) = (&board.choices[number], Run::default());
-            let (run, refused) = match &row[0] {
-                Cell::Run(run) => (&**run, None),
-                Cell::NotRun(why) => (&not_run, Some(why)),
-            };
-            let first = run.found.first.map(|(of, [x, y])| {
-                let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
-                json!({ "pixel": [x, y], "face": face })
-            });
-            let rounds = run.time.as_ref().and_then(|time: &Time| time.rounds.as_ref());
-            let is_exact = |one: &usize| board.meets(number, 0, *one);
+    boards.iter().map(|board| of_model(subject, board)).collect()
+}
+
+/// A board of a model.
+fn of_model(subject: &Places<'_>, board: &Board) -> Value {
+    let (mut measures, mut best, mut compared) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, measure) in board.measures.iter().enumerate() {
+        measures.push(&measure.title);
+        // Both are null where no choice is exact.
+        let cheapest = board.compared(0, number);
+        best.push(cheapest.as_ref().map(|cheapest| cheapest.choice.name()));
+        compared.push(cheapest.map(|Cheapest { choice, equal, undecided }| {
             json!({
-                "name": choice.name, "about": choice.about, "errors": run.errors,
-                "exact": board.ranking().filter(is_exact).collect::<Vec<_>>(), "first_wrong": first,
-                "margin": run.found.margin.filter(|margin| margin.is_finite()),
-                "time_ns": rounds.map(quartiles), "times": run.time.as_ref().map(|time| time.times),
-                "wall_ns": rounds.and_then(|times| times.wall_ns),
-                "bytes": run.found.bytes, "refused": refused,
-            })
-        };
-        let measures: Vec<_> = board.measures.iter().map(|measure| &measure.title).collect();
-        let of_measures = || (0..measures.len()).map(|measure| board.compared(0, measure));
-        let best = of_measures().map(|best| Some(best?.choice.name()));
-        let compared = of_measures().map(|best| {
-            let Cheapest { choice, equal, undecided } = best?;
-            Some(json!({
                 "choice": choice.name(), "equally_fast": names(&equal), "undecided": names(&undecided),
                 "rounds": choice.times().map_or(0, Times::rounds),
-            }))
+            })
+        }));
+    }
+    let column = &board.columns[0];
+    let (mut timed, mut judged, mut not_judged) = Default::default();
+    if let Some(Sampling { items, pixels, judged: of_pixels, not_judged: pieces, .. }) =
+        column.sampling
+    {
+        timed = json!({
+            "triangles": items.part, "of_triangles": items.of,
+            "pixels": pixels.part, "of_pixels": pixels.of,
         });
-        let column = &board.columns[0];
-        let sampling = column.sampling.map(|of| {
-            let timed = json!({
-                "triangles": of.items.part, "of_triangles": of.items.of,
-                "pixels": of.pixels.part, "of_pixels": of.pixels.of,
-            });
-            (timed, json!({ "part": of.judged.part, "of": of.judged.of }), of.not_judged)
-        });
-        let (timed, judged, not_judged) = sampling.unwrap_or_default();
-        json!({
-            "title": board.ladder.title(), "measures": measures, "not_judged": not_judged,
-            "timed": timed, "compared_pixels": judged, "noise": column.noise,
-            "choices": board.cells.iter().enumerate().map(choice).collect::<Vec<_>>(),
-            "cheapest_exact": best.collect::<Vec<_>>(),
-            "compared": compared.collect::<Vec<_>>(),
-        })
+        judged = json!({ "part": of_pixels.part, "of": of_pixels.of });
+        not_judged = pieces;
+    }
+    let choices: Vec<_> = (0..board.choices.len()).map(|one| choice(subject, board, one)).collect();
+    json!({
+        "title": board.ladder.title(), "measures": measures, "not_judged": not_judged,
+        "timed": timed, "compared_pixels": judged, "noise": column.noise,
+        "choices": choices, "cheapest_exact": best, "compared": compared,
+    })
+}
+
+/// A choice of a board of a model; what was not run has no numbers, and why.
+fn choice(subject: &Places<'_>, board: &Board, number: usize) -> Value {
+    let (choice, not_run) = (&board.choices[number], Run::default());
+    let (run, refused) = match &board.cells[number][0] {
+        Cell::Run(run) => (&**run, None),
+        Cell::NotRun(why) => (&not_run, Some(why)),
     };
-    boards.iter().map(board).collect()
+    let first = run.found.first.map(|(of, [x, y])| {
+        let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
+        json!({ "pixel": [x, y], "face": face })
+    });
+    // A file of recorded boards holds no rounds.
+    let rounds = run.time.as_ref().and_then(|time: &Time| time.rounds.as_ref());
+    let exact: Vec<_> =
+        board.ranking().filter(|measure| board.meets(number, 0, *measure)).collect();
+    json!({
+        "name": choice.name, "about": choice.about, "errors": run.errors,
+        "exact": exact, "first_wrong": first,
+        "margin": run.found.margin.filter(|margin| margin.is_finite()),
+        "time_ns": rounds.map(quartiles), "times": run.time.as_ref().map(|time| time.times),
+        "wall_ns": rounds.and_then(|times| times.wall_ns),
+        "bytes": run.found.bytes, "refused": refused,
+    })
 }
 
 /// Nanoseconds.
@@ -171,22 +196,24 @@ fn quartiles(time: &Times) -> [f64; 3] {
     [low, median, high]
 }
 
+/// The effects of a scene, with what each takes or would take.
 fn needs(needs: &Needs, not_drawn: &str) -> Value {
-    let one = |need: &Need| {
-        json!({
+    let mut effects = Vec::new();
+    for need in &needs.needs {
+        let times = match need.adds(&needs.planned) {
+            Adds::Times(ratio) => Some(ratio),
+            Adds::NoWork | Adds::DrawsLess => None,
+        };
+        effects.push(json!({
             "effect": need.effect.name(), "called_for": need.state() == State::CalledFor,
             "paid_for": need.is_paid_for, "materials": need.materials, "reasons": need.reasons,
             "pixels": need.pixels, "wrong_without": need.wrong,
             "work": need.work, "draws_less": need.draws_less,
-            "otherwise_ns": need.otherwise.as_ref().map(quartiles),
-            "times": match need.adds(&needs.planned) {
-                Adds::Times(ratio) => Some(ratio),
-                Adds::NoWork | Adds::DrawsLess => None,
-            },
-        })
-    };
+            "otherwise_ns": need.otherwise.as_ref().map(quartiles), "times": times,
+        }));
+    }
     json!({
-        "effects": needs.needs.iter().map(one).collect::<Vec<_>>(),
+        "effects": effects,
         "planned_ns": quartiles(&needs.planned), "noise": needs.planned.noise(),
         "textures": needs.textures, "not_supported": not_drawn,
     })

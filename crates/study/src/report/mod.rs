@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 
 use crate::effects::{Adds, Need, Needs, State};
 use crate::grid::GridPrice;
-use crate::hard::{HardCase, HardCases, Kind};
+use crate::hard::{HardCases, Kind};
 use crate::shift::Shifted;
 use crate::ties::{Class, Classes, TiedPair};
 use crate::{face_of, triangle_of};
@@ -34,6 +34,7 @@ use rasterproof_report::picture;
 use rasterproof_report::table::{self, Column, Row, Table};
 use rasterproof_report::words::{self, count, number, thousands};
 
+/// A scene, and how its triangles are named to a reader.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
     pub scene: &'a Scene,
@@ -50,6 +51,7 @@ impl Places<'_> {
         place.unwrap_or_else(|| format!("triangle {}", u64::from(triangle) + 1))
     }
 
+    /// The command that shows the face of a triangle.
     pub fn command(&self, triangle: u32) -> String {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
@@ -61,18 +63,26 @@ impl Places<'_> {
 
 /// By group the choices that get triangles of a kind wrong, with how many samples.
 fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
-    let of_group = |board: &Board| {
-        let of_choice = |choice: JudgedChoice<'_>| {
-            let of_kind = |pair: &[u32; 2]| pair.iter().any(|one| found.is(*one, kind));
-            let of_kind = choice.run.found.wrong.iter().filter(|(pair, _)| of_kind(pair));
-            let count: u64 = of_kind.map(|(_, count)| count).sum();
-            (count > 0).then(|| format!("{} {}", choice.name(), thousands(count)))
-        };
-        let wrong: Vec<String> = board.ran(0).filter_map(of_choice).collect();
-        let title = board.ladder.title();
-        (!wrong.is_empty()).then(|| format!("{title} ({}): {}", unit(board), wrong.join(", ")))
-    };
-    costs.iter().filter_map(of_group).collect()
+    let mut lines = Vec::new();
+    for board in costs {
+        let mut wrong = Vec::new();
+        for choice in board.ran(0) {
+            let mut count = 0;
+            for ([a, b], samples) in &choice.run.found.wrong {
+                if found.is(*a, kind) || found.is(*b, kind) {
+                    count += samples;
+                }
+            }
+            if count > 0 {
+                wrong.push(format!("{} {}", choice.name(), thousands(count)));
+            }
+        }
+        if !wrong.is_empty() {
+            let title = board.ladder.title();
+            lines.push(format!("{title} ({}): {}", unit(board), wrong.join(", ")));
+        }
+    }
+    lines
 }
 
 /// What the errors of a board count.
@@ -92,6 +102,7 @@ fn compared_in(costs: &[Board]) -> Option<String> {
 /// What is said of all hard cases together, a line each.
 fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> Vec<String> {
     let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
+    // Kinds that do not occur are named, so that a reader knows that they were looked for.
     let missing = Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none());
     let missing: Vec<&str> = missing.map(Kind::name).collect();
     if !missing.is_empty() && !found.cases.is_empty() {
@@ -106,20 +117,19 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) ->
         let [near, far] = [near, far].map(|w| number(w, 9));
         lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
     }
-    let shifted = |shifted: Shifted, unit: &str| {
-        let Shifted { by, pixel: [x, y], triangle } = shifted;
-        format!("by {by:.1e}{unit} at {x},{y} on {}", subject.face(triangle))
-    };
     let shift = &found.shift;
-    let values: Vec<String> = [
+    let mut values = Vec::new();
+    for (what, largest, unit) in [
         ("a depth", shift.depth, ""),
         ("texture coordinates", shift.texels, " texels"),
         ("a colour of corners", shift.colour, " of 255"),
         ("a normal", shift.normal, " degrees"),
-    ]
-    .into_iter()
-    .filter_map(|(what, largest, unit)| Some(format!("{what} {}", shifted(largest?, unit))))
-    .collect();
+    ] {
+        if let Some(Shifted { by, pixel: [x, y], triangle }) = largest {
+            let face = subject.face(triangle);
+            values.push(format!("{what} by {by:.1e}{unit} at {x},{y} on {face}"));
+        }
+    }
     if !values.is_empty() {
         lines.push(format!(
             "the most that snapped corners change of what is seen: {}",
@@ -133,6 +143,7 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) ->
     lines
 }
 
+/// Nanoseconds as milliseconds.
 fn ms(ns: f64) -> String {
     number(ns / 1e6, 9)
 }
@@ -144,13 +155,16 @@ fn answers(
     commands: [String; 3],
 ) -> Vec<Statement> {
     let stability = stability(subject, found.hard) + &z_fighting(found.costs);
-    let sentences = [accuracy(found.costs).concat(), stability, effects(found)];
-    let questions = ["accuracy", "hard cases", "effects"];
-    let all = questions.into_iter().zip(sentences).zip(commands);
-    let answer = |((about, sentence), command)| Statement { about, sentence, command };
-    all.map(answer).collect()
+    let [of_accuracy, of_hard_cases, of_effects] = commands;
+    let answer = |about, sentence, command| Statement { about, sentence, command };
+    vec![
+        answer("accuracy", accuracy(found.costs).concat(), of_accuracy),
+        answer("hard cases", stability, of_hard_cases),
+        answer("effects", effects(found), of_effects),
+    ]
 }
 
+/// The names of choices of one group.
 fn names<'a>(choices: &[JudgedChoice<'a>]) -> Vec<&'a str> {
     choices.iter().map(JudgedChoice::name).collect()
 }
@@ -170,6 +184,7 @@ fn wrong_first(choice: &JudgedChoice<'_>) -> u64 {
     choice.error(0).unwrap_or(0.0) as u64
 }
 
+/// How many times as long a choice takes as another one; once where either was not timed.
 fn over(choice: &JudgedChoice<'_>, other: &JudgedChoice<'_>) -> Ratio {
     choice.over(other).unwrap_or(Ratio::ONE)
 }
@@ -199,12 +214,15 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
         return [none, String::new()];
     }
     let all: Vec<JudgedChoice<'_>> = coverage(boards).flat_map(|board| board.ran(0)).collect();
-    let least = |of: &dyn Fn(&JudgedChoice<'_>) -> bool| fastest(all.iter().copied().filter(of));
-    let certain = least(&|one| !one.choice().promises.is_empty() && wrong(one) == 0.0);
-    let (Some(cheapest), Some(certain)) = (least(&|_| true), certain) else {
+    // By promise: only who promises to be exact is so for every model, and not by chance.
+    let is_certain =
+        |one: &JudgedChoice<'_>| !one.choice().promises.is_empty() && wrong(one) == 0.0;
+    let certain = fastest(all.iter().copied().filter(is_certain));
+    let (Some(cheapest), Some(certain)) = (fastest(all.iter().copied()), certain) else {
         let none = "No choice of coverage that is exact for every model takes these triangles.";
         return [none.to_owned(), String::new()];
     };
+    // The sentence names the cheapest of those that are exact by promise, against the cheapest of all.
     let unit = unit(cheapest.board);
     let is_snapped = certain.promises(1);
     let snapped = if is_snapped { " once its corners are snapped" } else { "" };
@@ -226,7 +244,8 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
         )
     };
     let mut others = String::new();
-    let as_given = least(&|one| one.promises(0));
+    // Where snapping changes pixels, what it takes to be exact for the corners as given.
+    let as_given = fastest(all.iter().copied().filter(|one| one.promises(0)));
     if let Some(as_given) = as_given.filter(|_| is_snapped && wrong_first(&certain) > 0) {
         let differ =
             count(wrong_first(&certain), &format!("{unit} differs"), &format!("{unit} differ"));
@@ -237,25 +256,31 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
             full_name(&as_given)
         );
     }
-    let are_wrong = all.iter().filter(|one| wrong(one) > 0.0);
-    let number = are_wrong.clone().count() as u64;
-    let _ = match are_wrong.max_by(|a, b| wrong(a).total_cmp(&wrong(b))) {
-        None => write!(others, " All {} choices are right here.", all.len()),
-        Some(worst) => write!(
-            others,
-            " {} of {} choices {}, in {} {unit}.",
-            thousands(number),
-            all.len(),
-            match number {
-                1 => format!("is wrong here: {}", full_name(worst)),
-                _ => format!("are wrong here, most of all {}", full_name(worst)),
-            },
-            thousands(wrong(worst) as u64)
-        ),
-    };
+    others += &who_is_wrong(&all, unit);
     [sentence, others]
 }
 
+/// How many choices are wrong, and the worst of them.
+fn who_is_wrong(all: &[JudgedChoice<'_>], unit: &str) -> String {
+    let (mut number, mut worst) = (0, None);
+    for choice in all {
+        number += u64::from(wrong(choice) > 0.0);
+        // The last of equal ones.
+        if wrong(choice) > 0.0 && worst.is_none_or(|worst| wrong(choice) >= wrong(worst)) {
+            worst = Some(choice);
+        }
+    }
+    let Some(worst) = worst else { return format!(" All {} choices are right here.", all.len()) };
+    let (of, name) = (all.len(), full_name(worst));
+    let are_wrong = match number {
+        1 => format!("is wrong here: {name}"),
+        _ => format!("are wrong here, most of all {name}"),
+    };
+    let pixels = thousands(wrong(worst) as u64);
+    format!(" {} of {of} choices {are_wrong}, in {pixels} {unit}.", thousands(number))
+}
+
+/// The word that ratios of times are told with: so many times as long.
 const LONG: &str = "long";
 
 /// Which depth buffers show another surface than exact depths do; nothing where none does.
@@ -263,25 +288,25 @@ fn z_fighting(boards: &[Board]) -> String {
     let Some(board) = boards.iter().find(|board| board.ladder == Ladder::Depth) else {
         return String::new();
     };
-    let wrong: Vec<String> = board
-        .ran(0)
-        .filter(|choice| wrong_first(choice) > 0)
-        .map(|choice| format!("{} in {}", choice.name(), thousands(wrong_first(&choice))))
-        .collect();
-    match &wrong[..] {
-        [] => String::new(),
-        wrong => {
-            let unit = unit(board);
-            format!(" Depth buffers that show another surface: {} {unit}.", wrong.join(", "))
+    let mut wrong = Vec::new();
+    for choice in board.ran(0) {
+        if wrong_first(&choice) > 0 {
+            wrong.push(format!("{} in {}", choice.name(), thousands(wrong_first(&choice))));
         }
     }
+    if wrong.is_empty() {
+        return String::new();
+    }
+    format!(" Depth buffers that show another surface: {} {}.", wrong.join(", "), unit(board))
 }
 
+/// What the titles of both groups of coverage begin with, which is left out where both are named.
 const COVERAGE: &str = "Coverage by ";
 
 /// What rounding decides in this view, and which hard cases are seen besides.
 fn stability(subject: &Places<'_>, found: &HardCases) -> String {
     let classes = &found.classes;
+    // First what rounding decides, with the first such pixel.
     let mut sentence = match classes.first {
         Some(TiedPair { pixel: [x, y], triangles }) => {
             let [a, b] = triangles.map(|one| subject.face(one));
@@ -292,25 +317,20 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
         }
         None => "No pixel is decided by rounding alone.".to_owned(),
     };
+    // Then the kind that is seen in the most pixels of all others.
     let others: Vec<_> = found.in_view().filter(|case| case.kind != Kind::Rounding).collect();
-    let most = others.iter().max_by_key(|case| case.pixels);
-    let _ = match most {
-        None => write!(sentence, " No other hard case is seen in this view."),
-        Some(most) => {
-            let (name, pixels) = (most.kind.name(), thousands(most.pixels));
-            let seen = "seen in this view";
-            match others.len() {
-                1 => write!(
-                    sentence,
-                    " One other kind of hard case is {seen}: {name}, in {pixels} px."
-                ),
-                kinds => write!(
-                    sentence,
-                    " {kinds} other kinds of hard cases are {seen}, most of all {name}, in {pixels} px."
-                ),
+    if let Some(most) = others.iter().max_by_key(|case| case.pixels) {
+        let are_seen = match others.len() {
+            1 => "One other kind of hard case is seen in this view:".to_owned(),
+            kinds => {
+                format!("{kinds} other kinds of hard cases are seen in this view, most of all")
             }
-        }
-    };
+        };
+        let (name, pixels) = (most.kind.name(), thousands(most.pixels));
+        let _ = write!(sentence, " {are_seen} {name}, in {pixels} px.");
+    } else {
+        sentence += " No other hard case is seen in this view.";
+    }
     let hidden = found.cases.len() - found.in_view().count();
     if hidden > 0 {
         let kinds = count(hidden as u64, "kind is", "kinds are");
@@ -322,6 +342,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
 /// What the view calls for, and what it costs to pay for everything.
 fn effects(found: &StudyFindings<'_>) -> String {
     let all = &found.needs.needs;
+    // How many are needed, and the one that would be missed most.
     let called: Vec<_> = all.iter().filter(|need| need.state() == State::CalledFor).collect();
     let mut sentence = format!("{} of {} effects are called for.", called.len(), all.len());
     let of_pixels = called.iter().filter(|need| need.pixels.is_some());
@@ -329,6 +350,7 @@ fn effects(found: &StudyFindings<'_>) -> String {
         let (name, wrong) = (most.effect.name(), thousands(most.wrong));
         let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
     }
+    // Whole frames are compared where the costs were measured.
     let frames = found.costs.iter().find(|board| board.ladder == Ladder::Frames);
     let frame = |name: &str| frames?.ran(0).find(|one| one.name() == name);
     let both = frame("scanline all").zip(frame("scanline planned"));
@@ -346,76 +368,106 @@ fn effects(found: &StudyFindings<'_>) -> String {
 /// Rows of a table of cases or effects on a first screen, which has 40.
 const MOST_ROWS: usize = 3;
 
+/// The first rows of a table, with a note of how many there are more.
+fn first_rows(columns: &str, mut rows: Vec<Row>) -> Table {
+    let left_out = rows.len().saturating_sub(MOST_ROWS);
+    rows.truncate(MOST_ROWS);
+    let more = (left_out > 0).then(|| format!("and {left_out} more"));
+    Table::new("", columns, rows).noted(Vec::from_iter(more))
+}
+
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
 fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
-    let short = |columns: &str, mut rows: Vec<Row>, note: Option<String>| {
-        let left_out = rows.len().saturating_sub(MOST_ROWS);
-        rows.truncate(MOST_ROWS);
-        let more = (left_out > 0).then(|| format!("and {left_out} more"));
-        Table::new("", columns, rows).noted(more.into_iter().chain(note).collect())
-    };
-    let listed = |about: &str, all: &[String]| {
-        (!all.is_empty()).then(|| format!("{about}: {}", all.join(", ")))
-    };
-    let mut seen: Vec<_> = found.hard.in_view().collect();
+    vec![seen_first(subject, found.hard), called_first(found.needs), exact_first(found.costs)]
+}
+
+/// The hard cases with the most pixels.
+fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
+    // The sort is stable: kinds with as many pixels stay in the order of the kinds.
+    let mut seen: Vec<_> = hard.in_view().collect();
     seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
-    let row = |case: &&HardCase| {
-        let face = case.triangles.first().map_or(String::new(), |one| subject.face(*one));
+    let (mut rows, mut broken) = (Vec::new(), Vec::new());
+    for case in seen {
+        let first = case.triangles.first();
+        let face = first.map_or(String::new(), |one| subject.face(*one));
         let [number, pixels] = [case.in_view, case.pixels].map(thousands);
-        Row::of(&[&case.kind.name(), &number, &pixels, &face])
-    };
+        rows.push(Row::of(&[&case.kind.name(), &number, &pixels, &face]));
+        // These are few pixels mostly, and in none of the rows then; what mends them is said here.
+        if [Kind::Crack, Kind::Fold].contains(&case.kind) {
+            broken.push(format!("{}: {}; {}", case.kind.name(), case.note, case.kind.about()));
+            broken.extend(first.map(|one| subject.command(*one)));
+        }
+    }
     let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
-    let hidden = found.hard.cases.iter().filter(|case| case.in_view == 0);
-    let hidden: Vec<_> =
-        hidden.map(|case| format!("{} {}", thousands(case.count), case.kind.name())).collect();
-    let hidden = listed("only in the mesh", &hidden);
-    // These are few pixels mostly, and in none of the rows then; what mends them is said here.
-    let is_broken = |case: &&&HardCase| [Kind::Crack, Kind::Fold].contains(&case.kind);
-    let broken = seen.iter().filter(is_broken).flat_map(|case| {
-        let about = format!("{}: {}; {}", case.kind.name(), case.note, case.kind.about());
-        let command = case.triangles.first().map(|one| subject.command(*one));
-        std::iter::once(about).chain(command)
-    });
-    let broken: Vec<String> = broken.collect();
-    let mut seen = short(columns, seen.iter().map(row).collect(), hidden);
-    seen.notes.extend(broken);
-    let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
-    let row = |need: &Need| {
-        Row::of(&[&need.effect.name(), &thousands(need.wrong), &takes(found.needs, need)])
-    };
-    let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
+    let mut table = first_rows(columns, rows);
+    // What this view does not show may be seen from another side.
+    let mut hidden = Vec::new();
+    for case in &hard.cases {
+        if case.in_view == 0 {
+            hidden.push(format!("{} {}", thousands(case.count), case.kind.name()));
+        }
+    }
+    if !hidden.is_empty() {
+        table.notes.push(format!("only in the mesh: {}", hidden.join(", ")));
+    }
+    table.notes.extend(broken);
+    table
+}
+
+/// The effects without which the most pixels are wrong.
+fn called_first(needs: &Needs) -> Table {
+    let of = |state: State| needs.needs.iter().filter(move |need| need.state() == state);
     let mut called: Vec<_> = of(State::CalledFor).collect();
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
-    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name().to_owned()).collect();
-    let safe = listed("paid for to be safe, though no pixel changes here", &safe);
-    let called = short(columns, called.into_iter().map(row).collect(), safe);
     let mut rows = Vec::new();
-    let both: Vec<&Board> = coverage(found.costs).collect();
+    for need in called {
+        let (name, wrong) = (need.effect.name(), thousands(need.wrong));
+        rows.push(Row::of(&[&name, &wrong, &takes(needs, need)]));
+    }
+    let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
+    let mut table = first_rows(columns, rows);
+    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
+    if !safe.is_empty() {
+        let about = "paid for to be safe, though no pixel changes here";
+        table.notes.push(format!("{about}: {}", safe.join(", ")));
+    }
+    table
+}
+
+/// The cheapest exact choice of each job.
+fn exact_first(costs: &[Board]) -> Table {
+    let mut rows = Vec::new();
+    // Both groups of coverage do one job, which each of their measures judges in its own way.
+    let both: Vec<&Board> = coverage(costs).collect();
     if let Some(first) = both.first() {
         for (number, measure) in first.measures.iter().enumerate() {
             rows.push(cheapest_row(&both, number, &format!("Coverage, {}", measure.short)));
         }
     }
-    for board in found.costs.iter().filter(|board| !board.ladder.is_coverage()) {
-        rows.push(cheapest_row(&[board], 0, board.ladder.title()));
+    for board in costs {
+        if !board.ladder.is_coverage() {
+            rows.push(cheapest_row(&[board], 0, board.ladder.title()));
+        }
     }
     let columns =
         "what exactness costs 27 | cheapest exact 27 | >ms 7 | times 14 the cheapest of all";
     let note = "same: no difference; 2-12?: cannot be told; +2: two as fast; more: --all";
-    let costs = Table::new("", columns, rows).noted(vec![note.to_owned()]);
-    vec![seen, called, costs]
+    Table::new("", columns, rows).noted(vec![note.to_owned()])
 }
 
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
 fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
+    // All exact choices of all boards compete; without times there is no cheapest one.
     let exact: Vec<_> = boards.iter().flat_map(|board| board.exact(0, measure)).collect();
     let best = Cheapest::of(&exact).and_then(|best| Some((best.choice.times()?, best)));
     let Some((times, Cheapest { choice: best, equal, undecided })) = best else {
-        let sampling = boards.iter().filter_map(|board| board.columns[0].sampling);
-        let is_compared = sampling.map(|sampling| sampling.judged.part).any(|part| part > 0);
+        let is_compared = boards
+            .iter()
+            .any(|board| board.columns[0].sampling.is_some_and(|of| of.judged.part > 0));
         let none = if is_compared { "none" } else { "no pixel was compared" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
+    // Choices that cannot be told from the best one by their times are counted behind its name.
     let rivals = equal.len() + undecided.len();
     let mut name = best.name().to_owned();
     if boards.len() > 1 {
@@ -432,6 +484,7 @@ fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
 pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
     let Some(sampling) = board.columns[0].sampling else { return Vec::new() };
+    // First the choice to make, by each measure of the error.
     let mut lines = Vec::new();
     for (number, measure) in board.measures.iter().enumerate() {
         match board.compared(0, number) {
@@ -442,19 +495,24 @@ pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
             None => lines.push(format!("none is exact ({})", measure.short)),
         }
     }
+    // What is faster than this is cheaper than being exact by any measure.
     let measures = 0..board.measures.len();
     let limit = fastest(measures.clone().filter_map(|one| board.cheapest_exact(0, one)));
     if !sampling.judged.is_all() && sampling.judged.part > 0 {
         let [part, of] = [sampling.judged.part, sampling.judged.of].map(thousands);
         lines.push(format!("exact and wrong are of a sample: {part} of {of} px were compared"));
     }
+    // Then choices that tempt: those that are exact here and might not be, and those that are cheaper and wrong.
     for choice in board.ran(0) {
-        let is_cheaper = limit
-            .and_then(|limit| choice.over(&limit))
-            .is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0);
-        let goal = |i: usize| board.measures[i].goal.unwrap_or(f64::INFINITY);
-        let is_wrong =
-            measures.clone().all(|i| choice.error(i).is_some_and(|error| error > goal(i)));
+        let ratio = limit.and_then(|limit| choice.over(&limit));
+        let is_cheaper =
+            ratio.is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0);
+        // Wrong is what misses the goal of every measure.
+        let mut is_wrong = true;
+        for (number, measure) in board.measures.iter().enumerate() {
+            let goal = measure.goal.unwrap_or(f64::INFINITY);
+            is_wrong &= choice.error(number).is_some_and(|error| error > goal);
+        }
         match (choice.run.found.margin, choice.run.found.first) {
             (Some(margin), _) if !is_wrong => {
                 let luck = if margin < 1.0 { ": it might have been wrong" } else { "" };
@@ -487,6 +545,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
     let Cheapest { choice, equal, undecided } = best;
     let board = choice.board;
     let short = &board.measures[measure].short;
+    // If all exact choices take the same time, none of them is the cheapest.
     let timed = board.exact(0, measure).filter(|one| one.times().is_some());
     if !equal.is_empty() && timed.count() == equal.len() + 1 {
         let all = names(&[&[*choice], &equal[..]].concat()).join(", ");
@@ -539,38 +598,45 @@ fn takes(needs: &Needs, need: &Need) -> String {
 /// `by` the materials that call for an effect, the most visible first; nothing where none does.
 fn by_whom(need: &Need) -> String {
     const MOST: usize = 3;
-    let name = |(name, pixels): &(String, u64)| {
+    let mut names = Vec::new();
+    for (name, pixels) in need.materials.iter().take(MOST) {
         let name = printable_short(name, 40);
-        match need.pixels {
+        names.push(match need.pixels {
             Some(_) => format!("{name} ({} px)", thousands(*pixels)),
             None => name,
-        }
-    };
-    let mut names: Vec<_> = need.materials.iter().take(MOST).map(name).collect();
-    let more = need.materials.len().saturating_sub(MOST);
-    if more > 0 {
-        names.push(format!("{more} more"));
+        });
     }
-    if names.is_empty() { String::new() } else { format!("by {}", names.join(", ")) }
+    if names.is_empty() {
+        return String::new();
+    }
+    if need.materials.len() > MOST {
+        names.push(format!("{} more", need.materials.len() - MOST));
+    }
+    format!("by {}", names.join(", "))
 }
 
 /// What follows from the effects, a sentence each.
 pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let mut lines = Vec::new();
-    let is_idle = |need: &&Need| !need.is_paid_for && need.adds_ms(&needs.planned).is_some();
-    let more = |need: &Need| match need.adds(&needs.planned) {
-        Adds::Times(ratio) => {
-            format!("{} {:.0}%", need.effect.name(), 100.0 * (ratio.median - 1.0))
+    // What is not called for and takes time that can be told.
+    let mut idle = Vec::new();
+    for need in &needs.needs {
+        if need.is_paid_for || need.adds_ms(&needs.planned).is_none() {
+            continue;
         }
-        Adds::NoWork | Adds::DrawsLess => need.effect.name().to_owned(),
-    };
-    let idle: Vec<_> = needs.needs.iter().filter(is_idle).map(more).collect();
+        let name = need.effect.name();
+        idle.push(match need.adds(&needs.planned) {
+            Adds::Times(ratio) => format!("{name} {:.0}%", 100.0 * (ratio.median - 1.0)),
+            Adds::NoWork | Adds::DrawsLess => name.to_owned(),
+        });
+    }
     if !idle.is_empty() {
         lines.push(format!(
             "not called for, and if they were paid for all the same, the frame would take more: {}",
             idle.join(", ")
         ));
     }
+    // A line for each textured material, with what more samples change and take where its texture is fine.
     let time = |name: &str| Some(needs.antialiasing.iter().find(|(other, _)| *other == name)?.1);
     for texture in &needs.textures {
         let name = printable_short(&texture.material, 40);
@@ -588,6 +654,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
+/// What a study found, as the report needs it.
 pub struct StudyFindings<'a> {
     pub hard: &'a HardCases,
     /// What each grid changes and takes; nothing where that was not measured.
@@ -602,12 +669,15 @@ pub struct StudyFindings<'a> {
 
 /// Plots of a study: error against time, and effects.
 fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
-    let bar = |need: &Need| {
+    let mut bars = Vec::new();
+    for need in &found.needs.needs {
         let ms = need.adds_ms(&found.needs.planned);
-        let saved = ms.is_some() && !need.is_paid_for;
-        (ms.is_some() || need.wrong > 0).then(|| (need.effect.name(), ms, saved, need.wrong))
-    };
-    let bars: Vec<_> = found.needs.needs.iter().filter_map(bar).collect();
+        if ms.is_some() || need.wrong > 0 {
+            let is_saved = ms.is_some() && !need.is_paid_for;
+            let (name, wrong) = (need.effect.name(), need.wrong);
+            bars.push(cost_plots::EffectBars { name, ms, is_saved, wrong });
+        }
+    }
     let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
@@ -627,25 +697,29 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
     figures
 }
 
-/// What each grid changes and takes.
+/// What each grid changes and takes; nothing where that was not measured.
 fn grids(prices: &[GridPrice]) -> Option<Table> {
-    let row = |price: &GridPrice| {
-        let name = price
-            .bits
-            .map_or("no grid".to_owned(), |bits| format!("{bits} bits, 1/{} px", 1u32 << bits));
+    let mut rows = Vec::new();
+    for price in prices {
+        let name = match price.bits {
+            Some(bits) => format!("{bits} bits, 1/{} px", 1u32 << bits),
+            None => "no grid".to_owned(),
+        };
         let first = price.first.map_or(String::new(), |[x, y]| format!("{x},{y}"));
         let [scanline, edge_function] =
-            [price.scanline_ms, price.edge_function_ms].map(|ms| number(ms, 9));
-        Row::of(&[&name, &thousands(price.changed), &first, &scanline, &edge_function])
-    };
+            [number(price.scanline_ms, 9), number(price.edge_function_ms, 9)];
+        let changed = thousands(price.changed);
+        rows.push(Row::of(&[&name, &changed, &first, &scanline, &edge_function]));
+    }
+    if rows.is_empty() {
+        return None;
+    }
     let columns =
         "grid 22 | >px that change 15 | first 12 | >scanline ms 13 | >edge-function ms 18";
     let how = "another triangle is seen than without a grid; times are those of the coverage of all triangles, by whole \
                numbers up to 8 bits, by the exact engines beyond";
-    (!prices.is_empty()).then(|| {
-        Table::new("What the grid of corners changes", columns, prices.iter().map(row).collect())
-            .noted(vec![how.to_owned()])
-    })
+    let table = Table::new("What the grid of corners changes", columns, rows);
+    Some(table.noted(vec![how.to_owned()]))
 }
 
 /// Pixels of a mark around a pixel that stands alone, which would not be seen otherwise.
@@ -662,6 +736,7 @@ const EQUAL: Rgb<u8> = Rgb([190, 80, 220]);
 /// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
 fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     let mut marked = picture.clone();
+    // Half as bright, so that the marks are seen on any picture.
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
     }
@@ -671,15 +746,19 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
             continue;
         }
         marked.put_pixel(x, y, HARD);
-        let around =
-            (-MARK_PX..=MARK_PX).flat_map(|dy| (-MARK_PX..=MARK_PX).map(move |dx| (dx, dy)));
-        let near = around.clone().filter(|(dx, dy)| hard.touches(x_px + dx, y_px + dy)).count();
-        if near > MARK_PX as usize {
+        // A pixel with others beside it is seen as it is.
+        let mut near = 0;
+        for [dx, dy] in around_a_pixel() {
+            near += i32::from(hard.touches(x_px + dx, y_px + dy));
+        }
+        if near > MARK_PX {
             continue;
         }
-        for (dx, dy) in around.filter(|(dx, dy)| (17..=26).contains(&(dx * dx + dy * dy))) {
+        // A ring of about five pixels, by the squares of its inner and its outer radius.
+        for [dx, dy] in around_a_pixel() {
             let at = [x_px + dx, y_px + dy].map(u32::try_from);
-            if let [Ok(x), Ok(y)] = at
+            if (17..=26).contains(&(dx * dx + dy * dy))
+                && let [Ok(x), Ok(y)] = at
                 && let Some(pixel) = marked.get_pixel_mut_checked(x, y)
             {
                 *pixel = RING;
@@ -687,6 +766,12 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
         }
     }
     marked
+}
+
+/// The ways from a pixel to all of those that a mark may reach, in x and in y.
+fn around_a_pixel() -> impl Iterator<Item = [i32; 2]> {
+    let by = -MARK_PX..=MARK_PX;
+    by.clone().flat_map(move |dy| by.clone().map(move |dx| [dx, dy]))
 }
 
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
@@ -697,12 +782,14 @@ pub fn report(
     commands: [String; 3],
     command: String,
 ) -> Report {
+    // The tables from the model to the machine: hard cases, effects by their state, costs, grids.
     let classes = &found.hard.classes;
     let mut hard = hard_cases(subject, found.hard, found.costs);
     hard.notes.push(ties(subject, classes));
     let mut tables = vec![hard];
     tables.extend(State::ALL.map(|state| needs_table(found.needs, state)));
     tables.retain(|table| !table.rows.is_empty() || !table.notes.is_empty());
+    // What is said of all effects together stands under the last of their tables.
     if let Some(effects) = tables.last_mut() {
         effects.notes.extend(effects_advice(found.needs));
         if !found.not_drawn.is_empty() {
@@ -711,22 +798,10 @@ pub fn report(
     }
     tables.extend(costs(subject, found.costs));
     tables.extend(grids(found.grids));
-    let answers = answers(subject, found, commands);
-    let picture = picture::of_frame(&found.hard.picture);
-    let marked = marked(found.hard, &picture);
-    let decided = picture::painted(picture.width(), picture.height(), |x, y| {
-        match classes.map.get(x as i32, y as i32).unwrap_or_default() {
-            Class::Empty => Rgb([18, 18, 24]),
-            Class::Decided => DECIDED,
-            Class::ByOrder => BY_ORDER,
-            Class::ByRounding => BY_ROUNDING,
-            Class::Equal => EQUAL,
-        }
-    });
     Report {
         title: format!("A study of {}", subject.scene.name),
         about,
-        answers,
+        answers: answers(subject, found, commands),
         pictured: pictured(found.costs),
         first_screen: first_screen(subject, found),
         command: command.clone(),
@@ -738,38 +813,52 @@ pub fn report(
                 .to_owned(),
             command,
             chapter: Chapter { title: "a study of your own model", path: "study.md" },
-            layers: vec![
-                PictureLayer::new("picture", &picture),
-                PictureLayer::map(
-                    "hard cases",
-                    &marked,
-                    &[(HARD, "a hard case is seen here"), (RING, "around one that stands alone")],
-                ),
-                PictureLayer::map(
-                    "decided",
-                    &decided,
-                    &[
-                        (DECIDED, "the depths decide"),
-                        (BY_ROUNDING, "rounding alone decides"),
-                        (EQUAL, "rounding decides between equal depths"),
-                        (BY_ORDER, "the order of faces drawn twice decides"),
-                    ],
-                ),
-            ],
+            layers: layers(found.hard),
         }],
         ..Report::default()
     }
 }
 
+/// The picture and the two maps that lie over it.
+fn layers(hard: &HardCases) -> Vec<PictureLayer> {
+    let picture = picture::of_frame(&hard.picture);
+    let marked = marked(hard, &picture);
+    let decided = picture::painted(picture.width(), picture.height(), |x, y| {
+        match hard.classes.map.get(x as i32, y as i32).unwrap_or_default() {
+            Class::Empty => Rgb([18, 18, 24]),
+            Class::Decided => DECIDED,
+            Class::ByOrder => BY_ORDER,
+            Class::ByRounding => BY_ROUNDING,
+            Class::Equal => EQUAL,
+        }
+    });
+    let of_hard = [(HARD, "a hard case is seen here"), (RING, "around one that stands alone")];
+    let of_decided = [
+        (DECIDED, "the depths decide"),
+        (BY_ROUNDING, "rounding alone decides"),
+        (EQUAL, "rounding decides between equal depths"),
+        (BY_ORDER, "the order of faces drawn twice decides"),
+    ];
+    vec![
+        PictureLayer::new("picture", &picture),
+        PictureLayer::map("hard cases", &marked, &of_hard),
+        PictureLayer::map("decided", &decided, &of_decided),
+    ]
+}
+
 /// The hard cases with what is said of them, and the choices that are wrong on them where costs were measured.
 pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> Table {
-    let row = |case: &HardCase| {
-        let first = case.triangles.first();
-        let mut place = first.map_or(String::new(), |one| subject.place(*one));
-        let command = first.map_or(String::new(), |one| subject.command(*one));
+    let mut rows = Vec::new();
+    for case in &found.cases {
+        let (mut place, mut command) = (String::new(), String::new());
+        if let Some(first) = case.triangles.first() {
+            place = subject.place(*first);
+            command = subject.command(*first);
+        }
         if !case.note.is_empty() {
             let _ = write!(place, "; {}", case.note);
         }
+        // Which choices of arithmetic fail on just these triangles.
         let wrong = match wrong_on(found, case.kind, costs).as_slice() {
             [] => String::new(),
             choices => format!("wrong on such triangles:\n  {}", choices.join("\n  ")),
@@ -777,27 +866,36 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> T
         let [in_view, others, pixels] =
             [case.in_view, case.count - case.in_view, case.pixels].map(thousands);
         let (kind, about) = (case.kind.name(), case.kind.about());
-        Row::of(&[&kind, &in_view, &others, &pixels, &about, &place, &command, &wrong])
-    };
+        let row = [
+            &kind as &dyn std::fmt::Display,
+            &in_view,
+            &others,
+            &pixels,
+            &about,
+            &place,
+            &command,
+            &wrong,
+        ];
+        rows.push(Row::of(&row));
+    }
     let caption = if found.cases.is_empty() { "Hard cases: none" } else { "Hard cases" };
     let columns = "kind 32 | >in view 11 how many are seen | >only in the mesh 17 how many are culled, hidden or outside | \
                    >pixels 11 pixels of the picture in which they are seen | what one sees | where | command | wrong choices";
-    let rows = found.cases.iter().map(row).collect();
     Table::new(caption, columns, rows).noted(about_hard_cases(subject, found, costs))
 }
 
+/// The effects of one state.
 fn needs_table(needs: &Needs, state: State) -> Table {
-    let row = |need: &Need| {
+    let mut rows = Vec::new();
+    for need in needs.needs.iter().filter(|need| need.state() == state) {
         let time = takes(needs, need);
         let (name, wrong) = (need.effect.name(), thousands(need.wrong));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
         let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
-        Row::of(&[&name, &pixels, &wrong, &time, &by_whom(need), &reasons.join("; ")])
-    };
-    let is_here = |need: &&Need| need.state() == state;
+        rows.push(Row::of(&[&name, &pixels, &wrong, &time, &by_whom(need), &reasons.join("; ")]));
+    }
     let columns = "effect 28 | >pixels 11 pixels that pay for it | >wrong without 17 pixels that change when it is \
                    switched off | takes 22 what it takes of a planned frame, in ms and of its time | by | why";
-    let rows = needs.needs.iter().filter(is_here).map(row).collect();
     Table::new(&format!("Effects {}", state.name()), columns, rows)
 }
 
@@ -806,55 +904,80 @@ pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Vec<Table> {
     boards.iter().map(|board| cost_table(subject, board)).collect()
 }
 
-fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
-    let row = |(number, row): (usize, &Vec<Cell>)| {
-        let choice = &board.choices[number];
-        let run = match &row[0] {
-            Cell::NotRun(why) => return Row::of(&[&choice.name, &format!("not run: {why}")]),
-            Cell::Run(run) => run,
-        };
-        let mut cells = vec![choice.name.to_string()];
-        let or_none = |value: Option<f64>, width| {
-            value.map_or("-".to_owned(), |value| words::number(value, width))
-        };
-        cells.extend(run.errors.iter().map(|error| or_none(*error, 9)));
-        let timed =
-            run.time.as_ref().and_then(|time| Some((time.rounds.as_ref()?.spread(), time.times)));
-        cells.extend(timed.map_or(Default::default(), |(spread, times)| {
+/// A number of so many characters at most, or a dash.
+fn or_dash(value: Option<f64>, width: usize) -> String {
+    value.map_or("-".to_owned(), |value| words::number(value, width))
+}
+
+/// What a choice costs: its errors, its time, what it holds, and how it works.
+fn cost_row(board: &Board, number: usize) -> Row {
+    let choice = &board.choices[number];
+    let run = match &board.cells[number][0] {
+        Cell::NotRun(why) => return Row::of(&[&choice.name, &format!("not run: {why}")]),
+        Cell::Run(run) => run,
+    };
+    let mut cells = vec![choice.name.to_string()];
+    for error in &run.errors {
+        cells.push(or_dash(*error, 9));
+    }
+    // Three cells, which are empty where nothing was timed.
+    let timed =
+        run.time.as_ref().and_then(|time| Some((time.rounds.as_ref()?.spread(), time.times)));
+    cells.extend(match timed {
+        None => Default::default(),
+        Some((spread, times)) => {
             let [low, high] = [spread.low, spread.high].map(ms);
             [ms(spread.median), format!("{low}-{high}"), times.to_string()]
-        }));
-        cells.push(or_none(run.found.bytes.map(|bytes| bytes as f64 / 1e6), 7));
-        cells.push(choice.about.to_string());
-        cells.into()
-    };
+        }
+    });
+    cells.push(or_dash(run.found.bytes.map(|bytes| bytes as f64 / 1e6), 7));
+    cells.push(choice.about.to_string());
+    cells.into()
+}
+
+/// A number, or that it is one of a sample.
+fn part(part: Part) -> String {
+    match part.is_all() {
+        true => thousands(part.of),
+        false => format!("a sample of {} of {}", thousands(part.part), thousands(part.of)),
+    }
+}
+
+/// The choices of a group, a row for each.
+fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
     let mut columns = table::columns("~choice 23");
-    columns.extend(board.measures.iter().map(|m| Column::numbers(&m.short, &m.title).least(9)));
+    for measure in &board.measures {
+        columns.push(Column::numbers(&measure.short, &measure.title).least(9));
+    }
     columns.extend(table::columns(
         ">ms 7 of processor time, median | >quartiles 13 a quarter of the rounds took less, a quarter more, in ms \
          | >times 16 the cheapest, with an interval | >MB 6 at the peak, from the sizes of its buffers; the scene is not in it | how",
     ));
-    let part = |part: Part| match part.is_all() {
-        true => thousands(part.of),
-        false => format!("a sample of {} of {}", thousands(part.part), thousands(part.of)),
-    };
     let column = &board.columns[0];
-    let of = column.sampling.map(|sampling| [sampling.items, sampling.pixels].map(part));
-    let of = of.map(|[items, pixels]| format!(", ms for {items} triangles and {pixels} pixels"));
-    let caption = format!("{}{}", board.ladder.title(), of.unwrap_or_default());
-    let measures = board.measures.iter();
-    let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
+    let mut caption = board.ladder.title().to_owned();
+    if let Some(sampling) = column.sampling {
+        let [items, pixels] = [sampling.items, sampling.pixels].map(part);
+        let _ = write!(caption, ", ms for {items} triangles and {pixels} pixels");
+    }
+    // What the heads of the columns mean, then what cannot be said in a cell, then what to choose.
+    let mut notes = Vec::new();
+    for measure in &board.measures {
+        notes.push(format!("{}: {}", measure.short, measure.title));
+    }
     notes.push(format!("times: {CELLS}"));
-    notes.extend(board.ran(0).filter_map(|choice| {
-        let wall = choice.times()?.wall_ns?;
-        Some(format!("{}: {} ms pass meanwhile, on all threads", choice.name(), ms(wall)))
-    }));
-    notes.extend(
-        column
-            .noise
-            .map(|noise| format!("two equal passes in the same rounds: {:.3} times", noise.median)),
-    );
+    for choice in board.ran(0) {
+        if let Some(wall) = choice.times().and_then(|times| times.wall_ns) {
+            notes.push(format!(
+                "{}: {} ms pass meanwhile, on all threads",
+                choice.name(),
+                ms(wall)
+            ));
+        }
+    }
+    if let Some(noise) = &column.noise {
+        notes.push(format!("two equal passes in the same rounds: {:.3} times", noise.median));
+    }
     notes.extend(advice(subject, board));
-    let rows = board.cells.iter().enumerate().map(row).collect();
+    let rows = (0..board.choices.len()).map(|number| cost_row(board, number)).collect();
     Table::of(&caption, columns, rows).noted(notes)
 }

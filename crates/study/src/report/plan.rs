@@ -1,6 +1,6 @@
 //! The account of a plan, and what it saves.
 
-use rasterproof_precision::cost::{CELLS, Ratio};
+use rasterproof_precision::cost::CELLS;
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Plan, SceneDigest, Unit};
 use rasterproof_render::effects::render::{Rendered, StagedPieces};
@@ -28,12 +28,14 @@ impl Line<'_> {
     /// Which items, in short: ranges, or their number where there are too many of them.
     fn items(&self) -> String {
         const MOST: usize = 9;
-        let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
-            [first, .., last] => format!("{first}-{last}"),
-            [one] => one.to_string(),
-            [] => String::new(),
-        });
-        let text = runs.collect::<Vec<_>>().join(",");
+        let mut runs = Vec::new();
+        for run in self.items.chunk_by(|a, b| a + 1 == *b) {
+            runs.push(match run {
+                [first, .., last] => format!("{first}-{last}"),
+                _ => run[0].to_string(),
+            });
+        }
+        let text = runs.join(",");
         match text.len() {
             0 => "frame".to_owned(),
             1..=MOST => text,
@@ -41,9 +43,10 @@ impl Line<'_> {
         }
     }
 
-    /// Which of the counts are not 0.
-    fn kind(&self) -> [bool; 3] {
-        self.counts.map(|count| count > 0)
+    /// Whether the same is said of other items: for the same reason, with the same counts that are not 0.
+    fn is_like(&self, other: &Self) -> bool {
+        (self.effect, self.reason, self.unit) == (other.effect, other.reason, other.unit)
+            && self.counts.map(|count| count > 0) == other.counts.map(|count| count > 0)
     }
 }
 
@@ -51,62 +54,63 @@ impl Line<'_> {
 /// reason that are paid for by all, by none or by some.
 fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     let mut lines: Vec<Line<'_>> = Vec::new();
-    for d in decisions {
-        let counts = [d.on, d.off, d.open];
-        let same = |line: &&mut Line<'_>| {
-            (line.effect, line.reason, line.unit) == (d.effect, &d.reason, d.unit)
-                && line.kind() == counts.map(|count| count > 0)
-                && d.item.is_some()
+    for Decision { effect, item, unit, on, off, open, reason } in decisions {
+        let items = Vec::from_iter(*item);
+        let new = Line { effect: *effect, reason, unit: *unit, counts: [*on, *off, *open], items };
+        // What is said of the frame stays a line of its own.
+        let known = lines.iter_mut().find(|line| item.is_some() && line.is_like(&new));
+        let Some(line) = known else {
+            lines.push(new);
+            continue;
         };
-        if let Some(line) = lines.iter_mut().find(same) {
-            for (sum, count) in line.counts.iter_mut().zip(counts) {
-                *sum += count;
-            }
-            line.items.extend(d.item);
-        } else {
-            let items = d.item.into_iter().collect();
-            lines.push(Line { effect: d.effect, reason: &d.reason, unit: d.unit, counts, items });
+        for (sum, count) in line.counts.iter_mut().zip(new.counts) {
+            *sum += count;
         }
+        line.items.extend(new.items);
     }
+    // The sort is stable, so that lines of one effect stay in the order of their decisions.
     lines.sort_by_key(|line| line.effect);
     lines
 }
 
 /// How much of each effect is on, off, or decided while it is drawn, and why.
 pub fn table(decisions: &[Decision]) -> Table {
-    let row = |line: Line<'_>| {
+    let mut rows = Vec::new();
+    for line in grouped(decisions) {
         let ([on, off, open], unit) = (line.counts, format!(" {}", line.unit.name()));
-        Row::of(&[&line.effect.name(), &line.items(), &on, &off, &open, &unit, &line.reason])
-    };
+        let (effect, items) = (line.effect.name(), line.items());
+        rows.push(Row::of(&[&effect, &items, &on, &off, &open, &unit, &line.reason]));
+    }
     let columns = "effect 13 | item 9 | >on 8 how many of the unit | >off 8 how many of the unit | >open 8 how many of the unit \
                    | ~unit 6 | reason";
-    let rows = grouped(decisions).into_iter().map(row).collect();
     let note = "open: decided while it is drawn; several items: the sums of them";
     Table::new("Effects, in order", columns, rows).noted(vec![note.to_owned()])
 }
 
 /// Why an effect is paid for or not, a line for each reason.
 pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
-    let lines = grouped(decisions).into_iter().filter(|line| line.effect == effect);
-    let reason = |line: Line<'_>| match line.items().as_str() {
-        "frame" => format!("of the frame: {}", line.reason),
-        items => format!("of item {items}: {}", line.reason),
-    };
-    lines.map(reason).collect()
+    let mut lines = Vec::new();
+    for line in grouped(decisions).into_iter().filter(|line| line.effect == effect) {
+        lines.push(match line.items().as_str() {
+            "frame" => format!("of the frame: {}", line.reason),
+            items => format!("of item {items}: {}", line.reason),
+        });
+    }
+    lines
 }
 
 /// What becomes of the fragments of each piece, in order: a row for each list of stages, and the same as data.
 pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
-    let row = |staged: &StagedPieces| {
-        Row::of(&[&staged.item, &thousands(staged.pieces), &staged.stages.join(", ")])
-    };
+    let mut rows = Vec::new();
+    for StagedPieces { item, pieces, stages } in staged {
+        rows.push(Row::of(&[item, &thousands(*pieces), &stages.join(", ")]));
+    }
     let notes = [
         "what is not in a list costs its pieces nothing; x multiplies and + adds to what is there",
         "squares of large pieces may have shorter lists",
     ];
     let columns = "item 5 | >pieces 9 | stages";
-    let table =
-        Table::new("Stages of each fragment, in order", columns, staged.iter().map(row).collect());
+    let table = Table::new("Stages of each fragment, in order", columns, rows);
     Report {
         about: format!("{}: {}", scene.name, scene.about),
         tables: vec![table.noted(notes.map(str::to_owned).to_vec())],
@@ -143,6 +147,7 @@ impl Measurement<'_> {
 
     /// What the measurement comes to, on the screen and in the data.
     fn outcome(&self) -> Outcome {
+        // Two empty frames are the same whatever the plan does, so that says nothing.
         let same = self.is_same();
         if same && self.frames[0].is_blank() {
             return Outcome::nothing_drawn();
@@ -156,12 +161,14 @@ impl Measurement<'_> {
 
     /// What is called for, and what the rest costs, a sentence or two each.
     fn answers(&self) -> Vec<Statement> {
-        let paid_for = |effect: &Effect| {
-            let of = self.frames[1].plan.decisions.iter().filter(|one| one.effect == *effect);
-            of.map(|one| one.on + one.open).sum::<u64>() > 0
-        };
-        let paid = Effect::ALL.iter().filter(|effect| paid_for(effect)).count();
-        let all = Effect::ALL.len();
+        let mut paid = std::collections::BTreeSet::new();
+        for decision in &self.frames[1].plan.decisions {
+            if decision.on + decision.open > 0 {
+                paid.insert(decision.effect);
+            }
+        }
+        // The first sentence is about the plan, the second about what would change without it.
+        let (paid, all) = (paid.len(), Effect::ALL.len());
         let mut sentence =
             format!("{paid} of {all} effects are paid for in this view, as planned.");
         let of_each = &self.savings.effects;
@@ -170,6 +177,7 @@ impl Measurement<'_> {
             let are = count(called as u64, "is called for", "are called for");
             sentence += &format!(" Of all, {are}: without it pixels change.");
         }
+        // Both ratios are those of the same rounds.
         let [everything, usual] = self.savings.times.map(|ratio| ratio.words("fast"));
         let time = if self.frames[0].counters.fragments == 0 {
             "No triangle covers a pixel, so times say nothing of effects.".to_owned()
@@ -178,14 +186,14 @@ impl Measurement<'_> {
                 "The planned frame against everything on: {everything}. Against the usual way: {usual}."
             )
         };
-        [("effects", sentence), ("time", time)]
-            .map(|(about, sentence)| Statement { about, sentence, command: String::new() })
-            .to_vec()
+        let answer = |about, sentence| Statement { about, sentence, command: String::new() };
+        vec![answer("effects", sentence), answer("time", time)]
     }
 
     /// The tables of the plan, and the frames as layers where there is a page.
     pub fn report(&self, command: String, is_page: bool) -> Report {
         let Self { scene, kind, frames, savings, survey_us, is_whole } = *self;
+        // From what was decided to what it saves: decisions, counted work, single effects, the whole.
         let mut tables = vec![table(&frames[1].plan.decisions), counts(frames)];
         tables.extend((!savings.effects.is_empty()).then(|| of_each(savings)));
         tables.push(whole(savings, survey_us, is_whole));
@@ -205,6 +213,7 @@ impl Measurement<'_> {
     /// The data of the report, with a plan that holds its scene, so that `render --plan` can draw by it.
     pub fn data(&self) -> Value {
         let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
+        // A plan for `render --plan` names its scene, so that it is not followed for another one.
         let is_compared = !everything.is_blank() || !self.is_same();
         let Outcome { word, sentence, .. } = self.outcome();
         value(&Data {
@@ -240,11 +249,12 @@ struct Data<'a> {
 
 /// A row for each effect: what planning it saves, alone and as the last one.
 fn of_each(savings: &Savings) -> Table {
-    let row = |s: &Saving| {
-        let [alone, last] = [&s.alone, &s.last].map(|saves| thousands(saves.work));
-        let (name, wrong) = (s.effect.name(), thousands(s.wrong_without));
-        Row::of(&[&name, &alone, &s.alone.words(), &last, &s.last.words(), &wrong])
-    };
+    let mut rows = Vec::new();
+    for Saving { effect, alone, last, wrong_without } in &savings.effects {
+        let works = [thousands(alone.work), thousands(last.work)];
+        let (name, wrong) = (effect.name(), thousands(*wrong_without));
+        rows.push(Row::of(&[&name, &works[0], &alone.words(), &works[1], &last.words(), &wrong]));
+    }
     let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
     let columns = "planned 14 | >alone 10 how much less of its work is done, by its counter | >saves 17 of the time of the frame \
                        that pays for everything | >last 10 the same of the planned frame | >saves 17 of the time of the frame \
@@ -254,37 +264,33 @@ fn of_each(savings: &Savings) -> Table {
         "saves: the median over the rounds and its interval; ?: cannot be told here",
         "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
     ];
-    let rows = savings.effects.iter().map(row).collect();
     Table::new(caption, columns, rows).noted(notes.map(str::to_owned).to_vec())
 }
 
 /// The times of everything, usual and planned, and the mixtures that changed the picture.
 fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
-    let [everything, usual] = savings.times.map(Some);
-    let rows = [
-        ("everything", &savings.everything, everything),
-        ("usual", &savings.usual, usual),
-        ("planned", &savings.planned, None),
+    let [everything, usual] = savings.times.map(|ratio| ratio.to_string());
+    let rows = vec![
+        row_of_frame("everything", &savings.everything, &everything),
+        row_of_frame("usual", &savings.usual, &usual),
+        row_of_frame("planned", &savings.planned, "-"),
     ];
-    let row = |(name, m, ratio): (&str, &Measured, Option<Ratio>)| {
-        let [low, high] = m.quartiles_us;
-        let ratio = ratio.map_or("-".to_owned(), |ratio| ratio.to_string());
-        Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}"), &ratio])
-    };
-    let mut notes: Vec<_> = savings
-        .different()
-        .map(|name| format!("DIFFERENT PICTURE with the effects {name}"))
-        .collect();
+    // First what would be a fault, then what the numbers are, then what was not measured.
+    let mut notes = Vec::new();
+    for name in savings.different() {
+        notes.push(format!("DIFFERENT PICTURE with the effects {name}"));
+    }
     notes.push(
         "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
             .to_owned(),
     );
     notes.push(format!("times: {CELLS}"));
-    let noise = savings.noise.map(|noise| number(noise.median, 9));
-    let rounds = savings.planned.rounds;
-    notes.extend(noise.map(|noise| {
-        format!("two equal frames in the same {rounds} rounds: {noise} times, by which intervals are widened")
-    }));
+    if let Some(noise) = &savings.noise {
+        let (rounds, noise) = (savings.planned.rounds, number(noise.median, 9));
+        notes.push(format!(
+            "two equal frames in the same {rounds} rounds: {noise} times, by which intervals are widened"
+        ));
+    }
     if savings.effects.is_empty() && !is_whole {
         notes.push(
             "one effect at a time is not measured, since a round of all mixtures takes too long \
@@ -292,33 +298,44 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
                 .to_owned(),
         );
     }
-    notes.extend(survey_us.map(|us| {
+    if let Some(us) = survey_us {
         let share = 100.0 * us / savings.planned.time_us;
-        format!("looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame")
-    }));
+        notes.push(format!(
+            "looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame"
+        ));
+    }
     let columns = "paid for 14 | >us 10 of processor time, median of the rounds | >quartiles 14 a quarter of the rounds took less, \
                    a quarter more | >times planned 18 how many times as long as the planned frame";
-    Table::new("The frame as a whole", columns, rows.map(row).to_vec()).noted(notes)
+    Table::new("The frame as a whole", columns, rows).noted(notes)
 }
 
+/// A whole frame: its time, and how many times as long it took as the planned one.
+fn row_of_frame(name: &str, frame: &Measured, ratio: &str) -> Row {
+    let [low, high] = frame.quartiles_us;
+    Row::of(&[&name, &format!("{:.0}", frame.time_us), &format!("{low:.0}-{high:.0}"), &ratio])
+}
+
+/// What both frames counted, side by side.
 fn counts([everything, planned]: [&Rendered; 2]) -> Table {
-    let both = everything.counters.shown().into_iter().zip(planned.counters.shown());
-    let row = |((name, all), (_, planned)): ((&str, u64), (_, u64))| {
-        Row::of(&[&name, &thousands(all), &thousands(planned)])
-    };
-    let columns = "~counts 20 | >everything 12 | >planned 12";
-    Table::new("What was counted", columns, both.map(row).collect())
+    let mut rows = Vec::new();
+    for ((name, all), (_, planned)) in
+        everything.counters.shown().into_iter().zip(planned.counters.shown())
+    {
+        rows.push(Row::of(&[&name, &thousands(all), &thousands(planned)]));
+    }
+    Table::new("What was counted", "~counts 20 | >everything 12 | >planned 12", rows)
 }
 
+/// Both frames as layers, which have the same bits unless a plan is wrong.
 fn view(command: String, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
     let layer =
-        |(name, frame): (_, &Rendered)| PictureLayer::new(name, &picture::of_frame(&frame.picture));
+        |name, frame: &Rendered| PictureLayer::new(name, &picture::of_frame(&frame.picture));
     PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
         command,
         chapter: Chapter { title: "effects", path: "effects.md" },
-        layers: ["everything", "planned"].into_iter().zip(frames).map(layer).collect(),
+        layers: vec![layer("everything", frames[0]), layer("planned", frames[1])],
     }
 }
 

@@ -25,6 +25,7 @@ pub struct Studied<'a> {
 }
 
 impl<'a> Studied<'a> {
+    /// Takes a scene apart and finds its hard cases, which need depths: what is drawn from back to front is refused.
     pub fn new(
         scene: Scene,
         origins: &'a [Origin],
@@ -42,6 +43,7 @@ impl<'a> Studied<'a> {
         Ok(Self { scene, origins, sampled, hard })
     }
 
+    /// The scene for a report, whose triangles `inspect` makes a command for.
     pub fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Places<'s> {
         Places { scene: &self.scene, origins: self.origins, inspect }
     }
@@ -50,8 +52,12 @@ impl<'a> Studied<'a> {
     /// no such face is drawn.
     pub fn face(&self, number: u32) -> Option<(u32, Vec<String>, Vec<&Piece>)> {
         let Self { scene, origins, sampled, hard } = self;
-        let of_face = |(triangle, face)| (face == number).then_some(triangle);
-        let triangles: Vec<u32> = (0..).zip(faces(scene, origins)).filter_map(of_face).collect();
+        let mut triangles: Vec<u32> = Vec::new();
+        for (triangle, face) in (0..).zip(faces(scene, origins)) {
+            if face == number {
+                triangles.push(triangle);
+            }
+        }
         let first = *triangles.first()?;
         let mut known = Vec::new();
         for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
@@ -63,12 +69,21 @@ impl<'a> Studied<'a> {
             });
             known.push(format!("triangle, y up: {}", corners.join(" ")));
         }
-        let has_part = |kind: &Kind| triangles.iter().any(|&one| hard.is(one, *kind));
-        let kinds: Vec<_> = Kind::ALL.into_iter().filter(has_part).map(Kind::name).collect();
+        // A kind is one of the face where it is one of any of its triangles.
+        let mut kinds = Vec::new();
+        for kind in Kind::ALL {
+            if triangles.iter().any(|&one| hard.is(one, kind)) {
+                kinds.push(kind.name());
+            }
+        }
         let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
         known.push(format!("hard cases that it has a part in: {kinds}"));
-        let is_of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
-        let pieces: Vec<&Piece> = sampled.at_centres().iter().filter(is_of_face).collect();
+        let mut pieces: Vec<&Piece> = Vec::new();
+        for piece in sampled.at_centres() {
+            if triangles.binary_search(&piece.face).is_ok() {
+                pieces.push(piece);
+            }
+        }
         if !pieces.is_empty() {
             let count = count(pieces.len() as u64, "piece", "pieces");
             known.push(format!("in the window: {count}"));
