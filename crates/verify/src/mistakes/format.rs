@@ -52,6 +52,7 @@ impl Format {
     /// What a number becomes.
     #[must_use]
     pub fn of(self, v: f64) -> f64 {
+        // Powers of two, which have a bit pattern of their own.
         let power = |bits: i32| f64::from_bits(((1023 + bits).max(0) as u64) << 52);
         match self {
             Self::Exact => v,
@@ -85,6 +86,7 @@ fn whole(v: f64, to: Rounding) -> f64 {
 /// As it is said after 'in'.
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // How a number is brought to the format, after what the format is.
         let how = |to| match to {
             Rounding::Near => "rounded, halves up",
             Rounding::HalfEven => "rounded, halves to even",
