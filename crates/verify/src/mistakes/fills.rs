@@ -7,7 +7,7 @@
 //! triangle's own area, it is positive inside for both windings. From (0, 0) to (256, 0), one pixel to the right, the point (128, 128) has
 //! 256 x 128 = 32,768: half a square pixel, as there are 65,536 square subpixels in one.
 
-use super::values::rounded;
+use super::format::rounded;
 use crate::convention::{Mask, TriangleConvention, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::{self, centre, twice_area};

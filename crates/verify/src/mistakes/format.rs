@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::values::rounded;
 use crate::cases::facts::exponent;
 use crate::convention::Rounding;
 
@@ -69,6 +68,20 @@ impl Format {
             Self::Wrapped(parts) => (v * f64::from(parts)).rem_euclid(1.0) / f64::from(parts),
             Self::Single => rounded(v, 0),
             Self::Half => rounded(v, 2),
+        }
+    }
+}
+
+/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
+pub(super) fn rounded(v: f64, precision: i64) -> f64 {
+    match precision {
+        0 => f64::from(v as f32),
+        1 => v,
+        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
+        _ => {
+            // 10 bits after the first one, down to 2^-24: a sum with 1.5 x 2^52 such units has no others, halves to even.
+            let large = f64::from_bits(((exponent(v).max(-14) + 42 + 1023) as u64) << 52) * 1.5;
+            v + large - large
         }
     }
 }

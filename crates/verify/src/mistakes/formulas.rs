@@ -5,7 +5,7 @@
 //! takes the third one from 1 loses the sample. So the samples near edges that are drawn wrongly show which formula it is.
 
 use super::fills::{Point, boxes, each_sample, points};
-use super::values::rounded;
+use super::format::rounded;
 use crate::convention::{Mask, Ties, TriangleConvention, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::twice_area;

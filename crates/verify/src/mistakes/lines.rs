@@ -5,7 +5,7 @@
 
 use super::cells;
 use super::fills::without_border;
-use super::values::rounded;
+use super::format::rounded;
 use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;

@@ -629,7 +629,7 @@ impl Walk {
                 (first(slope), slope)
             }
             // Computed for each row, so that no first crossing is needed.
-            Slope::Half => (0.0, super::values::rounded(dx / dy, 2)),
+            Slope::Half => (0.0, super::format::rounded(dx / dy, 2)),
             Slope::Inverse(bits) => {
                 let unit = 1_i64 << bits;
                 (0.0, dx * (unit / subpixels(dy)) as f64 * 256.0 / unit as f64)

@@ -13,7 +13,6 @@
 use glam::DVec2;
 
 use super::{Explanation, Format, Hypothesis, MistakeId, Mistakes, chosen_by, of_answers};
-use crate::cases::facts::exponent;
 use crate::cases::{self, Shape, Triangle};
 use crate::convention::Rounding;
 use rasterproof_core::arrays::MapArray as _;
@@ -620,21 +619,6 @@ fn formats() -> Vec<(Format, String)> {
         all.push((format, format.to_string()));
     }
     all
-}
-
-/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
-#[must_use]
-pub fn rounded(v: f64, precision: i64) -> f64 {
-    match precision {
-        0 => f64::from(v as f32),
-        1 => v,
-        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
-        _ => {
-            // 10 bits after the first one, down to 2^-24: a sum with 1.5 x 2^52 such units has no others, halves to even.
-            let large = f64::from_bits(((exponent(v).max(-14) + 42 + 1023) as u64) << 52) * 1.5;
-            v + large - large
-        }
-    }
 }
 
 /// Which values a mistake is in, and how that is said; the others are right.
