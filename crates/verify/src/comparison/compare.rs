@@ -21,7 +21,7 @@ use crate::promise::{Convention, Rule};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::geometry::{centre_of, twice_area};
+use rasterproof_core::geometry::{centre_of, edges, greatest_divisor, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{
     Corners, Fragment, PixelPoint, ScreenLine, ScreenTriangle, Span, Varying,
@@ -68,15 +68,20 @@ pub trait CompareCases: Sync {
 
 /// Each engine against the oracle.
 fn pairs_with_oracle<'a>(names: impl Iterator<Item = &'a str>) -> Vec<[String; 2]> {
-    names.map(|name| [name.to_owned(), ORACLE.to_owned()]).collect()
+    let mut pairs = Vec::new();
+    for name in names {
+        pairs.push([name.to_owned(), ORACLE.to_owned()]);
+    }
+    pairs
 }
 
 /// Each engine against the oracle, then each against the next.
 fn pairs_of<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<[String; 2]> {
-    let oracle = pairs_with_oracle(names.clone());
-    let names: Vec<String> = names.map(str::to_owned).collect();
-    let each_other = names.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
-    oracle.into_iter().chain(each_other).collect()
+    let mut pairs = pairs_with_oracle(names.clone());
+    for (name, next) in names.clone().zip(names.skip(1)) {
+        pairs.push([name.to_owned(), next.to_owned()]);
+    }
+    pairs
 }
 
 /// Engines against each other alone: what the oracle draws is not asked for.
@@ -247,11 +252,10 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
         };
 
         // Compare each engine with the truth, then with the next one.
-        let covered: Vec<_> = self
-            .engines
-            .iter()
-            .map(|(_, engine, _)| Covered::by(engine, list, case.window))
-            .collect();
+        let mut covered = Vec::with_capacity(self.engines.len());
+        for (_, engine, _) in self.engines {
+            covered.push(Covered::by(engine, list, case.window));
+        }
         let count = self.engines.len();
         let (alone, each_other) = findings.split_at_mut(count);
         for (finding, covered) in alone.iter_mut().zip(&covered) {
@@ -303,7 +307,9 @@ impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
             let fragments: Vec<_> = few(&fragments).filter(inside).copied().collect();
             let (mut truth, mut finding) = (Truth::new(triangle)?, Finding::default());
             let bounds = Bounds::new(tolerance, triangle);
-            fragments.iter().for_each(|f| truth.compare(f, &bounds, &mut finding));
+            for fragment in &fragments {
+                truth.compare(fragment, &bounds, &mut finding);
+            }
             let is_wrong = finding.worst() > 1.0;
             let Bounds { attributes: [a, b], depth } = bounds;
             Some((fragments, [depth, a, b], is_wrong))
@@ -353,14 +359,13 @@ impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
             }
             if let Some((other, other_bounds)) = &before {
                 for (a, b) in pairs_at_same_pixel(other, &fragments) {
-                    let ratio = |k: usize| {
-                        (a.varying[k] - b.varying[k]).abs()
-                            / (other_bounds.attributes[k] + bounds.attributes[k])
-                    };
-                    each_other[i - 1].compare(
-                        ratio(0).max(ratio(1)),
-                        (a.depth - b.depth).abs() / (other_bounds.depth + bounds.depth),
-                    );
+                    // Each engine may be off by its own bound, in opposite directions.
+                    let depth = (a.depth - b.depth).abs() / (other_bounds.depth + bounds.depth);
+                    let [first, second] = [0, 1].map_array(|k: usize| {
+                        let may_be_off = other_bounds.attributes[k] + bounds.attributes[k];
+                        (a.varying[k] - b.varying[k]).abs() / may_be_off
+                    });
+                    each_other[i - 1].compare(first.max(second), depth);
                 }
             }
             previous = Some((fragments, bounds));
@@ -384,9 +389,13 @@ fn collect_fragments(
 /// Whether the centre of the pixel lies in the triangle or on its outline.
 fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
     let sample = centre_of(f.x_px, f.y_px);
-    let side = |i: usize, j: usize| twice_area(&[corners[i], corners[j], sample]);
-    let sides = [side(0, 1), side(1, 2), side(2, 0)];
-    sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
+    let (mut is_left, mut is_right) = (true, true);
+    for [from, to] in edges(corners) {
+        let side = twice_area(&[from, to, sample]);
+        is_left &= side >= 0;
+        is_right &= side <= 0;
+    }
+    is_left || is_right
 }
 
 /// Fragments of two engines at the same pixels, which they may emit in different orders.
@@ -407,15 +416,15 @@ fn pairs_at_same_pixel<'a>(
 /// the area A and the longest side L, the thickness is A / L.
 #[must_use]
 pub fn is_sliver(corners: &Corners) -> bool {
-    let side = |i: usize, j: usize| {
-        let d = |a: i32, b: i32| i128::from(a) - i128::from(b);
-        (d(corners[i].x, corners[j].x), d(corners[i].y, corners[j].y))
-    };
-    let ((ax, ay), (bx, by), (cx, cy)) = (side(1, 0), side(2, 0), side(2, 1));
+    let mut longest = 0;
+    for [from, to] in edges(corners) {
+        let dx = i128::from(to.x) - i128::from(from.x);
+        let dy = i128::from(to.y) - i128::from(from.y);
+        longest = longest.max(dx * dx + dy * dy);
+    }
     // Extents of at most 2^32 make the area at most 2^65 and its square too wide; slivers have
     // |A| < 2^8 L <= 2^41.
-    let area = (ax * by - ay * bx).abs();
-    let longest = (ax * ax + ay * ay).max(bx * bx + by * by).max(cx * cx + cy * cy);
+    let area = twice_area(corners).abs();
     let pixel = i128::from(SUBPIXELS);
     area > 0 && area < 1 << 42 && area * area < longest * pixel * pixel && 8 * area <= longest
 }
@@ -455,13 +464,9 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
     fn cause(&self, engine: &str) -> Option<Cause> {
         let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
         Some(Cause::of_lines(|LineQuestion { ends, window }| {
-            let [a, b] = ends.map(|[x, y]| PixelPoint::new(x, y));
-            let drawn = caught(|| {
-                let mut pixels = Vec::new();
-                engine.draw(&plain_line(a, b), *window, |f| pixels.push([f.x_px, f.y_px]));
-                pixels
-            });
-            drawn.ok()
+            let [a, b] = ends.map_array(|[x, y]| PixelPoint::new(x, y));
+            let drawn = caught(|| line_fragments(engine, &plain_line(a, b), *window)).ok()?;
+            Some(drawn.iter().map(|f| [f.x_px, f.y_px]).collect())
         }))
     }
 
@@ -479,23 +484,13 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
             facts.shapes += 1;
             facts.pixels += truth.len() as u64;
             facts.ties += u64::from(line_has_tie(line));
-            let drawn: Vec<_> = self
-                .engines
-                .iter()
-                .map(|(_, engine)| {
-                    caught(|| {
-                        let mut pixels = Vec::new();
-                        engine.draw(line, case.window, |fragment| pixels.push(fragment));
-                        pixels
-                    })
-                })
-                .collect();
-            let of = |drawn: &[Fragment<DVec2>]| -> Vec<(i32, i32)> {
-                drawn.iter().map(|f| (f.x_px, f.y_px)).collect()
-            };
+            let mut drawn = Vec::new();
+            for (_, engine) in self.engines {
+                drawn.push(caught(|| line_fragments(engine, line, case.window)));
+            }
             for (all, drawn) in all.iter_mut().zip(&drawn) {
                 match (&mut *all, drawn) {
-                    (Some(pixels), Ok(drawn)) => pixels.extend(of(drawn)),
+                    (Some(pixels), Ok(drawn)) => pixels.extend(places(drawn)),
                     _ => *all = None,
                 }
             }
@@ -503,7 +498,7 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
             for (finding, drawn) in findings.iter_mut().zip(&drawn) {
                 match drawn {
                     Ok(drawn) => {
-                        sequence(finding, &of(drawn), &pixels, case.window);
+                        sequence(finding, &places(drawn), &pixels, case.window);
                         if self.has_values {
                             line_values(line, drawn, &truth, finding);
                         }
@@ -514,12 +509,13 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
             for (finding, two) in findings.iter_mut().skip(drawn.len()).zip(drawn.windows(2)) {
                 match (&two[0], &two[1]) {
                     (Ok(a), Ok(b)) => {
-                        sequence(finding, &of(a), &of(b), case.window);
+                        sequence(finding, &places(a), &places(b), case.window);
                     }
                     (Err(panic), _) | (_, Err(panic)) => finding.panic = Some(panic.0.clone()),
                 }
             }
         }
+        // What the message shows of each engine.
         let hits = |pixels: &Option<Vec<(i32, i32)>>| {
             let runs = pixels::as_runs(pixels.as_ref()?);
             Some(pixels::hits(&runs, case.window).0)
@@ -533,6 +529,18 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
         }
         (facts, findings)
     }
+}
+
+/// What an engine draws of a line, in its order.
+fn line_fragments(engine: &impl DrawLine, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
+    let mut fragments = Vec::new();
+    engine.draw(line, window, |fragment| fragments.push(fragment));
+    fragments
+}
+
+/// The pixels of fragments, in their order.
+fn places(drawn: &[Fragment<DVec2>]) -> Vec<(i32, i32)> {
+    drawn.iter().map(|f| (f.x_px, f.y_px)).collect()
 }
 
 /// Rasterizers of corners that are not snapped.
@@ -575,15 +583,14 @@ impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
             return (CaseFacts::default(), findings);
         };
         let (target, ties) = unsnapped_truth(list, case.window);
-        let hits = || target.rows().flat_map(|(_, row)| row);
-        let not_once = || hits().filter(|&&hits| hits != 1).count() as u64;
-        let facts = CaseFacts {
-            shapes: list.len() as u64,
-            pixels: hits().map(|&hits| u64::from(hits)).sum(),
-            ties,
-            sliver: false,
-            oracle_faults: if *is_tiling { not_once() } else { 0 },
-        };
+        let mut facts = CaseFacts { shapes: list.len() as u64, ties, ..CaseFacts::default() };
+        for (_, row) in target.rows() {
+            for &hits in row {
+                facts.pixels += u64::from(hits);
+                // A tiling hits each pixel once.
+                facts.oracle_faults += u64::from(*is_tiling && hits != 1);
+            }
+        }
         for (finding, (_, engine)) in findings.iter_mut().zip(self.engines) {
             match exact_coverage(engine, list, case.window) {
                 Ok((hits, decisions)) => {
@@ -605,11 +612,8 @@ pub fn line_has_tie(line: &Line) -> bool {
     let [a, b] = line.ends.map_array(|end| end.pixel);
     let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
     let (long, short) = (dx.max(dy), dx.min(dy));
-    let (mut a, mut b) = (long, short);
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    short > 0 && (long / a) % 2 == 0
+    let divisor = greatest_divisor(long.into(), short.into());
+    short > 0 && (i64::from(long) / divisor) % 2 == 0
 }
 
 fn sequence(finding: &mut Finding, drawn: &[(i32, i32)], target: &[(i32, i32)], window: PixelRect) {

@@ -82,28 +82,28 @@ impl Error for Disagreement {}
 
 impl Disagreement {
     pub(super) fn of(verdict: &Verdict) -> Self {
-        let wrong = |family: &super::FamilyReport| -> u64 {
-            family.pairs.iter().map(|pair| pair.wrong_cases).max().unwrap_or(0)
-        };
-        let families: Vec<_> = verdict
-            .families
-            .iter()
-            .map(|f| (f.family.clone(), wrong(f)))
-            .filter(|f| f.1 > 0)
-            .collect();
+        // Each family with the pair that is wrong most often.
+        let (mut families, mut wrong, mut cases, mut panics) = (Vec::new(), 0, 0, 0);
+        for family in &verdict.families {
+            cases += family.cases;
+            let mut most = 0;
+            for pair in &family.pairs {
+                most = most.max(pair.wrong_cases);
+                if pair.is_by_oracle() {
+                    panics += pair.panics;
+                }
+            }
+            if most > 0 {
+                wrong += most;
+                families.push((family.family.clone(), most));
+            }
+        }
+        let Comparisons { oracle, engines, .. } = verdict.comparisons();
+        let pixels = if oracle == Tally::default() { engines } else { oracle };
         Self {
-            wrong_pixels: {
-                let Comparisons { oracle, engines, .. } = verdict.comparisons();
-                if oracle == Tally::default() { engines.total() } else { oracle.total() }
-            },
-            wrong_cases: [
-                families.iter().map(|(_, wrong)| wrong).sum(),
-                verdict.families.iter().map(|family| family.cases).sum(),
-            ],
-            panics: {
-                let pairs = verdict.families.iter().flat_map(|family| &family.pairs);
-                pairs.filter(|pair| pair.is_by_oracle()).map(|pair| pair.panics).sum()
-            },
+            wrong_pixels: pixels.total(),
+            wrong_cases: [wrong, cases],
+            panics,
             families,
             smallest: verdict.failures.first().cloned(),
             cause: verdict.cause.clone(),

@@ -635,21 +635,18 @@ fn drive(
     for (kind, families) in Kind::ALL {
         let comparers = comparers.iter().filter(|comparer| comparer.kind() == kind);
         for comparer in comparers.filter(|comparer| !comparer.pairs().is_empty()) {
-            let wanted = families.iter().filter(|family| options.wants(family.name));
-            let pairs = || comparer.pairs();
-            chosen.extend(wanted.map(|family| Chosen {
-                family,
-                comparer: *comparer,
-                pairs: pairs(),
-            }));
+            for family in families {
+                if options.wants(family.name) {
+                    chosen.push(Chosen { family, comparer: *comparer, pairs: comparer.pairs() });
+                }
+            }
         }
     }
-    let partial = |of: &Chosen<'_>| Partial {
-        report: FamilyReport::new(of),
-        failing: Vec::new(),
-        changing: Vec::new(),
-    };
-    let partials = chosen.iter().map(partial).collect();
+    let mut partials = Vec::new();
+    for of in &chosen {
+        let report = FamilyReport::new(of);
+        partials.push(Partial { report, failing: Vec::new(), changing: Vec::new() });
+    }
     let judged = JudgedEngines { chosen, options, clock };
     let find = |place: Place, jobs: &[&EngineJob]| {
         watch.during(|| judged.find(jobs, judged.chosen[place.family].comparer))
@@ -705,14 +702,19 @@ impl AddAssign for FamilyReport {
 
 impl FamilyReport {
     fn new(chosen: &Chosen<'_>) -> Self {
-        let pairs = chosen.pairs.iter().map(|[actual, target]| PairReport {
-            actual: actual.clone(),
-            target: target.clone(),
-            worst_case: u64::MAX,
-            ..PairReport::default()
-        });
+        let mut pairs = Vec::new();
+        for [actual, target] in &chosen.pairs {
+            let (actual, target) = (actual.clone(), target.clone());
+            // No case is the worst one yet.
+            pairs.push(PairReport {
+                actual,
+                target,
+                worst_case: u64::MAX,
+                ..PairReport::default()
+            });
+        }
         let (family, kind) = (chosen.family.name.to_owned(), chosen.comparer.kind());
-        Self { family, kind, pairs: pairs.collect(), ..Self::default() }
+        Self { family, kind, pairs, ..Self::default() }
     }
 
     fn count(&mut self, facts: &compare::CaseFacts) {
@@ -756,6 +758,63 @@ fn expected(case: &Case, convention: Convention) -> Coverage {
     }
 }
 
+/// A failing case: which of the chosen families and of its pairs, and its number.
+struct FailingCase {
+    place: usize,
+    pair: usize,
+    index: u64,
+}
+
+/// Whether two engines are compared of which the oracle says that one is wrong.
+fn is_known(partial: &Partial, pairs: &[[String; 2]], pair: usize) -> bool {
+    let [first, second] = &pairs[pair];
+    if second == ORACLE {
+        return false;
+    }
+    for (other, _) in &partial.failing {
+        let [wrong, target] = &pairs[*other];
+        if target == ORACLE && (wrong == first || wrong == second) {
+            return true;
+        }
+    }
+    false
+}
+
+/// Whether both engines of a pair draw a case as they drew it before.
+fn is_steady(changes: &[Failure], pair: &[String; 2]) -> bool {
+    for failure in changes {
+        let engine = failure.evidence.changed_engine();
+        if engine == Some(&pair[0]) || engine == Some(&pair[1]) {
+            return false;
+        }
+    }
+    true
+}
+
+/// Makes a failing case smaller, while its pair goes on to be wrong.
+fn shrink_case(
+    of: &Chosen<'_>,
+    &FailingCase { pair, index, .. }: &FailingCase,
+    options: &Options,
+    watch: &Watch,
+) -> Failure {
+    let Chosen { family, comparer, pairs } = of;
+    let original = options.terms.case(family, options.seed, index);
+    let fails = |case: &Case| {
+        !watch.is_over() && options.terms.holds(case) && comparer.findings(case)[pair].is_wrong()
+    };
+    let case = shrink::shrink(original, fails);
+    let evidence = Compared {
+        pair: pairs[pair].clone(),
+        drawn: comparer.coverage(&pairs[pair][0], &case),
+        other: comparer.coverage(&pairs[pair][1], &case),
+        expected: expected(&case, options.terms),
+        changed: None,
+    };
+    let what = comparer.findings(&case)[pair].describe();
+    Failure { family: family.name, index, seed: options.seed, what, case, evidence }
+}
+
 /// Shrinks the first failing cases of each family and pair, and keeps the smallest of each, smallest first, those on the
 /// lattice before the others. Two engines against each other are left out where the oracle says which of them is wrong.
 fn shrink_failures(
@@ -765,44 +824,17 @@ fn shrink_failures(
     watch: &Watch,
 ) -> Vec<Failure> {
     let changes = changed::failures(partials, chosen, options);
-    let is_steady = |pair: &[String; 2]| {
-        let has_changed = |engine: &String| {
-            changes.iter().any(|failure| failure.evidence.changed_engine() == Some(engine))
-        };
-        !pair.iter().any(has_changed)
-    };
     let mut failing = Vec::new();
-    for (place, (partial, Chosen { pairs, .. })) in partials.iter().zip(chosen).enumerate() {
-        let by_oracle = |pair: usize| pairs[pair][1] == ORACLE;
-        let is_known = |pair: usize| {
-            let wrong = |name: &String| {
-                partial.failing.iter().any(|&(p, _)| by_oracle(p) && pairs[p][0] == *name)
-            };
-            !by_oracle(pair) && pairs[pair].iter().any(wrong)
-        };
-        let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
-        let unknown = unknown.filter(|(pair, _)| is_steady(&pairs[*pair]));
-        failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
+    for (place, partial) in partials.iter().enumerate() {
+        for &(pair, index) in &partial.failing {
+            let pairs = &chosen[place].pairs;
+            if !is_known(partial, pairs, pair) && is_steady(&changes, &pairs[pair]) {
+                failing.push(FailingCase { place, pair, index });
+            }
+        }
     }
     let shrunk = |number: usize| {
-        let (place, pair, index) = failing[number];
-        let Chosen { family, comparer, pairs } = &chosen[place];
-        let original = options.terms.case(family, options.seed, index);
-        let fails = |case: &Case| {
-            !watch.is_over()
-                && options.terms.holds(case)
-                && comparer.findings(case)[pair].is_wrong()
-        };
-        let case = shrink::shrink(original, fails);
-        let evidence = Compared {
-            pair: pairs[pair].clone(),
-            drawn: comparer.coverage(&pairs[pair][0], &case),
-            other: comparer.coverage(&pairs[pair][1], &case),
-            expected: expected(&case, options.terms),
-            changed: None,
-        };
-        let what = comparer.findings(&case)[pair].describe();
-        Failure { family: family.name, index, seed: options.seed, what, case, evidence }
+        shrink_case(&chosen[failing[number].place], &failing[number], options, watch)
     };
     // The first one is shown in any case.
     let shrunk = parallel::map(failing.len(), |number| {
@@ -811,9 +843,12 @@ fn shrink_failures(
     let size = |failure: &Failure| {
         (matches!(failure.case.shape, Shape::Unsnapped { .. }), shrink::size(&failure.case))
     };
-    let origins = failing.iter().map(|&(place, pair, _)| (place, pair));
-    let shrunk = origins.zip(shrunk).filter_map(|(origin, failure)| Some((origin, failure?)));
-    let mut shrunk: Vec<_> = shrunk.collect();
+    let mut shrunk: Vec<_> = failing
+        .iter()
+        .zip(shrunk)
+        .filter_map(|(case, failure)| Some(((case.place, case.pair), failure?)))
+        .collect();
+    // The smallest of each family and pair is kept.
     shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(failure)));
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();

@@ -41,13 +41,18 @@ struct Setup {
 
 impl Setup {
     fn new(triangle: &Triangle, page_px: f64) -> Self {
+        let subpixels = f64::from(SUBPIXELS);
         let px = triangle
             .corners()
-            .map_array(|p| [p.x, p.y].map_array(|v| f64::from(v) / f64::from(SUBPIXELS)));
+            .map_array(|p| [f64::from(p.x) / subpixels, f64::from(p.y) / subpixels]);
         let [a, b, c] = px;
         let area2 = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        let reach =
-            [0, 1].map_array(|i| px.iter().fold(page_px, |m, p| m.max(p[i].abs() + page_px)));
+        // Across a page, or from its far side to a corner.
+        let mut reach = [page_px; 2];
+        for [x, y] in px {
+            reach[0] = reach[0].max(x.abs() + page_px);
+            reach[1] = reach[1].max(y.abs() + page_px);
+        }
         Self { px, area2, reach }
     }
 
@@ -66,19 +71,24 @@ impl Setup {
 
     fn carried(&self, values: [f64; 3], [d1, d2]: [f64; 2], roundings: f64) -> f64 {
         let [p, q, r] = self.px;
-        let steep =
-            |i: usize| (d1 * (r[i] - p[i]).abs() + d2 * (q[i] - p[i]).abs()) / self.area2.abs();
-        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        U * roundings * (largest + steep(1) * self.reach[0] + steep(0) * self.reach[1])
+        // Gy and Gx: how steep the plane may be along y and along x.
+        let [steep_y, steep_x] = [0, 1].map_array(|i: usize| {
+            (d1 * (r[i] - p[i]).abs() + d2 * (q[i] - p[i]).abs()) / self.area2.abs()
+        });
+        let [a, b, c] = values.map_array(f64::abs);
+        let largest = 0.0_f64.max(a).max(b).max(c);
+        U * roundings * (largest + steep_x * self.reach[0] + steep_y * self.reach[1])
     }
 
     /// The value of a plane at a place in px; rounded, which a bound can bear.
     fn at(&self, values: [f64; 3], s: [f64; 2]) -> f64 {
-        let weight = |i: usize| {
+        let mut value = 0.0;
+        for (i, of_corner) in values.into_iter().enumerate() {
             let [b, c] = [self.px[(i + 1) % 3], self.px[(i + 2) % 3]];
-            ((c[0] - b[0]) * (s[1] - b[1]) - (c[1] - b[1]) * (s[0] - b[0])) / self.area2
-        };
-        (0..3).map(|i| weight(i) * values[i]).sum()
+            let cross = (c[0] - b[0]) * (s[1] - b[1]) - (c[1] - b[1]) * (s[0] - b[0]);
+            value += cross / self.area2 * of_corner;
+        }
+        value
     }
 }
 
@@ -91,16 +101,21 @@ pub fn perspective_bounds(triangle: &Triangle, (x_px, y_px): (i32, i32), page_px
     let inv_w = v.map_array(|v| v.inv_w);
     let d = setup.at(inv_w, pixel);
     let d_bound = setup.bound(inv_w, ROUNDINGS_OVER_W);
-    let quotient = |values: [f64; 3]| {
-        let over_w = [0, 1, 2].map_array(|i| values[i] * inv_w[i]);
+    let [first, second] = attributes(triangle).map_array(|values| {
+        let over_w = [0, 1, 2].map_array(|i: usize| values[i] * inv_w[i]);
         let value = (setup.at(over_w, pixel) / d).abs();
         if d <= d_bound {
             return f64::INFINITY;
         }
         (setup.bound(over_w, ROUNDINGS_OVER_W) + value * d_bound) / (d - d_bound) + 3.0 * U * value
-    };
-    let depth = setup.bound(v.map_array(|v| v.depth), ROUNDINGS);
-    [depth, quotient(v.map_array(|v| v.varying.x)), quotient(v.map_array(|v| v.varying.y))]
+    });
+    [setup.bound(v.map_array(|v| v.depth), ROUNDINGS), first, second]
+}
+
+/// Both attributes of the corners.
+fn attributes(triangle: &Triangle) -> [[f64; 3]; 2] {
+    let [a, b, c] = triangle.vertices.map_array(|v| v.varying);
+    [[a.x, b.x, c.x], [a.y, b.y, c.y]]
 }
 
 /// Bounds of depth: of a plane set up from differences, and of the specification's own sum of weights.
@@ -115,12 +130,9 @@ pub fn depth_bounds(triangle: &Triangle, page_px: f64) -> [f64; 2] {
 #[must_use]
 pub fn linear_bounds(triangle: &Triangle, page_px: f64) -> [[f64; 2]; 3] {
     let setup = Setup::new(triangle, page_px);
-    let v = &triangle.vertices;
-    [v.map_array(|v| v.inv_w), v.map_array(|v| v.varying.x), v.map_array(|v| v.varying.y)]
-        .map_array(|values| {
-            [
-                setup.bound(values, ROUNDINGS_OVER_W),
-                setup.bound_of_weights(values, ROUNDINGS_OVER_W),
-            ]
-        })
+    let [first, second] = attributes(triangle);
+    [triangle.vertices.map_array(|v| v.inv_w), first, second].map_array(|values| {
+        let of_weights = setup.bound_of_weights(values, ROUNDINGS_OVER_W);
+        [setup.bound(values, ROUNDINGS_OVER_W), of_weights]
+    })
 }

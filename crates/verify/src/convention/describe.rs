@@ -15,6 +15,7 @@ fn px(sub: i32) -> String {
     format!("{}", f64::from(sub) / 256.0)
 }
 
+/// A place in a pixel, in words.
 fn position(x: i32, y: i32) -> String {
     match (x, y) {
         (128, 128) => "at the pixel's centre".to_owned(),
@@ -37,6 +38,7 @@ fn quantum(quantum: Quantum) -> String {
     format!("moves corners to {grid} ({how}), ")
 }
 
+/// What is drawn of a triangle once its corners are on their grid.
 fn shape(shape: Shape) -> String {
     match shape {
         Shape::Point { x, y } => format!("samples {}", position(x, y)),
@@ -110,6 +112,7 @@ fn ties(convention: &TriangleConvention, compass: &Compass) -> String {
     if !seen.contains(&true) {
         return String::new();
     }
+    // Each direction with its share.
     if !compass.is_decided() {
         let list: Vec<_> = (0..8)
             .filter_map(|i| Some(format!("{} {:.0} %", FACINGS[i], compass.edges[i].percent()?)))
@@ -134,6 +137,7 @@ fn ties(convention: &TriangleConvention, compass: &Compass) -> String {
     }
 }
 
+/// All parts of a convention in one sentence, after 'it'.
 fn convention(of: &TriangleConvention, compass: &Compass) -> String {
     let (mirror, winding) = (of.mirror.name(), of.draws.name());
     let (quantum, ties) = (quantum(of.quantum), ties(of, compass));
@@ -159,6 +163,7 @@ impl LineConvention {
 }
 
 impl Diagnosis {
+    /// What it does, how sure that is, and what else was seen.
     pub fn sentence(&self) -> String {
         match (self.asked, self.asked == self.refused) {
             (0, _) => {
@@ -198,6 +203,7 @@ impl Diagnosis {
     }
 }
 
+/// The pixel of a step, the ends, and what lies between two steps.
 fn line_convention(of: &LineConvention) -> String {
     let pixel = match of.rounding {
         LineRounding::Nearest(tie) => {
@@ -235,6 +241,7 @@ fn line_convention(of: &LineConvention) -> String {
 }
 
 impl LineDiagnosis {
+    /// The same of a line drawer.
     pub fn sentence(&self) -> String {
         let words = line_convention(&self.convention);
         let share = self.as_found.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));

@@ -23,23 +23,22 @@ impl Bench<'_> {
     /// explain the answers so far are asked about, or the best alone.
     pub(super) async fn separate(&mut self, scored: &[Scored], draws: Windings) -> Vec<Candidate> {
         let least = scored.first().map_or(0, |(errors, _)| *errors);
-        let mut survivors: Vec<_> = scored
-            .iter()
-            .filter(|(errors, _)| *errors == least)
-            .map(|(_, candidate)| *candidate)
-            .take(MOST_SURVIVORS)
-            .collect();
-        let down = |c: &&Candidate| c.quantum.step > 1 && c.quantum.rounding == Rounding::Down;
-        let twins: Vec<_> = survivors
-            .iter()
-            .filter(down)
-            .map(|c| {
-                let quantum = Quantum { rounding: Rounding::TowardZero, ..c.quantum };
-                Candidate { quantum, ..*c }
-            })
-            .collect();
-        let negative = !twins.is_empty();
-        survivors.extend(twins);
+        let mut survivors: Vec<Candidate> = Vec::new();
+        for (errors, candidate) in scored {
+            if *errors == least && survivors.len() < MOST_SURVIVORS {
+                survivors.push(*candidate);
+            }
+        }
+        // What rounds down may as well round toward zero, until a negative corner tells.
+        let mut negative = false;
+        for i in 0..survivors.len() {
+            let mut twin = survivors[i];
+            if twin.quantum.step > 1 && twin.quantum.rounding == Rounding::Down {
+                twin.quantum = Quantum { rounding: Rounding::TowardZero, ..twin.quantum };
+                survivors.push(twin);
+                negative = true;
+            }
+        }
         for _ in 0..ROUNDS {
             let questions = self.telling(&survivors, draws, negative);
             let answers = self.draw(&questions).await;
@@ -69,6 +68,7 @@ impl Bench<'_> {
             if twice_area(&corners) == 0 {
                 continue;
             }
+            // A question counts if it tells one more hypothesis from the first.
             let before = open.len();
             open.retain(|other| !first.differs(other, &corners, self.window));
             if open.len() < before {

@@ -23,6 +23,7 @@ impl Bench<'_> {
         let side = self.side();
         loop {
             let kind = self.rng.int(0, 5);
+            // Half of them may be as large as the window.
             let size = if kind < 3 { side - 2 } else { 7 };
             let at = [self.coordinate(1, side - 1 - size), self.coordinate(1, side - 1 - size)];
             let mut corners = [SubpixelPoint::new(0, 0); 3];
@@ -47,33 +48,39 @@ impl Bench<'_> {
 
     /// As many answers to triangles in general position, of a winding that is drawn.
     pub(super) async fn generals(&mut self, count: usize, draws: Windings) -> Vec<TriangleAnswer> {
-        let questions: Vec<_> = (0..count).map(|_| drawable(self.general(), draws)).collect();
-        let questions: Vec<_> = questions
-            .into_iter()
-            .map(|c| if draws == Windings::Both && self.rng.chance(2) { turned(c) } else { c })
-            .collect();
+        let mut questions = Vec::with_capacity(count);
+        for _ in 0..count {
+            questions.push(drawable(self.general(), draws));
+        }
+        // Half of them are turned where both windings are drawn.
+        for corners in &mut questions {
+            if draws == Windings::Both && self.rng.chance(2) {
+                *corners = turned(*corners);
+            }
+        }
         self.draw(&questions).await
     }
 
     /// Which windings leave pixels, and what they leave.
     pub(super) async fn windings(&mut self) -> (Windings, Vec<TriangleAnswer>) {
         let (mut drawn, mut all) = ([0, 0], Vec::new());
-        let fat: Vec<_> = (0..10)
-            .map(|_| {
-                loop {
-                    let corners = drawable(self.general(), Windings::Clockwise);
-                    if twice_area(&corners) > 20 * 65536 {
-                        break corners;
-                    }
-                }
-            })
-            .collect();
-        for (way, drawn) in drawn.iter_mut().enumerate() {
-            let list: Vec<_> = fat.iter().map(|&c| if way == 0 { c } else { turned(c) }).collect();
-            let answers = self.draw(&list).await;
-            *drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
-            all.extend(answers);
+        // Clockwise ones that cover some samples, wherever these lie.
+        let mut fat = Vec::new();
+        while fat.len() < 10 {
+            let corners = drawable(self.general(), Windings::Clockwise);
+            if twice_area(&corners) > 20 * 65536 {
+                fat.push(corners);
+            }
         }
+        for drawn in &mut drawn {
+            let answers = self.draw(&fat).await;
+            *drawn = count_drawn(&answers);
+            all.extend(answers);
+            for corners in &mut fat {
+                *corners = turned(*corners);
+            }
+        }
+        // A winding counts as drawn if more than a quarter of these triangles leave a pixel.
         let draws = match drawn.map_array(|count| count > fat.len() / 4) {
             [true, true] => Windings::Both,
             [true, false] => Windings::Clockwise,
@@ -85,27 +92,30 @@ impl Bench<'_> {
 
     /// How often triangles without area leave pixels: points, segments, and corners on one line.
     pub(super) async fn flat(&mut self) -> Count {
-        let whole = |v: i64| v as i32 * 256;
-        let questions: Vec<_> = (0..30)
-            .map(|i| {
-                let [x, y, dx, dy] = [(4, 10), (4, 10), (-2, 2), (-2, 2)]
-                    .map_array(|(low, high)| whole(self.rng.int(low, high)));
-                // Where the grid allows, half of them run through centres.
-                let half = if self.grain <= 128 && i % 2 == 0 { 128 } else { 0 };
-                let at = |n: i32| SubpixelPoint::new(x + n * dx + half, y + n * dy + half);
-                match i % 3 {
-                    0 => [at(0); 3],
-                    1 => [at(0), at(2), at(0)],
-                    _ => [at(0), at(1), at(2)],
-                }
-            })
-            .collect();
+        let mut questions = Vec::new();
+        for i in 0..30 {
+            let [x, y, dx, dy] = [(4, 10), (4, 10), (-2, 2), (-2, 2)]
+                .map_array(|(low, high)| self.rng.int(low, high) as i32 * 256);
+            // Where the grid allows, half of them run through centres.
+            let half = if self.grain <= 128 && i % 2 == 0 { 128 } else { 0 };
+            let at = |n: i32| SubpixelPoint::new(x + n * dx + half, y + n * dy + half);
+            questions.push(match i % 3 {
+                0 => [at(0); 3],
+                1 => [at(0), at(2), at(0)],
+                _ => [at(0), at(1), at(2)],
+            });
+        }
         let answers = self.draw(&questions).await;
-        let drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
-        Count { drawn: drawn as u64, of: answers.len() as u64 }
+        Count { drawn: count_drawn(&answers) as u64, of: answers.len() as u64 }
     }
 }
 
+/// How many answers have a pixel.
+fn count_drawn(answers: &[TriangleAnswer]) -> usize {
+    answers.iter().filter(|answer| !answer.drawn.is_empty()).count()
+}
+
+/// The same triangle of the other winding.
 fn turned([a, b, c]: Corners) -> Corners {
     [a, c, b]
 }
@@ -153,6 +163,7 @@ impl Bench<'_> {
     /// it does not.
     pub(super) async fn flips(&mut self, draws: Windings) -> [Option<Flip>; 4] {
         let grain = self.grain;
+        // From far before the pixel to far behind it; then the interval is halved.
         let mut flips = [Flip { low: -512, high: 768 }; 4];
         let start = self.watch(draws, flips.map_array(|f| f.low)).await;
         let end = self.watch(draws, flips.map_array(|f| f.high)).await;
@@ -175,10 +186,12 @@ impl Bench<'_> {
     /// change when the corners are rotated, and those that change when the winding is reversed.
     pub(super) async fn orders(&mut self, triangles: &[Corners], draws: Windings) -> [Count; 2] {
         let count = if draws == Windings::Both { 6 } else { 3 };
-        let list: Vec<Corners> = triangles
-            .iter()
-            .flat_map(|t| ORDERS[..count].iter().map(|order| order.map_array(|i| t[i])))
-            .collect();
+        let mut list = Vec::new();
+        for t in triangles {
+            for order in &ORDERS[..count] {
+                list.push(order.map_array(|i| t[i]));
+            }
+        }
         let answers = self.draw_all(&list).await;
         let mut changed = [Count::default(); 2];
         for group in answers.chunks_exact(count) {
@@ -186,6 +199,7 @@ impl Bench<'_> {
             if drawn.len() < count {
                 continue;
             }
+            // The first three orders are rotations, and the others have the other winding.
             changed[0].add(drawn[..3].iter().any(|mask| *mask != drawn[0]));
             if count == 6 {
                 let backwards = [(0, 3), (1, 4), (2, 5)];

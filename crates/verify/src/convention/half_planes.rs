@@ -45,6 +45,7 @@ pub(super) struct HalfPlanes {
     pub boxed: bool,
 }
 
+/// Half-planes for a sample at such a place of a pixel, and nothing else.
 pub(super) fn at(x: i32, y: i32) -> HalfPlanes {
     HalfPlanes { left: x, right: x, y, reach: 0, square: false, rows: false, boxed: false }
 }
@@ -56,16 +57,16 @@ impl HalfPlanes {
         if sign == 0 {
             return true;
         }
+        // Numbers of 64 bits are enough near the origin, and faster.
         let sides = self.sides(points, sign);
         let near = points.as_flattened().iter().all(|v| v.abs() < 1 << 28);
         let rect = around(points, 2).intersect(&window);
         if near {
-            let narrow = |v: i128| v as i64;
-            let sides: Vec<_> = sides
-                .iter()
-                .map(|s| Side { a: narrow(s.a), b: narrow(s.b), c: narrow(s.c), facing: s.facing })
-                .collect();
-            walk(&sides, rect, emit);
+            let mut narrow = Vec::with_capacity(sides.len());
+            for Side { a, b, c, facing } in sides {
+                narrow.push(Side { a: a as i64, b: b as i64, c: c as i64, facing });
+            }
+            walk(&narrow, rect, emit);
         } else {
             walk(&sides, rect, emit);
         }
@@ -76,6 +77,7 @@ impl HalfPlanes {
     fn sides(self, points: &Points, sign: i64) -> Vec<Side<i128>> {
         let Self { left, right, y, reach, square, rows, boxed } = self;
         let side = |a: i64, b: i64, [px, py]: [i64; 2], reach: i64| {
+            // A left edge and a right one may be asked at different places of the pixel.
             let x = if a > 0 { left } else { right };
             let [wa, wb] = [a, b].map_array(i128::from);
             let c = wa * (i128::from(x) - i128::from(px)) + wb * (i128::from(y) - i128::from(py));
@@ -91,11 +93,11 @@ impl HalfPlanes {
             let width = if square { a.abs() + b.abs() } else { a.abs().max(b.abs()) };
             sides.push(side(a, b, p, width * i64::from(reach)));
         }
-        let ends = |axis: usize| {
-            let v = points.map_array(|p| p[axis]);
-            (v.into_iter().min().unwrap_or(0), v.into_iter().max().unwrap_or(0))
-        };
-        let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
+        // The box of the corners.
+        let [a, b, c] = points;
+        let (x0, x1) = (a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]));
+        let (y0, y1) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+        // Rows begin and end with the corners.
         if rows || boxed {
             sides.push(side(0, 1, [x0, y0], reach.into()));
             sides.push(side(0, -1, [x0, y1], reach.into()));
@@ -115,6 +117,7 @@ where
 {
     let (zero, pixel) = (T::from(0), T::from(256));
     for y_px in rect.y0..rect.y1 {
+        // The values at the first pixel of the row; each step along it adds the same.
         let corner = [rect.x0, y_px].map_array(|px| T::from(i64::from(px)) * pixel);
         let mut values = [zero; 7];
         for (value, side) in values.iter_mut().zip(sides) {
@@ -132,6 +135,7 @@ where
     }
 }
 
+/// On what a sample lies: no edge, one edge, or several.
 fn place<T>(zeros: impl Iterator<Item = bool>, sides: &[Side<T>]) -> Place {
     let (mut bits, mut count, mut last) = (0, 0, 0);
     for (_, side) in zeros.zip(sides).filter(|(zero, _)| *zero) {

@@ -18,15 +18,18 @@ struct Side {
 }
 
 impl Side {
+    /// A side between whole pixels, in the direction in which it is given.
     fn new([p, q]: [[i64; 2]; 2]) -> Self {
         let slope = (q[0] - p[0]) as f32 / (q[1] - p[1]) as f32;
         Self { start: p, rows: p[1].min(q[1])..=p[1].max(q[1]), slope }
     }
 
+    /// Its x in a row.
     fn at(&self, row: i64) -> f32 {
         (row - self.start[1]) as f32 * self.slope + self.start[0] as f32
     }
 
+    /// Whether it is slanted and has an end in the row.
     fn leans_and_ends(&self, row: i64) -> bool {
         self.slope != 0.0 && (row == *self.rows.start() || row == *self.rows.end())
     }

@@ -9,6 +9,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 
+/// A line that a program is asked to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineQuestion {
     pub ends: [[i32; 2]; 2],
@@ -86,12 +87,14 @@ impl Default for LineConvention {
 }
 
 impl LineRounding {
+    /// All but those with pixels of their own, the simplest first.
     pub fn all() -> impl Iterator<Item = Self> {
         let cut = End::ALL.into_iter().flat_map(|end| [Self::Toward(end), Self::Away(end)]);
         let nearest = LineTie::ALL.map(Self::Nearest);
         nearest.into_iter().chain(cut).chain([Self::Down, Self::Up])
     }
 
+    /// The minor coordinate of the pixel of a step.
     fn minor(self, line: &Line, step: i64) -> i64 {
         let (below, rest) = line.below(step);
         let up = match self {
@@ -107,6 +110,7 @@ impl LineRounding {
 }
 
 impl Steps {
+    /// All of them, 8-connected lines first.
     pub fn all() -> impl Iterator<Item = Self> {
         let between = End::ALL.into_iter().flat_map(|e| [Self::MajorFirst(e), Self::MinorFirst(e)]);
         std::iter::once(Self::Corners).chain(between)
@@ -145,6 +149,7 @@ impl LineConvention {
         }
         // However long the line is, only steps in the window are looked at.
         let Some(steps) = line.steps_in(question.window) else { return Some(Vec::new()) };
+        // Whether the first and the last step of the line are looked at.
         let has_end = [*steps.start() == 0, *steps.end() == line.steps()];
         let mut pixels = Vec::new();
         let mut last = None;
@@ -152,14 +157,15 @@ impl LineConvention {
             let minor = self.rounding.minor(&line, step);
             match (last, self.steps.major_first(&line)) {
                 (Some(last), Some(major)) if last != minor => {
-                    let between = if major { (step, last) } else { (step - 1, minor) };
-                    pixels.push(line.pixel(between.0, between.1));
+                    let (step, minor) = if major { (step, last) } else { (step - 1, minor) };
+                    pixels.push(line.pixel(step, minor));
                 }
                 _ => {}
             }
             pixels.push(line.pixel(step, minor));
             last = Some(minor);
         }
+        // Which of its ends a line draws may depend on its direction.
         let right_is_last = (to[0], to[1]) > (from[0], from[1]);
         let draws_end = match self.ends {
             Ends::Both => [true, true],
@@ -168,19 +174,25 @@ impl LineConvention {
             Ends::WithoutRight => [right_is_last, !right_is_last],
             Ends::Neither => [false, false],
         };
-        let [first, last] = [0, 1].map(|end| usize::from(has_end[end] && !draws_end[end]));
+        // An end is left out where it lies in the window at all.
+        let first = usize::from(has_end[0] && !draws_end[0]);
+        let last = usize::from(has_end[1] && !draws_end[1]);
         let kept = first..pixels.len() - last;
         Some(inside(pixels.get(kept)?, question.window))
     }
 
-    fn all() -> impl Iterator<Item = Self> {
-        Steps::all()
-            .flat_map(|steps| {
-                Ends::ALL.into_iter().flat_map(move |ends| {
-                    LineRounding::all().map(move |rounding| Self { rounding, ends, steps })
-                })
-            })
-            .chain([Self::BEHIND, Self::AHEAD])
+    /// All that answers are tried on, the simplest first.
+    fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for steps in Steps::all() {
+            for ends in Ends::ALL {
+                for rounding in LineRounding::all() {
+                    all.push(Self { rounding, ends, steps });
+                }
+            }
+        }
+        all.extend([Self::BEHIND, Self::AHEAD]);
+        all
     }
 
     /// [`LineRounding::Behind`], which has ends and steps of its own.
@@ -191,29 +203,36 @@ impl LineConvention {
         Self { rounding: LineRounding::Ahead, ends: Ends::Both, steps: Steps::Corners };
 }
 
+/// The pixels that lie in a window.
 fn inside(pixels: &[[i64; 2]], window: PixelRect) -> Vec<[i32; 2]> {
     let (x, y) = (i64::from(window.x0)..window.x1.into(), i64::from(window.y0)..window.y1.into());
-    let is_in = |p: &&[i64; 2]| x.contains(&p[0]) && y.contains(&p[1]);
-    // Inside the window, so both fit i32.
-    pixels.iter().filter(is_in).map(|p| p.map(|v| v as i32)).collect()
+    let mut inside = Vec::new();
+    for p in pixels {
+        if x.contains(&p[0]) && y.contains(&p[1]) {
+            // Inside the window, so both fit i32.
+            inside.push([p[0] as i32, p[1] as i32]);
+        }
+    }
+    inside
 }
 
 /// See [`LineRounding::Behind`] and [`LineRounding::Ahead`]: from the end with the smaller major
 /// coordinate in 16.16 numbers, the slope cut toward zero.
 fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
     let delta = [to[0] - from[0], to[1] - from[1]];
-    let [wide, high] = delta.map(i64::abs);
+    let [wide, high] = [delta[0].abs(), delta[1].abs()];
     // Of two axes as long as each other.
     let major = usize::from(wide < high || (wide == high && is_behind));
     let (start, sign) = if delta[major] < 0 { (to, -1) } else { (from, 1) };
     let slope = (sign * delta[1 - major] * 65536) / delta[major].abs().max(1);
+    // From where the first pixel is taken, in 1/65536 px.
     let moved = if is_behind { 32768 - slope } else { (slope.max(0) + 1) / 2 };
-    let at = |step: i64| {
+    let mut pixels = Vec::new();
+    for step in i64::from(is_behind)..=delta[major].abs() {
         let along = start[major] + step;
         let across = (start[1 - major] * 65536 + moved + step * slope).div_euclid(65536);
-        if major == 0 { [along, across] } else { [across, along] }
-    };
-    let mut pixels: Vec<_> = (i64::from(is_behind)..=delta[major].abs()).map(at).collect();
+        pixels.push(if major == 0 { [along, across] } else { [across, along] });
+    }
     if sign < 0 {
         pixels.reverse();
     }
@@ -261,6 +280,7 @@ fn set(pixels: &[[i32; 2]]) -> Vec<[i32; 2]> {
     set
 }
 
+/// How many lines have the pixels of a convention, of those of which it says anything.
 fn explained(convention: &LineConvention, drawn: &[LineAnswer]) -> Count {
     let mut count = Count::default();
     for drawn in drawn {
@@ -321,13 +341,11 @@ pub async fn diagnose_lines(
         answers.resize_with(list.len(), || None);
         asked[0] += list.len() as u64;
         asked[1] += answers.iter().filter(|answer| answer.is_none()).count() as u64;
-        let answers = list.into_iter().zip(answers);
-        answers
-            .map(|(question, pixels)| {
-                let pixels = pixels?;
-                Some(LineAnswer { question, set: set(&pixels), pixels })
-            })
-            .collect()
+        let mut drawn = Vec::with_capacity(list.len());
+        for (question, pixels) in list.into_iter().zip(answers) {
+            drawn.push(pixels.map(|pixels| LineAnswer { question, set: set(&pixels), pixels }));
+        }
+        drawn
     };
     let answers = draw(lines(&mut rng, side, FITTED)).await;
     let mut both_ways = Count::default();
@@ -336,6 +354,7 @@ pub async fn diagnose_lines(
             both_ways.add(there.set == back.set);
         }
     }
+    // Those that were answered. Fresh lines are not the ones that hypotheses are fitted to.
     let fitted: Vec<_> = answers.into_iter().flatten().collect();
     let fresh: Vec<_> = draw(lines(&mut rng, side, FRESH)).await.into_iter().flatten().collect();
     let mut points = Count::default();
@@ -358,6 +377,17 @@ pub async fn diagnose_lines(
     )
 }
 
+/// Conventions with how many lines they draw rightly, the best first; equal ones stay in their order.
+fn best_on(drawn: &[LineAnswer], among: Vec<LineConvention>) -> Vec<(u64, LineConvention)> {
+    let mut scored = Vec::with_capacity(among.len());
+    for convention in among {
+        scored.push((explained(&convention, drawn).drawn, convention));
+    }
+    scored.sort_by_key(|(right, _)| std::cmp::Reverse(*right));
+    scored
+}
+
+/// What the answers say: hypotheses are fitted to the first lines, and counted on fresh ones.
 fn conclude(
     fitted: &[LineAnswer],
     fresh: &[LineAnswer],
@@ -365,26 +395,18 @@ fn conclude(
     mut found: LineDiagnosis,
 ) -> LineDiagnosis {
     // The first of equals is the simplest. Few lines tell most of them apart.
-    let best_on = |drawn: &[LineAnswer], among: Vec<LineConvention>| {
-        let mut scored: Vec<_> =
-            among.into_iter().map(|c| (explained(&c, drawn).drawn, c)).collect();
-        scored.sort_by_key(|(right, _)| std::cmp::Reverse(*right));
-        scored
-    };
-    let few = best_on(&fitted[..fitted.len().min(FEW)], LineConvention::all().collect());
+    let few = best_on(&fitted[..fitted.len().min(FEW)], LineConvention::all());
     let scored = best_on(fitted, few.into_iter().take(KEPT).map(|(_, c)| c).collect());
     let best = explained(&scored[0].1, fresh);
     let whole = best.of > 0 && best.drawn == best.of && scored[0].0 == fitted.len() as u64;
     found.convention = scored[0].1;
     found.as_found = best;
     found.as_default = explained(&LineConvention::default(), fresh);
-    if whole {
-        found.alternatives = scored[1..]
-            .iter()
-            .take_while(|(right, _)| *right == scored[0].0)
-            .map(|(_, c)| *c)
-            .filter(|c| explained(c, fresh) == best)
-            .collect();
+    // Others that are as right on these lines, and on fresh ones.
+    for (right, other) in &scored[1..] {
+        if whole && *right == scored[0].0 && explained(other, fresh) == best {
+            found.alternatives.push(*other);
+        }
     }
     found.confidence = Confidence::of(best, whole && found.alternatives.is_empty());
     for drawn in fresh {

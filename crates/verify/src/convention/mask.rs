@@ -13,6 +13,7 @@ pub(crate) const SIDE_PX: i32 = 32;
 pub(crate) struct Mask([u32; SIDE_PX as usize]);
 
 impl Mask {
+    /// All pixels.
     pub(crate) const FULL: Self = Self([u32::MAX; SIDE_PX as usize]);
 
     /// The pixels with at least `least` hits.
@@ -26,16 +27,19 @@ impl Mask {
         mask
     }
 
+    /// Adds a pixel of the window.
     pub(crate) fn set(&mut self, x_px: i32, y_px: i32) {
         self.0[y_px as usize] |= 1 << x_px;
     }
 
+    /// Adds a pixel, or takes it away.
     pub(crate) fn put(&mut self, x_px: i32, y_px: i32, is_in: bool) {
         let bit = 1 << x_px;
         let row = &mut self.0[y_px as usize];
         *row = if is_in { *row | bit } else { *row & !bit };
     }
 
+    /// Whether a pixel of the window is in it.
     pub(crate) fn has(&self, x_px: i32, y_px: i32) -> bool {
         self.0[y_px as usize] >> x_px & 1 == 1
     }
@@ -45,10 +49,12 @@ impl Mask {
         self.0[y_px as usize]
     }
 
+    /// Whether no pixel is in it.
     pub(crate) fn is_empty(&self) -> bool {
         self.count() == 0
     }
 
+    /// How many pixels are in it.
     pub(crate) fn count(&self) -> u32 {
         self.0.iter().map(|row| row.count_ones()).sum()
     }

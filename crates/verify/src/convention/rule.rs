@@ -86,6 +86,7 @@ impl Ties {
         NAMED.iter().find(|(_, bits)| fits(bits)).map(|(name, _)| *name)
     }
 
+    /// Whether a sample on a corner is drawn; the bits are the directions of its edges.
     fn includes_corner(&self, bits: u8) -> bool {
         match self.corners {
             CornerRule::Always => true,
@@ -94,6 +95,7 @@ impl Ties {
         }
     }
 
+    /// Whether a sample that is not outside is drawn.
     fn includes(&self, place: Place) -> bool {
         match place {
             Place::In => true,
@@ -158,6 +160,7 @@ impl TriangleConvention {
         self.visit(corners, window, &mut |x, y| mask.set(x, y)).then_some(mask)
     }
 
+    /// Calls `draw` for each pixel; false where the convention says nothing.
     fn visit(&self, corners: &Corners, window: PixelRect, draw: &mut dyn FnMut(i32, i32)) -> bool {
         let points = self.quantum.corners(corners);
         let [turn, given] =

@@ -64,13 +64,21 @@ impl Scan {
         let edges = edges(points).map_array(|[p, q]| if p[1] <= q[1] { [p, q] } else { [q, p] });
         let rect = around(points, 2).intersect(&window);
         for y in i64::from(rect.y0)..rect.y1.into() {
-            let columns = edges.iter().filter_map(|edge| match self {
-                Self::Coarse => coarse(edge, y),
-                Self::Carried => carried(edge, y),
-                _ => above(edge, y),
-            });
-            let (low, high) = columns.fold((i64::MAX, i64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-            (low..high).for_each(|x| put(x, y));
+            // From the leftmost crossing to the rightmost.
+            let (mut low, mut high) = (i64::MAX, i64::MIN);
+            for edge in &edges {
+                let crossing = match self {
+                    Self::Coarse => coarse(edge, y),
+                    Self::Carried => carried(edge, y),
+                    _ => above(edge, y),
+                };
+                if let Some(x) = crossing {
+                    (low, high) = (low.min(x), high.max(x));
+                }
+            }
+            for x in low..high {
+                put(x, y);
+            }
         }
     }
 }
@@ -78,46 +86,49 @@ impl Scan {
 /// The first column right of the crossing of an edge with a row; nothing where it does not cross.
 fn above([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
     let rows = (p[1] + 127).div_euclid(256)..(q[1] + 127).div_euclid(256);
-    rows.contains(&row).then(|| {
-        let fall = row * 256 + 127 - p[1];
-        let x = p[0] + (fall * (q[0] - p[0])).div_euclid(q[1] - p[1]);
-        (x + 127).div_euclid(256)
-    })
+    if !rows.contains(&row) {
+        return None;
+    }
+    let fall = row * 256 + 127 - p[1];
+    let x = p[0] + (fall * (q[0] - p[0])).div_euclid(q[1] - p[1]);
+    Some((x + 127).div_euclid(256))
 }
 
 /// The rows whose centres lie from `top` to before `bottom`, in 1/1024 px.
 fn rows(top: i64, bottom: i64) -> std::ops::Range<i64> {
-    let first = |y: i64| (y + 511).div_euclid(1024);
-    first(top)..first(bottom)
+    (top + 511).div_euclid(1024)..(bottom + 511).div_euclid(1024)
 }
 
 /// As [`above`].
 fn coarse([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
     let ([x, top], [end, bottom]) = (p.map_array(|v| 4 * v), q.map_array(|v| 4 * v));
     let rows = rows(top, bottom);
-    rows.contains(&row).then(|| {
-        let (dx, dy) = (end - x, bottom - top);
-        let enter = x + dx * (rows.start * 1024 + 512 - top) / dy;
-        (enter + (row - rows.start) * (dx * 1024 / dy) + 511).div_euclid(1024)
-    })
+    if !rows.contains(&row) {
+        return None;
+    }
+    // The first crossing, and then the slope for each row.
+    let (dx, dy) = (end - x, bottom - top);
+    let enter = x + dx * (rows.start * 1024 + 512 - top) / dy;
+    Some((enter + (row - rows.start) * (dx * 1024 / dy) + 511).div_euclid(1024))
 }
 
 /// As [`above`].
 fn carried([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
-    let first = |y: i64| (y + 64 + 127).div_euclid(256);
-    let rows = first(p[1])..first(q[1]);
-    rows.contains(&row).then(|| {
-        let px = |v: i64| (v + 64) as f32 / 256.0;
-        let (dx, dy) = (px(q[0]) - px(p[0]), px(q[1]) - px(p[1]));
-        let fall = rows.start as f32 + 0.5 - px(p[1]);
-        let x = px(p[0]) + fall * dx / dy;
-        let column = (x - 0.5).ceil();
-        let remainder = |share: f64| (share * f64::from(i32::MAX)) as i64;
-        let (slope, steps) = (f64::from(dx / dy), row - rows.start);
-        let carry =
-            remainder((x - (column - 0.5)).into()) + steps * remainder(slope - slope.floor());
-        column as i64 + steps * slope.floor() as i64 + (carry >> 31)
-    })
+    let rows = (p[1] + 64 + 127).div_euclid(256)..(q[1] + 64 + 127).div_euclid(256);
+    if !rows.contains(&row) {
+        return None;
+    }
+    // The crossing with the first row, in single precision, and its column.
+    let px = |v: i64| (v + 64) as f32 / 256.0;
+    let (dx, dy) = (px(q[0]) - px(p[0]), px(q[1]) - px(p[1]));
+    let fall = rows.start as f32 + 0.5 - px(p[1]);
+    let x = px(p[0]) + fall * dx / dy;
+    let column = (x - 0.5).ceil();
+    // Whole columns are stepped, and what is left of them is carried in 31 bits.
+    let remainder = |share: f64| (share * f64::from(i32::MAX)) as i64;
+    let (slope, steps) = (f64::from(dx / dy), row - rows.start);
+    let carry = remainder((x - (column - 0.5)).into()) + steps * remainder(slope - slope.floor());
+    Some(column as i64 + steps * slope.floor() as i64 + (carry >> 31))
 }
 
 /// 1/65536 px in a pixel, and in a subpixel.
@@ -135,7 +146,9 @@ struct Side {
 }
 
 fn sides(points: &Points, put: &mut dyn FnMut(i64, i64)) {
-    (0..3).for_each(|i| line(points[(i + 2) % 3], points[i], put));
+    for i in 0..3 {
+        line(points[(i + 2) % 3], points[i], put);
+    }
     let row = |p: [i64; 2]| (p[1] + 128).div_euclid(256);
     let first = (0..3).min_by_key(|&i| points[i][1]).unwrap_or(0);
     let top = row(points[first]);
@@ -150,8 +163,12 @@ fn sides(points: &Points, put: &mut dyn FnMut(i64, i64)) {
             }
         }
         let [a, b] = both.map_array(|side| (side.x + ONE / 2).div_euclid(ONE));
-        (a.min(b)..=a.max(b)).for_each(|x| put(x, y));
-        both.iter_mut().for_each(|side| side.x += side.slope);
+        for x in a.min(b)..=a.max(b) {
+            put(x, y);
+        }
+        for side in &mut both {
+            side.x += side.slope;
+        }
     }
 }
 
@@ -175,7 +192,7 @@ fn next(side: &mut Side, points: &Points, y: i64, edges: &mut i32) -> bool {
 
 /// A line from end to end along its longer axis, the other coordinate stepped; and its farther end.
 fn line(from: [i64; 2], to: [i64; 2], put: &mut dyn FnMut(i64, i64)) {
-    let delta = [0, 1].map_array(|k| (to[k] - from[k]) * SUB);
+    let delta = [(to[0] - from[0]) * SUB, (to[1] - from[1]) * SUB];
     let major = usize::from(delta[0].abs() <= delta[1].abs());
     let minor = 1 - major;
     let (start, end, sign) = if delta[major] < 0 { (to, from, -1) } else { (from, to, 1) };

@@ -96,6 +96,7 @@ impl<'a> Search<'a> {
         self.kept.iter().map(|(errors, _)| *errors).min().unwrap_or(u32::MAX)
     }
 
+    /// The hypothesis with these parameters.
     fn candidate(&self, values: &[i32]) -> Candidate {
         Candidate { draws: self.seen.draws, quantum: self.quantum, shape: (self.make)(values) }
     }
@@ -114,6 +115,7 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The best ones first, and of equal ones the simplest; the others are dropped.
     fn sort(&mut self) {
         let mut kept = std::mem::take(&mut self.kept);
         kept.sort_by_cached_key(|(errors, values)| (*errors, self.candidate(values).rank()));
@@ -123,6 +125,7 @@ impl<'a> Search<'a> {
 
     /// Takes finer steps around the best values, and scores what remains on all answers.
     pub(super) fn finish(mut self) -> Vec<Scored> {
+        // Steps are halved until the finest one is reached along each parameter.
         let mut steps: Vec<_> = self.ranges.iter().map(|range| range.step()).collect();
         while steps.iter().zip(&self.ranges).any(|(&step, range)| step > range.finest) {
             for (step, range) in steps.iter_mut().zip(&self.ranges) {
@@ -141,19 +144,30 @@ impl<'a> Search<'a> {
 
     /// The values one step away along any parameters, within the ranges.
     fn around(&self, at: &[i32], steps: &[i32]) -> Vec<Vec<i32>> {
-        let near = |((&v, &step), range): ((&i32, &i32), &Range)| -> Vec<i32> {
+        let mut lattice = Vec::new();
+        for ((&v, &step), range) in at.iter().zip(steps).zip(&self.ranges) {
             let near = [v - step, v, v + step];
-            near.into_iter().filter(|v| (range.low..=range.high).contains(v)).collect()
-        };
-        let lattice: Vec<_> = at.iter().zip(steps).zip(&self.ranges).map(near).collect();
+            lattice
+                .push(near.into_iter().filter(|v| (range.low..=range.high).contains(v)).collect());
+        }
         product(&lattice)
     }
 }
 
+/// All lists with one value of each of these lists.
 fn product(lists: &[Vec<i32>]) -> Vec<Vec<i32>> {
-    lists.iter().fold(vec![Vec::new()], |heads, values| {
-        let longer =
-            |head: &Vec<i32>| values.iter().map(|&v| [head.as_slice(), &[v]].concat()).collect();
-        heads.iter().flat_map::<Vec<_>, _>(longer).collect()
-    })
+    let mut heads = vec![Vec::new()];
+    for values in lists {
+        // Each head goes on with each of the values.
+        let mut longer = Vec::with_capacity(heads.len() * values.len());
+        for head in &heads {
+            for &v in values {
+                let mut head: Vec<i32> = head.clone();
+                head.push(v);
+                longer.push(head);
+            }
+        }
+        heads = longer;
+    }
+    heads
 }

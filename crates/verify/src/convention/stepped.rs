@@ -48,8 +48,14 @@ pub(super) fn trace(points: &Points, [x, y]: [i32; 2], window: PixelRect, emit: 
     let rect = around(points, 2).intersect(&window);
     for y_px in rect.y0..rect.y1 {
         let row = i64::from(y_px);
-        let crossings = edges.iter().filter(|e| e.rows().contains(&row)).map(|e| e.crossing(row));
-        let (low, high) = crossings.fold((i64::MAX, i64::MIN), |(l, h), c| (l.min(c), h.max(c)));
+        // A row is filled between its least crossing and its largest one.
+        let (mut low, mut high) = (i64::MAX, i64::MIN);
+        for edge in &edges {
+            if edge.rows().contains(&row) {
+                let crossing = edge.crossing(row);
+                (low, high) = (low.min(crossing), high.max(crossing));
+            }
+        }
         for x_px in rect.x0..rect.x1 {
             let sample = i64::from(x_px) << 16;
             if low < sample && sample <= high {

@@ -69,6 +69,7 @@ impl Compass {
     /// question can show are filled in from a rule with a name, if one fits.
     #[must_use]
     pub fn ties(&self) -> Ties {
+        // A direction is drawn where most of its samples are.
         let most = |count: Count| 2 * count.drawn > count.of;
         let mut ties = Ties {
             edges: self.edges.map(most),
@@ -119,6 +120,7 @@ impl Compass {
     }
 }
 
+/// Triangles that are tried in search of samples on edges.
 const TRIES: usize = 4000;
 
 impl Bench<'_> {
@@ -132,6 +134,7 @@ impl Bench<'_> {
             if found.iter().take(9).all(|&count| count >= wanted) {
                 break;
             }
+            // Half of them have an edge through a sample, and the others lie on a coarse grid.
             let aimed = self.rng.chance(2).then(|| self.aimed(candidate)).flatten();
             let corners = drawable(aimed.unwrap_or_else(|| self.aligned(candidate)), draws);
             if twice_area(&corners) == 0 || candidate.is_silent(&corners) {
@@ -148,7 +151,9 @@ impl Bench<'_> {
             // Long edges would use up what is wanted of a direction.
             let useful = |i: usize| here[i] > 0 && found[i] < wanted;
             if (0..10).any(useful) {
-                (0..10).for_each(|i| found[i] += here[i].min(4));
+                for (found, here) in found.iter_mut().zip(here) {
+                    *found += here.min(4);
+                }
                 let turned = draws == Windings::Both && self.rng.chance(2);
                 let [a, b, c] = corners;
                 questions.push(if turned { [a, c, b] } else { corners });
@@ -196,6 +201,7 @@ impl Bench<'_> {
         let (from, third) = (point(-700, 700), point(-1000, 1000));
         let ahead = [0, 1].map_array(|axis| pixel[axis] + at[axis] - from[axis]);
         let [x, y, step] = [ahead[0], ahead[1], unit].map_array(i64::from);
+        // The next point of the grid on the line through the sample.
         let times = unit / greatest_divisor(greatest_divisor(x, y), step) as i32;
         // Once more where that is the sample itself.
         let times = if times == 1 { 2 } else { times };

@@ -12,15 +12,33 @@ const SHARE: u32 = 3;
 /// program does else is small beside a picture that is turned over.
 pub(super) fn mirror_of(answers: &[TriangleAnswer], window: PixelRect) -> Mirror {
     let own = TriangleConvention::default();
-    let wrong = |mirror: Mirror| -> u32 {
-        let one = |answer: &TriangleAnswer| {
-            let drawn = answer.drawn.mirrored(mirror, window);
-            let expected = own.mask(&answer.corners, window).unwrap_or_default();
-            expected.beyond(&drawn) + drawn.beyond(&expected)
-        };
-        answers.iter().filter(|answer| !answer.drawn.is_empty()).map(one).sum()
-    };
-    let as_is = wrong(Mirror::None);
-    let best = Mirror::ALL.into_iter().min_by_key(|mirror| wrong(*mirror));
-    best.filter(|mirror| SHARE * wrong(*mirror) < as_is).unwrap_or(Mirror::None)
+    let as_is = wrong_pixels(answers, window, &own, Mirror::None);
+    // The first of equal ones.
+    let (mut best, mut least) = (Mirror::None, as_is);
+    for mirror in Mirror::ALL {
+        let wrong = wrong_pixels(answers, window, &own, mirror);
+        if wrong < least {
+            (best, least) = (mirror, wrong);
+        }
+    }
+    if SHARE * least < as_is { best } else { Mirror::None }
+}
+
+/// Pixels that are wrong if pictures come out of such a mirror; those of empty pictures are not counted.
+fn wrong_pixels(
+    answers: &[TriangleAnswer],
+    window: PixelRect,
+    own: &TriangleConvention,
+    mirror: Mirror,
+) -> u32 {
+    let mut wrong = 0;
+    for answer in answers {
+        if answer.drawn.is_empty() {
+            continue;
+        }
+        let drawn = answer.drawn.mirrored(mirror, window);
+        let expected = own.mask(&answer.corners, window).unwrap_or_default();
+        wrong += expected.beyond(&drawn) + drawn.beyond(&expected);
+    }
+    wrong
 }

@@ -1,16 +1,23 @@
 //! Fills and strokes that visit the cells that an edge passes: coverage by signed areas, and all that is touched. Points are in
 //! pixels.
+//!
+//! # Areas
+//!
+//! A side of a polygon cuts off the part of each row that lies left of it. Walking along the sides, each cell gets two sums: the height
+//! that the side covers in it, which is the same in all cells right of it, and the area that is left out in the cell itself. From left to
+//! right, the coverage of a cell is the sum of heights so far, less its own area. Two sides of a polygon, one downwards and one upwards,
+//! leave what lies between them.
 
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
 pub(super) type Place = [f64; 2];
 
 /// The corners in pixels, in their order.
 pub(super) fn places(corners: &Corners) -> [Place; 3] {
-    corners.map_array(|SubpixelPoint { x, y }| [x, y].map_array(|v| f64::from(v) / 256.0))
+    corners.map_array(|p| [f64::from(p.x) / 256.0, f64::from(p.y) / 256.0])
 }
 
 /// Least coverages that are drawn, of 255.
@@ -28,29 +35,31 @@ pub(super) fn least_said(least: i64) -> String {
 /// where the coverage is at least this. The area is shifted before its sign is lost, so that the least area of one winding counts.
 pub(super) fn by_area(polygon: &[Place], window: PixelRect, least: i64) -> Mask {
     let [wide, high] = [window.x1, window.y1];
-    // What a cell adds to the height right of it, and twice the area left out in it.
-    let mut cells = vec![[0; 2]; (wide as usize + 1) * (high as usize + 1)];
+    let mut cells = vec![Cell::default(); (wide as usize + 1) * (high as usize + 1)];
     for (i, from) in polygon.iter().enumerate() {
         let side = [*from, polygon[(i + 1) % polygon.len()]];
-        let points = within(side, [wide, high].map_array(f64::from));
+        let points = within(side, [f64::from(wide), f64::from(high)]);
         for ends in points.windows(2) {
-            let [[x0, y0], [x1, y1]] =
+            let [from, to] =
                 [ends[0], ends[1]].map_array(|p| p.map_array(|v| (v * 256.0).round() as i64));
-            pieces([y0, y1], [x0, x1], &mut |row, of_row, [x0, x1]| {
-                pieces([x0, x1], of_row, &mut |column, [from, to], [y0, y1]| {
-                    let at = (row * (i64::from(wide) + 1) + column) as usize;
-                    if let Some([height, area]) = cells.get_mut(at) {
-                        *height += y1 - y0;
-                        *area += (from + to) * (y1 - y0);
+            // A side is cut at whole rows first, and each part of it at whole columns.
+            for of_row in pieces([from[1], to[1]], [from[0], to[0]]) {
+                for Piece { cell, along, across } in pieces(of_row.across, of_row.along) {
+                    let at = (of_row.cell * (i64::from(wide) + 1) + cell) as usize;
+                    let height = across[1] - across[0];
+                    if let Some(cell) = cells.get_mut(at) {
+                        cell.height += height;
+                        cell.area += (along[0] + along[1]) * height;
                     }
-                });
-            });
+                }
+            }
         }
     }
     let mut mask = Mask::default();
     for (y, row) in (0..high).zip(cells.chunks(wide as usize + 1)) {
+        // The height of the sides so far: what lies right of them is covered by as much.
         let mut height = 0;
-        for (x, [more, area]) in (0..wide).zip(row) {
+        for (x, Cell { height: more, area }) in (0..wide).zip(row) {
             height += more;
             if ((512 * height - area) >> 9).abs().min(255) >= least {
                 mask.set(x, y);
@@ -58,6 +67,15 @@ pub(super) fn by_area(polygon: &[Place], window: PixelRect, least: i64) -> Mask 
         }
     }
     mask
+}
+
+/// What sides add in a cell.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    /// To the height right of it.
+    height: i64,
+    /// Twice the area that is left out in it.
+    area: i64,
 }
 
 /// What an edge becomes within the window: what is left or right of it runs along its sides.
@@ -70,36 +88,57 @@ fn within([a, b]: [Place; 2], [wide, high]: Place) -> Vec<Place> {
         let other = 1 - axis;
         a[other] + (place - a[axis]) * (b[other] - a[other]) / (b[axis] - a[axis])
     };
+    // What lies above or below the window adds nothing.
     let [from, to] = [a, b].map_array(|p| match p[1].clamp(0.0, high) {
         y if y == p[1] => p,
         y => [at(1, y), y],
     });
+    // The sides that it crosses come in the order in which it passes them.
     let mut sides = [0.0, wide];
     if to[0] < from[0] {
         sides.reverse();
     }
     let (least, most) = (from[0].min(to[0]), from[0].max(to[0]));
-    let crossed = sides.into_iter().filter(|side| least < *side && *side < most);
     let mut all = vec![from];
-    all.extend(crossed.map(|side| [side, at(0, side)]));
+    for side in sides {
+        if least < side && side < most {
+            all.push([side, at(0, side)]);
+        }
+    }
     all.push(to);
-    all.iter().map(|[x, y]| [x.clamp(0.0, wide), *y]).collect()
+    for [x, _] in &mut all {
+        *x = x.clamp(0.0, wide);
+    }
+    all
 }
 
-/// Cuts an edge at whole pixels of the first axis; each part has its cell, its ends within this, and those along the other axis,
-/// which are rounded down from the first end of the edge.
-fn pieces([u0, u1]: [i64; 2], [v0, v1]: [i64; 2], part: &mut dyn FnMut(i64, [i64; 2], [i64; 2])) {
-    let [first, last] = [u0, u1].map_array(|u| u >> 8);
+/// A part of an edge in a cell, in 1/256 px.
+struct Piece {
+    cell: i64,
+    /// Its ends along the axis of the cells, from the beginning of the cell.
+    along: [i64; 2],
+    /// Its ends along the other axis.
+    across: [i64; 2],
+}
+
+/// Cuts an edge at whole pixels of the first axis. The ends along the other axis are rounded down from the first end of the edge.
+fn pieces([u0, u1]: [i64; 2], [v0, v1]: [i64; 2]) -> Vec<Piece> {
+    let (first, last) = (u0 >> 8, u1 >> 8);
     let (long, rise) = ((u1 - u0).abs().max(1), v1 - v0);
     let step = if last < first { -1 } else { 1 };
+    let mut pieces = Vec::new();
     let (mut cell, mut from, mut at) = (first, u0, v0);
     while cell != last {
+        // The side where the edge leaves the cell, and its height there.
         let side = 256 * (cell + i64::from(step > 0));
         let next = v0 + ((side - u0).abs() * rise).div_euclid(long);
-        part(cell, [from, side].map_array(|u| u - 256 * cell), [at, next]);
+        let along = [from - 256 * cell, side - 256 * cell];
+        pieces.push(Piece { cell, along, across: [at, next] });
         (cell, from, at) = (cell + step, side, next);
     }
-    part(cell, [from, u1].map_array(|u| u - 256 * cell), [at, v1]);
+    let along = [from - 256 * cell, u1 - 256 * cell];
+    pieces.push(Piece { cell, along, across: [at, v1] });
+    pieces
 }
 
 /// The least step of a walk along an edge, in pixels.
@@ -124,6 +163,7 @@ pub(super) fn touched([mut a, mut b]: [Place; 2], window: PixelRect, open: f64) 
             mask.set(x as i32, y as i32);
         }
     };
+    // An edge that does not leave a column or a row is walked along it.
     // In one column or one row.
     for axis in [0, 1] {
         let along = 1 - axis;
@@ -153,6 +193,7 @@ pub(super) fn touched([mut a, mut b]: [Place; 2], window: PixelRect, open: f64) 
         y -= x * slope;
         x = 0.0;
     }
+    // The walk begins and ends where the edge enters the window and leaves it.
     let (near, far) = if slope > 0.0 { (0.0, high) } else { (high, 0.0) };
     let y_end = y + (end - x) * slope;
     if (y - near) * slope < 0.0 {
@@ -162,6 +203,7 @@ pub(super) fn touched([mut a, mut b]: [Place; 2], window: PixelRect, open: f64) 
     if (y_end - far) * slope > 0.0 {
         end = end.min(x + (far - y) / slope);
     }
+    // From pixel to pixel: through its right side, or through its upper or lower one.
     while x < end {
         let row = y.floor();
         light(x, y);

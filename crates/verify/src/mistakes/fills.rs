@@ -1,7 +1,14 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
+//!
+//! # Edge functions
+//!
+//! The edge from (x0, y0) to (x1, y1) has the function (x1 - x0) (y - y0) - (y1 - y0) (x - x0), which is twice the signed area of the
+//! triangle of both ends and the point (x, y). It is positive on one side of the edge and negative on the other. Times the sign of the
+//! triangle's own area, it is positive inside for both windings. From (0, 0) to (256, 0), one pixel to the right, the point (128, 128) has
+//! 256 x 128 = 32,768: half a square pixel, as there are 65,536 square subpixels in one.
 
-use super::values::rounded;
-use crate::convention::{Mask, Ties, TriangleConvention, facing};
+use super::format::rounded;
+use crate::convention::{Mask, TriangleConvention, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::{self, centre, twice_area};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -9,22 +16,121 @@ use rasterproof_core::triangle::Corners;
 
 pub(super) type Point = [i64; 2];
 
+/// The corners as numbers of 64 bits, in which differences do not overflow.
 pub(super) fn points(corners: &Corners) -> [Point; 3] {
     corners.map_array(|c| [i64::from(c.x), i64::from(c.y)])
 }
 
+/// A point that came from corners, or from between them: its coordinates fit in 32 bits.
+fn narrow([x, y]: Point) -> SubpixelPoint {
+    SubpixelPoint::new(x as i32, y as i32)
+}
+
 /// Every pixel of the window of whose sample it is true.
-fn each_sample(window: PixelRect, sample: [i32; 2], is_in: &dyn Fn(Point) -> bool) -> Mask {
-    let [sx, sy] = sample.map_array(i64::from);
+pub(super) fn each_sample(
+    window: PixelRect,
+    [sx, sy]: [i32; 2],
+    is_in: &dyn Fn(Point) -> bool,
+) -> Mask {
     let mut mask = Mask::default();
     for y in window.y0..window.y1 {
         for x in window.x0..window.x1 {
-            if is_in([i64::from(x) * 256 + sx, i64::from(y) * 256 + sy]) {
+            let at = [i64::from(x) * 256 + i64::from(sx), i64::from(y) * 256 + i64::from(sy)];
+            if is_in(at) {
                 mask.set(x, y);
             }
         }
     }
     mask
+}
+
+/// Whether a pixel lies in the window and is drawn.
+pub(super) fn has_within(mask: &Mask, window: PixelRect, [x, y]: [i32; 2]) -> bool {
+    window.contains(x, y) && mask.has(x, y)
+}
+
+/// The box around the pixels of a window that are drawn; nothing where none is.
+pub(super) fn drawn_box(mask: &Mask, window: PixelRect) -> Option<PixelRect> {
+    let mut around: Option<PixelRect> = None;
+    for y in window.y0..window.y1 {
+        let Some([first, end]) = span(mask, window, y) else { continue };
+        // Rows come in order, so this one is the lowest so far.
+        around = Some(match around {
+            None => PixelRect { x0: first, y0: y, x1: end, y1: y + 1 },
+            Some(b) => PixelRect { x0: b.x0.min(first), y0: b.y0, x1: b.x1.max(end), y1: y + 1 },
+        });
+    }
+    around
+}
+
+/// The first pixel of a row and one past the last; nothing where the row is empty.
+fn span(mask: &Mask, window: PixelRect, y: i32) -> Option<[i32; 2]> {
+    let mut columns = (window.x0..window.x1).filter(|&x| mask.has(x, y));
+    let first = columns.next()?;
+    Some([first, columns.next_back().unwrap_or(first) + 1])
+}
+
+/// Draws the pixels of a row from one column on and before another, as far as they lie in the window.
+fn fill_row(mask: &mut Mask, window: PixelRect, y: i64, from: i64, end: i64) {
+    if !(0..i64::from(window.y1)).contains(&y) {
+        return;
+    }
+    let wide = i64::from(window.x1);
+    for x in from.clamp(0, wide)..end.clamp(0, wide) {
+        mask.set(x as i32, y as i32);
+    }
+}
+
+/// An edge of a triangle: its function a (x - x0) + b (y - y0) is positive inside, in 1/65536 square pixels.
+#[derive(Clone, Copy)]
+struct Edge {
+    /// The end where it begins.
+    from: Point,
+    a: i64,
+    b: i64,
+    /// Whether the rule gives it the samples that lie on it.
+    owns: bool,
+    /// Whether all products fit in 64 bits, as those of most triangles do.
+    is_near: bool,
+}
+
+impl Edge {
+    /// The edge function at a point.
+    fn value(&self, at: Point) -> i128 {
+        let [x, y] = [at[0] - self.from[0], at[1] - self.from[1]];
+        if self.is_near {
+            return i128::from(self.a * x + self.b * y);
+        }
+        i128::from(self.a) * i128::from(x) + i128::from(self.b) * i128::from(y)
+    }
+
+    /// Whether the point lies inside, or on the edge where the rule gives it that.
+    fn covers(&self, at: Point) -> bool {
+        let value = self.value(at);
+        value > 0 || (value == 0 && self.owns)
+    }
+}
+
+/// The edges of a triangle; one without area is taken for counterclockwise.
+fn edges(corners: &Corners, base: &TriangleConvention) -> [Edge; 3] {
+    let points = points(corners);
+    let sign = if twice_area(corners) > 0 { 1 } else { -1 };
+    let is_near = points.as_flattened().iter().all(|v| v.abs() < 1 << 29);
+    [0, 1, 2].map_array(|i: usize| {
+        let [from, to] = [points[i], points[(i + 1) % 3]];
+        let [a, b] = [sign * (from[1] - to[1]), sign * (to[0] - from[0])];
+        let owns = match [a, b] {
+            // An edge without length faces nowhere.
+            [0, 0] => base.ties.edges == [true; 8],
+            _ => base.ties.edges[facing(a, b)],
+        };
+        Edge { from, a, b, owns, is_near }
+    })
+}
+
+/// Whether a triangle covers a point.
+fn covers(edges: &[Edge; 3], at: Point) -> bool {
+    edges.iter().all(|edge| edge.covers(at))
 }
 
 /// Fills by a test of each edge: its number in the given order, the edge function in 1/65536 square pixels, positive
@@ -35,55 +141,24 @@ pub(super) fn by_edges(
     base: &TriangleConvention,
     test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
-    if twice_area(corners) == 0 {
-        return Mask::default();
-    }
-    let owns = owned(corners, base);
-    by_all_edges(corners, window, base, &|values| {
-        values.iter().zip(owns).enumerate().all(|(i, (value, owns))| test(i, *value, owns))
-    })
+    let owns = edges(corners, base).map_array(|edge| edge.owns);
+    by_all_edges(corners, window, base, &|values| (0..3).all(|i| test(i, values[i], owns[i])))
 }
 
-/// Which edges of a triangle own the samples that lie on them; one without area is counterclockwise.
-fn owned(corners: &Corners, base: &TriangleConvention) -> [bool; 3] {
-    let (points, sign) = (points(corners), if twice_area(corners) > 0 { 1 } else { -1 });
-    [0, 1, 2].map_array(|i: usize| {
-        let [p, q] = [points[i], points[(i + 1) % 3]];
-        match [sign * (p[1] - q[1]), sign * (q[0] - p[0])] {
-            // An edge without length faces nowhere.
-            [0, 0] => base.ties.edges.iter().all(|owns| *owns),
-            [a, b] => base.ties.edges[facing(a, b)],
-        }
-    })
-}
-
-/// The samples whose three edge functions, positive inside, pass a test.
+/// The samples whose three edge functions, positive inside, pass a test; none of a triangle without area.
 pub(super) fn by_all_edges(
     corners: &Corners,
     window: PixelRect,
     base: &TriangleConvention,
     test: &dyn Fn([i128; 3]) -> bool,
 ) -> Mask {
-    let points = points(corners);
-    let sign = twice_area(corners).signum() as i64;
-    if sign == 0 {
+    if twice_area(corners) == 0 {
         return Mask::default();
     }
-    let edges = [0, 1, 2].map_array(|i: usize| {
-        let [p, q] = [points[i], points[(i + 1) % 3]];
-        (p, sign * (p[1] - q[1]), sign * (q[0] - p[0]))
-    });
-    // The products of most fit in 64 bits.
-    let is_near = points.as_flattened().iter().all(|v| v.abs() < 1 << 29);
-    each_sample(window, super::sample_of(base), &|at| {
-        test(edges.map_array(|(p, a, b)| {
-            let [x, y] = [at[0] - p[0], at[1] - p[1]];
-            match is_near {
-                true => i128::from(a * x + b * y),
-                false => i128::from(a) * i128::from(x) + i128::from(b) * i128::from(y),
-            }
-        }))
-    })
+    // All three values, since some tests need them together.
+    let [a, b, c] = edges(corners, base);
+    let sample = super::sample_of(base);
+    each_sample(window, sample, &|at| test([a.value(at), b.value(at), c.value(at)]))
 }
 
 /// A number in a word of so many bits, as it wraps around.
@@ -104,6 +179,7 @@ pub(super) struct Words {
 }
 
 impl Words {
+    /// The digits of a parameter of 'product overflows'.
     pub(super) fn of(p: i64) -> Self {
         Self {
             fraction: p / 100 % 10,
@@ -111,6 +187,24 @@ impl Words {
             knows_winding: p / 1000 % 2 == 1,
             products_alone: p >= 2000,
         }
+    }
+
+    /// A point with this many bits of fraction, rounded to the nearest.
+    fn point(&self, [x, y]: Point) -> [i128; 2] {
+        let unit = 256 >> self.fraction;
+        [x, y].map_array(|v| i128::from((v + unit / 2).div_euclid(unit)))
+    }
+
+    /// The sum of two products, in a word where sums have one.
+    fn sum(&self, v: i128) -> i128 {
+        if self.products_alone { v } else { wrap(v, self.bits) }
+    }
+
+    /// The edge function from a to b at c: each product wraps around.
+    fn cross(&self, [a, b, c]: [[i128; 2]; 3]) -> i128 {
+        let first = wrap((b[0] - a[0]) * (c[1] - a[1]), self.bits);
+        let second = wrap((b[1] - a[1]) * (c[0] - a[0]), self.bits);
+        self.sum(first - second)
     }
 }
 
@@ -121,91 +215,96 @@ pub(super) fn wrapping(
     base: &TriangleConvention,
     p: i64,
 ) -> Mask {
-    let Words { fraction, bits, knows_winding, products_alone } = Words::of(p);
-    let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
-    let points = points(corners).map_array(|p| p.map_array(cut));
-    let word = |v: i128| wrap(v, bits);
-    let sum = |v: i128| if products_alone { v } else { word(v) };
-    let cross = |a: [i128; 2], b: [i128; 2], c: [i128; 2]| {
-        sum(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
-    };
-    let [a, b, c] = points;
-    let area = if knows_winding { twice_area(corners) } else { cross(a, b, c) };
+    let words = Words::of(p);
+    let [a, b, c] = points(corners).map_array(|point| words.point(point));
+    let area = if words.knows_winding { twice_area(corners) } else { words.cross([a, b, c]) };
     if area == 0 {
         return Mask::default();
     }
     let sign = area.signum();
-    let small = |v: i128| v.signum() as i64;
+    // The rule follows from the direction of an edge, which its short coordinates have, too.
+    let sides = [[a, b], [b, c], [c, a]].map_array(|[p, q]| {
+        let x = (sign * (p[1] - q[1])).signum() as i64;
+        let y = (sign * (q[0] - p[0])).signum() as i64;
+        ([p, q], (x, y) != (0, 0) && base.ties.edges[facing(x, y)])
+    });
     each_sample(window, super::sample_of(base), &|at| {
-        let at = at.map_array(cut);
-        [[a, b], [b, c], [c, a]].iter().all(|&[p, q]| {
-            let value = sum(sign * cross(p, q, at));
-            let [x, y] = [sign * (p[1] - q[1]), sign * (q[0] - p[0])].map_array(small);
-            let owns = (x, y) != (0, 0) && base.ties.edges[facing(x, y)];
-            value > 0 || (value == 0 && owns)
-        })
+        let at = words.point(at);
+        for ([p, q], owns) in sides {
+            let value = words.sum(sign * words.cross([p, q, at]));
+            let is_inside = value > 0 || (value == 0 && owns);
+            if !is_inside {
+                return false;
+            }
+        }
+        true
     })
 }
 
 /// Corners in words of so many bits with so many of fraction: wrapped around or clamped.
 pub(super) fn in_words(corners: &Corners, clamps: bool, fraction: i64, bits: i64) -> Corners {
-    let most = 1_i64 << (bits - 1);
-    let word = |v: i32| {
-        let scaled = if fraction > 8 {
-            i64::from(v) << (fraction - 8)
-        } else {
-            i64::from(v) >> (8 - fraction)
-        };
-        let rest = if fraction < 8 { i64::from(v) & ((256 >> fraction) - 1) } else { 0 };
-        let kept = match clamps {
-            true => scaled.clamp(-most, most - 1),
-            false => wrap(scaled.into(), bits) as i64,
-        };
-        // What the word does not hold of the fraction is left as it was: grids have an entry of their own.
-        let back =
-            if fraction > 8 { kept >> (fraction - 8) } else { (kept << (8 - fraction)) + rest };
-        back as i32
-    };
+    let word = |v: i32| in_word(v.into(), clamps, fraction, bits);
     corners.map_array(|c| SubpixelPoint::new(word(c.x), word(c.y)))
+}
+
+/// A coordinate that went through such a word.
+fn in_word(v: i64, clamps: bool, fraction: i64, bits: i64) -> i32 {
+    // Bits that are lost below the word, and bits that it has below a subpixel.
+    // What the word does not hold of the fraction is left as it was: grids have an entry of their own.
+    let lost = (8 - fraction).max(0);
+    let rest = v & ((1 << lost) - 1);
+    let more = (fraction - 8).max(0);
+    let scaled = (v >> lost) << more;
+    let most = 1_i64 << (bits - 1);
+    let kept = match clamps {
+        true => scaled.clamp(-most, most - 1),
+        false => wrap(scaled.into(), bits) as i64,
+    };
+    (((kept >> more) << lost) + rest) as i32
 }
 
 /// The fan of what lies within the window; corners on its border are put on a grid of `step` subpixels.
 pub(super) fn clipped(corners: &Corners, window: PixelRect, step: i64, how: i64) -> Vec<Corners> {
     let mut polygon = points(corners).to_vec();
-    let [wide, high] = [i64::from(window.x1) * 256, i64::from(window.y1) * 256];
-    let inside = |p: Point, side: usize| match side {
-        0 => p[0],
-        1 => wide - p[0],
-        2 => p[1],
-        _ => high - p[1],
-    };
+    // One side of the window after the other cuts off what lies beyond it, as Sutherland and Hodgman do.
     for side in 0..4 {
         let mut kept = Vec::new();
         for (i, &from) in polygon.iter().enumerate() {
             let to = polygon[(i + 1) % polygon.len()];
-            let [u, v] = [inside(from, side), inside(to, side)];
+            let [u, v] = [inside_by(from, side, window), inside_by(to, side, window)];
             if u >= 0 {
                 kept.push(from);
             }
             if (u < 0) != (v < 0) {
                 // In doubles, as programs compute it.
                 let part = u as f64 / (u - v) as f64;
-                kept.push([0, 1].map_array(|axis| {
-                    let (from, way) = (from[axis] as f64, (to[axis] - from[axis]) as f64);
-                    let on_grid = |v: f64, cut: fn(f64) -> f64| cut(v / step as f64) * step as f64;
-                    let new = match how {
-                        0 => from + on_grid(part * way, f64::trunc),
-                        1 => on_grid(from + part * way, f64::round),
-                        _ => on_grid(from + part * way, f64::floor),
-                    };
-                    new as i64
-                }));
+                kept.push([0, 1].map_array(|axis| cut_at(from[axis], to[axis], part, step, how)));
             }
         }
         polygon = kept;
     }
-    let narrow = |p: Point| SubpixelPoint::new(p[0] as i32, p[1] as i32);
     (2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]].map_array(narrow)).collect()
+}
+
+/// How far inside a point is from a side of the window: left, right, upper, lower. Negative outside.
+fn inside_by(p: Point, side: usize, window: PixelRect) -> i64 {
+    match side {
+        0 => p[0],
+        1 => i64::from(window.x1) * 256 - p[0],
+        2 => p[1],
+        _ => i64::from(window.y1) * 256 - p[1],
+    }
+}
+
+/// A coordinate between two ends, brought to a step: by `how` its distance is cut, or it is rounded, or cut down.
+fn cut_at(from: i64, to: i64, part: f64, step: i64, how: i64) -> i64 {
+    let (start, along, step) = (from as f64, part * (to - from) as f64, step as f64);
+    let cut = match how {
+        0 => start + (along / step).trunc() * step,
+        1 => ((start + along) / step).round() * step,
+        _ => ((start + along) / step).floor() * step,
+    };
+    cut as i64
 }
 
 /// The corners from top to bottom.
@@ -221,87 +320,123 @@ pub(super) fn middle_row(corners: &Corners) -> i64 {
 /// The pixels that programs look at around a triangle: from the first column to the last and from the first row to the last.
 /// The last ones hold the largest coordinates, or these are rounded up; or the ends are rounded to samples.
 pub(super) fn boxes(corners: &Corners) -> [[[i64; 2]; 2]; 3] {
-    let of = |least: i64, most: i64| {
-        let points = points(corners);
-        let mut axes = [[0; 2]; 2];
-        for (axis, ends) in axes.iter_mut().enumerate() {
-            let v = points.map_array(|p| p[axis]);
-            let (low, high) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
-            *ends = [(low + least).div_euclid(256), (high + most).div_euclid(256)];
-        }
-        axes
-    };
-    [of(0, 0), of(0, 255), of(127, -129)]
+    [(0, 0), (0, 255), (127, -129)].map_array(|(first, last)| {
+        [xs(corners), ys(corners)].map_array(|values| {
+            let [least, most] = ends_of(values).map_array(i64::from);
+            [(least + first).div_euclid(256), (most + last).div_euclid(256)]
+        })
+    })
 }
 
 /// The two halves, where the point on the long edge is put on a grid.
 pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
     let [top, middle, bottom] = sorted(corners);
-    let narrow = |p: Point| SubpixelPoint::new(p[0] as i32, p[1] as i32);
     let high = bottom[1] - top[1];
     if high == 0 || middle[1] == top[1] || middle[1] == bottom[1] {
         return vec![*corners];
     }
-    let (part, step) =
-        (i128::from(bottom[0] - top[0]) * i128::from(middle[1] - top[1]), i128::from(step));
-    let (part, whole) = (part + i128::from(top[0]) * i128::from(high), i128::from(high) * step);
-    let x =
-        if down { part.div_euclid(whole) } else { (2 * part + whole).div_euclid(2 * whole) } * step;
-    let cut = [x as i64, middle[1]];
+    // The x of the long edge there is the fraction `part / (high * step)`, in steps.
+    let step = i128::from(step);
+    let whole = i128::from(high) * step;
+    let part = i128::from(bottom[0] - top[0]) * i128::from(middle[1] - top[1])
+        + i128::from(top[0]) * i128::from(high);
+    let x = match down {
+        true => part.div_euclid(whole),
+        false => (2 * part + whole).div_euclid(2 * whole),
+    };
+    let cut = [(x * step) as i64, middle[1]];
     vec![[top, middle, cut].map_array(narrow), [middle, cut, bottom].map_array(narrow)]
 }
 
-/// A size of a triangle: twice its area in 1/65536 square pixels, or a length in subpixels.
-type Metric = fn(&Corners) -> i64;
+/// Something that is measured of triangles.
+pub(super) struct Metric {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    /// Twice an area in 1/65536 square pixels, or a length in subpixels.
+    pub(super) of: fn(&Corners) -> i64,
+}
 
-/// What may be measured, in which unit that is said, and how much it is.
-pub(super) const METRICS: [(&str, &str, Metric); 9] = [
-    ("area", "square px", |corners| {
-        i64::try_from(twice_area(corners).abs()).unwrap_or(i64::MAX / 32)
-    }),
-    ("width", "px", |corners| extent(xs(corners))),
-    ("height", "px", |corners| extent(ys(corners))),
-    ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
-    ("shorter side", "px", |corners| extent(xs(corners)).min(extent(ys(corners)))),
-    ("ratio of twice the area to the square of the longest side", "", |corners| {
-        let points = points(corners).map_array(|p| p.map_array(|v| v as f64));
-        let longest = (0..3)
-            .map(|i| {
-                let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
-                (bx - ax).powi(2) + (by - ay).powi(2)
-            })
-            .fold(1.0, f64::max);
-        (twice_area(corners).abs() as f64 / longest * RATIOS as f64) as i64
-    }),
-    ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
-    ("farthest x", "px", |corners| farthest(xs(corners))),
-    ("farthest y", "px", |corners| farthest(ys(corners))),
+impl Metric {
+    const fn new(name: &'static str, unit: &'static str, of: fn(&Corners) -> i64) -> Self {
+        Self { name, unit, of }
+    }
+}
+
+/// All that is measured: sizes first, and coordinates after them.
+pub(super) const METRICS: [Metric; 9] = [
+    Metric::new("area", "square px", largest_area),
+    Metric::new("width", "px", width),
+    Metric::new("height", "px", height),
+    Metric::new("longer side", "px", |corners| width(corners).max(height(corners))),
+    Metric::new("shorter side", "px", |corners| width(corners).min(height(corners))),
+    Metric::new("ratio of twice the area to the square of the longest side", "", thinness),
+    Metric::new("farthest coordinate", "px", |c| farthest(xs(c)).max(farthest(ys(c)))),
+    Metric::new("farthest x", "px", |corners| farthest(xs(corners))),
+    Metric::new("farthest y", "px", |corners| farthest(ys(corners))),
 ];
-/// The first of the metrics that are coordinates; those before it are sizes.
+/// Places in [`METRICS`]: the longer side; the first that is a coordinate, where those before it are sizes; and the ratio, which
+/// is no size and is counted in so many parts.
+pub(super) const LONGER_SIDE: usize = 3;
 pub(super) const FARTHEST: usize = 6;
-/// The one that is a ratio, in so many parts, and no size.
 pub(super) const RATIO: usize = 5;
 pub(super) const RATIOS: i64 = 1 << 20;
 
+/// One of [`METRICS`] of a triangle.
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
-    METRICS[which].2(corners)
+    (METRICS[which].of)(corners)
 }
 
-fn xs(corners: &Corners) -> [i32; 3] {
+/// Twice the area, or what limits can still be computed from where that is larger.
+fn largest_area(corners: &Corners) -> i64 {
+    i64::try_from(twice_area(corners).abs()).unwrap_or(i64::MAX / 32)
+}
+
+/// Twice the area over the square of the longest side, in parts of [`RATIOS`].
+fn thinness(corners: &Corners) -> i64 {
+    let points = points(corners);
+    let mut longest = 1.0_f64;
+    for (i, from) in points.iter().enumerate() {
+        let to = points[(i + 1) % 3];
+        let [dx, dy] = [0, 1].map_array(|axis| to[axis] as f64 - from[axis] as f64);
+        longest = longest.max(dx.powi(2) + dy.powi(2));
+    }
+    (twice_area(corners).abs() as f64 / longest * RATIOS as f64) as i64
+}
+
+/// In subpixels, as all lengths here.
+fn width(corners: &Corners) -> i64 {
+    extent(xs(corners))
+}
+
+fn height(corners: &Corners) -> i64 {
+    extent(ys(corners))
+}
+
+/// The first coordinates of the corners.
+pub(super) fn xs(corners: &Corners) -> [i32; 3] {
     corners.map_array(|c| c.x)
 }
 
-fn ys(corners: &Corners) -> [i32; 3] {
+/// The second coordinates of the corners.
+pub(super) fn ys(corners: &Corners) -> [i32; 3] {
     corners.map_array(|c| c.y)
 }
 
-fn extent(of: [i32; 3]) -> i64 {
-    let [least, most] = [of.into_iter().min(), of.into_iter().max()];
-    i64::from(most.unwrap_or(0)) - i64::from(least.unwrap_or(0))
+/// The least of three numbers and the largest.
+pub(super) fn ends_of([a, b, c]: [i32; 3]) -> [i32; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
-fn farthest(of: [i32; 3]) -> i64 {
-    of.map_array(|v| i64::from(v).abs()).into_iter().max().unwrap_or(0)
+/// The length that three coordinates span.
+pub(super) fn extent(of: [i32; 3]) -> i64 {
+    let [least, most] = ends_of(of).map_array(i64::from);
+    most - least
+}
+
+/// The largest distance of three coordinates from 0.
+pub(super) fn farthest(of: [i32; 3]) -> i64 {
+    let [least, most] = ends_of(of).map_array(i64::from);
+    least.abs().max(most.abs())
 }
 
 /// `value / of` with three digits that count.
@@ -327,24 +462,19 @@ pub(super) fn flat(corners: &Corners) -> Option<bool> {
     }
 }
 
-/// Positive where the middle corner lies right of the long edge.
+/// Positive where the middle corner lies right of the long edge; 0 where an edge is level.
 pub(super) fn middle_side(corners: &Corners) -> i64 {
-    let [top, middle, bottom] = sorted(corners).map_array(|p| p.map_array(i128::from));
-    if top[1] == middle[1] || middle[1] == bottom[1] { 0 } else { side(top, middle, bottom) }
+    let [top, middle, bottom] = sorted(corners);
+    if top[1] == middle[1] || middle[1] == bottom[1] { 0 } else { side_of_long(corners) }
 }
 
 /// The same where an edge is level: of two corners at one height, the one that is named first comes first.
 pub(super) fn side_of_long(corners: &Corners) -> i64 {
-    let [top, middle, bottom] = sorted(corners).map_array(|p| p.map_array(i128::from));
-    side(top, middle, bottom)
+    // The corners in this order turn clockwise where the middle one lies right.
+    twice_area(&sorted(corners).map_array(narrow)).signum() as i64
 }
 
-fn side(top: [i128; 2], middle: [i128; 2], bottom: [i128; 2]) -> i64 {
-    let cross =
-        (bottom[0] - top[0]) * (middle[1] - top[1]) - (bottom[1] - top[1]) * (middle[0] - top[0]);
-    -cross.signum() as i64
-}
-
+/// Whether a corner lies in the window or on its border.
 pub(super) fn holds(window: PixelRect, corner: SubpixelPoint) -> bool {
     (0..=window.x1 * 256).contains(&corner.x) && (0..=window.y1 * 256).contains(&corner.y)
 }
@@ -352,37 +482,26 @@ pub(super) fn holds(window: PixelRect, corner: SubpixelPoint) -> bool {
 /// See `ENDS` of the table.
 pub(super) fn ends(mask: &mut Mask, _: &Corners, window: PixelRect, which: i64) {
     let full = *mask;
-    let has = |x: i32, y: i32| window.contains(x, y) && full.has(x, y);
-    let rows: Vec<i32> =
-        (window.y0..window.y1).filter(|&y| (window.x0..window.x1).any(|x| has(x, y))).collect();
-    let columns: Vec<i32> =
-        (window.x0..window.x1).filter(|&x| (window.y0..window.y1).any(|y| has(x, y))).collect();
-    let (Some((&top, &bottom)), Some((&left, &right))) =
-        (rows.first().zip(rows.last()), columns.first().zip(columns.last()))
-    else {
-        return;
-    };
-    match which {
-        0 => mask.retain(window, &|_, y| y != top),
-        1 => mask.retain(window, &|_, y| y != bottom),
-        2 => mask.retain(window, &|x, y| has(x - 1, y)),
-        3 => mask.retain(window, &|x, y| has(x + 1, y)),
-        4 => mask.retain(window, &|x, _| x != left),
-        5 => mask.retain(window, &|x, _| x != right),
-        _ => {
-            for y in window.y0..window.y1 {
-                for x in window.x0..window.x1 {
-                    let added = match which {
-                        6 => has(x - 1, y),
-                        7 => has(x + 1, y),
-                        8 => y == bottom + 1 && has(x, y - 1),
-                        _ => y == top - 1 && has(x, y + 1),
-                    };
-                    if added {
-                        mask.set(x, y);
-                    }
-                }
-            }
+    let has = |x: i32, y: i32| has_within(&full, window, [x, y]);
+    let Some(PixelRect { x0: left, y0: top, x1, y1 }) = drawn_box(mask, window) else { return };
+    let [right, bottom] = [x1 - 1, y1 - 1];
+    for y in window.y0..window.y1 {
+        for x in window.x0..window.x1 {
+            let is_drawn = full.has(x, y);
+            let stays = match which {
+                0 => is_drawn && y != top,
+                1 => is_drawn && y != bottom,
+                2 => is_drawn && has(x - 1, y),
+                3 => is_drawn && has(x + 1, y),
+                4 => is_drawn && x != left,
+                5 => is_drawn && x != right,
+                // The others draw more than is right.
+                6 => is_drawn || has(x - 1, y),
+                7 => is_drawn || has(x + 1, y),
+                8 => is_drawn || (y == bottom + 1 && has(x, y - 1)),
+                _ => is_drawn || (y == top - 1 && has(x, y + 1)),
+            };
+            mask.put(x, y, stays);
         }
     }
 }
@@ -397,84 +516,142 @@ pub(super) fn without_border(mask: &mut Mask, window: PixelRect, which: i64) {
     });
 }
 
+/// What tests of tiles look at: the right picture, and the edges of the triangle.
+struct TileTest {
+    /// The picture without the mistake.
+    full: Mask,
+    window: PixelRect,
+    points: [Point; 3],
+    /// The sign of the area.
+    sign: i64,
+    /// The side of a tile, in pixels.
+    side: i32,
+}
+
+impl TileTest {
+    /// Whether a pixel is drawn, or beyond the window the last one before it.
+    fn has(&self, [x, y]: [i32; 2]) -> bool {
+        self.full.has(x.min(self.window.x1 - 1), y.min(self.window.y1 - 1))
+    }
+
+    /// The corners of a tile, or of its pixels where one is left out of the side.
+    fn corners([x, y]: [i32; 2], side: i32) -> [[i32; 2]; 4] {
+        [[x, y], [x + side, y], [x, y + side], [x + side, y + side]]
+    }
+
+    /// The pixels at the corners of a tile.
+    fn corner_pixels(&self, at: [i32; 2]) -> [[i32; 2]; 4] {
+        Self::corners(at, self.side - 1)
+    }
+
+    /// Whether no edge has the upper left corner of a pixel farther outside than this.
+    fn reaches(&self, [x, y]: [i32; 2], most_px: f64) -> bool {
+        let sign = self.sign as f64;
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (self.points[i], self.points[(i + 1) % 3]);
+            let [dx, dy] = [(bx - ax) as f64, (by - ay) as f64];
+            let [px, py] = [i64::from(x) * 256 - ax, i64::from(y) * 256 - ay];
+            let value = sign * (dx * py as f64 - dy * px as f64);
+            value >= -most_px * 256.0 * (dx * dx + dy * dy).sqrt()
+        })
+    }
+
+    /// Whether no edge has outside the corner pixel that lies farthest in, or in x or y farthest out.
+    fn is_inside(&self, [x, y]: [i32; 2], is_out: [bool; 2]) -> bool {
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (self.points[i], self.points[(i + 1) % 3]);
+            let [dx, dy] = [self.sign * (bx - ax), self.sign * (by - ay)].map_array(i128::from);
+            let far_x = if (dy < 0) != is_out[0] { self.side - 1 } else { 0 };
+            let far_y = if (dx > 0) != is_out[1] { self.side - 1 } else { 0 };
+            let [px, py] = [centre(x + far_x) - ax, centre(y + far_y) - ay].map_array(i128::from);
+            dx * py - dy * px >= 0
+        })
+    }
+
+    /// Whether a sample is covered, of which nothing is known of edges beyond the window.
+    fn covers(&self, [x, y]: [i32; 2]) -> bool {
+        if self.window.contains(x, y) {
+            return self.full.has(x, y);
+        }
+        let [px, py] = [centre(x), centre(y)];
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (self.points[i], self.points[(i + 1) % 3]);
+            let first = (bx - ax) as f64 * (py - ay) as f64;
+            let second = (by - ay) as f64 * (px - ax) as f64;
+            self.sign as f64 * (first - second) > 0.0
+        })
+    }
+
+    /// Whether one of the tests that the table names lets a tile be drawn.
+    fn is_kept(&self, test: i64, at: [i32; 2]) -> bool {
+        let [x, y] = at;
+        let middle = [x + self.side / 2, y + self.side / 2];
+        let pixels = self.corner_pixels(at);
+        match test {
+            0 => pixels.iter().any(|at| self.has(*at)),
+            1 => self.has(middle),
+            3 => Self::corners(at, self.side).iter().any(|at| self.reaches(*at, 0.0)),
+            4 => self.reaches(middle, f64::from(self.side) / 2.0),
+            5 => self.reaches(at, 0.0),
+            // Only its last column is lost, if any.
+            6 => false,
+            7 => pixels.iter().any(|at| has_within(&self.full, self.window, *at)),
+            8 => self.is_inside(at, [true, true]),
+            9 => self.is_inside(at, [true, false]),
+            10 => self.is_inside(at, [false, true]),
+            11 => self.covers(middle) || pixels.iter().any(|at| self.covers(*at)),
+            12 | 13 => pixels.iter().all(|at| self.covers(*at)),
+            14 => x + self.side <= self.window.x1 && y + self.side <= self.window.y1,
+            _ => self.has(at),
+        }
+    }
+
+    /// The last column of the triangle in a tile; none where the tile is full or empty.
+    fn last_column(&self, tile: PixelRect) -> Option<i32> {
+        // The last column that has a pixel is the one seen last.
+        let mut last = None;
+        let mut is_full = true;
+        for x in tile.x0..tile.x1 {
+            for y in tile.y0..tile.y1 {
+                match self.full.has(x, y) {
+                    true => last = Some(x),
+                    false => is_full = false,
+                }
+            }
+        }
+        last.filter(|_| !is_full)
+    }
+}
+
 /// Tiles of p mod 100 pixels, by one of the tests that the table names.
 pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i64) {
-    let (test, side, full) = (p / 100, (p % 100) as i32, *mask);
-    let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
-    let is_drawn = |x: i32, y: i32| window.contains(x, y) && full.has(x, y);
-    let (points, sign) = (points(corners), twice_area(corners).signum() as f64);
-    // Whether no edge has the point farther outside than this.
-    let holds = |x: i32, y: i32, most_px: f64| {
-        (0..3).all(|i| {
-            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
-            let [dx, dy] = [bx - ax, by - ay].map_array(|v| v as f64);
-            let [px, py] =
-                [i64::from(x) * 256 - ax, i64::from(y) * 256 - ay].map_array(|v| v as f64);
-            sign * (dx * py - dy * px) >= -most_px * 256.0 * (dx * dx + dy * dy).sqrt()
-        })
-    };
-    // Whether no edge has outside the corner pixel that lies farthest in, or in x or y farthest out.
-    let is_inside = |x: i32, y: i32, is_out: [bool; 2]| {
-        (0..3).all(|i| {
-            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
-            let [dx, dy] = [bx - ax, by - ay].map_array(|v| i128::from(v) * sign as i128);
-            let far = |is_last: bool| i32::from(is_last) * (side - 1);
-            let at = [x + far((dy < 0) != is_out[0]), y + far((dx > 0) != is_out[1])];
-            let at = at.map_array(centre);
-            dx * i128::from(at[1] - ay) - dy * i128::from(at[0] - ax) >= 0
-        })
-    };
-    // Whether a sample is covered, of which nothing is known of edges beyond the window.
-    let covers = |x: i32, y: i32| match window.contains(x, y) {
-        true => full.has(x, y),
-        false => points.into_iter().zip([1, 2, 0]).all(|([ax, ay], next)| {
-            let [bx, by] = points[next];
-            let [px, py] = [x, y].map_array(centre);
-            sign * ((bx - ax) as f64 * (py - ay) as f64 - (by - ay) as f64 * (px - ax) as f64) > 0.0
-        }),
-    };
-    let last = side - 1;
-    let corners_of = |x: i32, y: i32, side: i32| {
-        [(x, y), (x + side, y), (x, y + side), (x + side, y + side)].into_iter()
-    };
-    let is_kept = |x: i32, y: i32| match test {
-        0 => corners_of(x, y, last).any(|(x, y)| has(x, y)),
-        1 => has(x + side / 2, y + side / 2),
-        3 => corners_of(x, y, side).any(|(x, y)| holds(x, y, 0.0)),
-        4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
-        5 => holds(x, y, 0.0),
-        8 => is_inside(x, y, [true, true]),
-        9 => is_inside(x, y, [true, false]),
-        10 => is_inside(x, y, [false, true]),
-        7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
-        11 => {
-            covers(x + side / 2, y + side / 2) || corners_of(x, y, last).any(|(x, y)| covers(x, y))
-        }
-        12 | 13 => corners_of(x, y, last).all(|(x, y)| covers(x, y)),
-        14 => x + side <= window.x1 && y + side <= window.y1,
-        _ => has(x, y),
-    };
+    let (test, side) = (p / 100, (p % 100) as i32);
+    let sign = twice_area(corners).signum() as i64;
+    let tiles = TileTest { full: *mask, window, points: points(corners), sign, side };
     for y in (window.y0..window.y1).step_by(side as usize) {
         for x in (window.x0..window.x1).step_by(side as usize) {
-            let (mut rows, mut columns) =
-                (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
-            let mut kept = is_kept(x, y);
+            if tiles.is_kept(test, [x, y]) {
+                continue;
+            }
+            let mut lost = PixelRect {
+                x0: x,
+                y0: y,
+                x1: (x + side).min(window.x1),
+                y1: (y + side).min(window.y1),
+            };
+            // Some programs lose a column or a row of the tile alone.
             match test {
-                12 => columns = x + last..columns.end,
-                13 => rows = y + last..rows.end,
-                _ => (),
+                6 => match tiles.last_column(lost) {
+                    Some(last) => (lost.x0, lost.x1) = (last, last + 1),
+                    None => continue,
+                },
+                12 => lost.x0 = x + side - 1,
+                13 => lost.y0 = y + side - 1,
+                _ => {}
             }
-            if test == 6 {
-                // The last column of the triangle in a tile that is not full.
-                let count = |x: i32| rows.clone().filter(|&y| full.has(x, y)).count();
-                let is_full = columns.clone().all(|x| count(x) == rows.len());
-                let lost = columns.clone().rev().find(|&x| count(x) > 0).filter(|_| !is_full);
-                columns = lost.map_or(0..0, |x| x..x + 1);
-                kept = false;
-            }
-            if !kept {
-                for y in rows {
-                    columns.clone().for_each(|x| mask.put(x, y, false));
+            for y in lost.y0..lost.y1 {
+                for x in lost.x0..lost.x1 {
+                    mask.put(x, y, false);
                 }
             }
         }
@@ -499,42 +676,40 @@ pub(super) fn blocks(
     base: &TriangleConvention,
     p: i64,
 ) -> Mask {
-    let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
-    let sample = super::sample_of(base).map_array(i64::from);
+    let (wide, high, place) = (1 << (p % 5), 1 << (p / 5 % 5), p / 25);
     let mut mask = Mask::default();
-    let sign = twice_area(corners).signum() as i64;
-    if sign == 0 || [wide, high] == [1, 1] || (p / 25 == 4 && wide.min(high) == 1) {
+    // A block of one pixel is right, and one of a row or a column has no four corners.
+    if twice_area(corners) == 0 || wide.max(high) == 1 || (place == 4 && wide.min(high) == 1) {
         return mask;
     }
-    let (points, owns) = (points(corners), owned(corners, base));
-    let covers = |at: Point| {
-        (0..3).all(|i| {
-            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
-            let [dx, dy, x, y] = [bx - ax, by - ay, at[0] - ax, at[1] - ay].map(i128::from);
-            let value = i128::from(sign) * (dx * y - dy * x);
-            value > 0 || (value == 0 && owns[i])
-        })
-    };
-    let of = |x: i64, y: i64| covers([x * 256 + sample[0], y * 256 + sample[1]]);
-    let begin = |first: i32, side: i64| i64::from(first).div_euclid(side) * side;
-    for y in (begin(window.y0, high)..i64::from(window.y1)).step_by(high as usize) {
-        for x in (begin(window.x0, wide)..i64::from(window.x1)).step_by(wide as usize) {
-            let is_drawn = match p / 25 {
+    let edges = edges(corners, base);
+    // The sample of a pixel, inside the triangle or not.
+    let [sx, sy] = super::sample_of(base).map_array(i64::from);
+    let of = |x: i64, y: i64| covers(&edges, [x * 256 + sx, y * 256 + sy]);
+    // Blocks begin at multiples of their sides, so the first ones may begin before the window.
+    let begin_y = i64::from(window.y0).div_euclid(high) * high;
+    let begin_x = i64::from(window.x0).div_euclid(wide) * wide;
+    for y in (begin_y..i64::from(window.y1)).step_by(high as usize) {
+        for x in (begin_x..i64::from(window.x1)).step_by(wide as usize) {
+            let [right, bottom] = [x + wide - 1, y + high - 1];
+            let is_drawn = match place {
                 0 => of(x, y),
-                1 => covers([x * 256 + wide * 128, y * 256 + high * 128]),
-                2 => of(x + wide - 1, y + high - 1),
-                3 => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+                1 => covers(&edges, [x * 256 + wide * 128, y * 256 + high * 128]),
+                2 => of(right, bottom),
+                3 => (y..=bottom).any(|y| (x..=right).any(|x| of(x, y))),
                 _ => {
-                    let [right, bottom] = [x + wide - 1, y + high - 1];
                     let corners = [[x, y], [right, y], [x, bottom], [right, bottom]];
                     corners.iter().filter(|[x, y]| of(*x, *y)).count() >= 3
                 }
             };
-            let (rows, columns) =
-                (y..(y + high).min(window.y1.into()), x..(x + wide).min(window.x1.into()));
-            for y in rows.filter(|_| is_drawn || p / 25 == 4) {
-                for x in columns.clone().filter(|&x| is_drawn || of(x, y)) {
-                    mask.set(x as i32, y as i32);
+            if !is_drawn && place != 4 {
+                continue;
+            }
+            for y in y..(y + high).min(window.y1.into()) {
+                for x in x..(x + wide).min(window.x1.into()) {
+                    if is_drawn || of(x, y) {
+                        mask.set(x as i32, y as i32);
+                    }
                 }
             }
         }
@@ -542,49 +717,17 @@ pub(super) fn blocks(
     mask
 }
 
-/// Whether areas that the sample makes with the sides add up to the whole, in floats: p mod 2 is the precision, p / 2 mod 2 is
-/// whether areas are halved, and the rest is how far they may be off.
-pub(super) fn areas(
-    corners: &Corners,
-    window: PixelRect,
-    base: &TriangleConvention,
-    most: f64,
-    p: i64,
-) -> Mask {
-    let r = |v: f64| rounded(v, p % 2);
-    let [a, b, c] = points(corners).map_array(|p| p.map_array(|v| r(v as f64 / 256.0)));
-    let half = if p / 2 % 2 == 0 { 1.0 } else { 0.5 };
-    let area = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
-        let [px, py, qx, qy] = [p[0] - at[0], p[1] - at[1], q[0] - at[0], q[1] - at[1]].map(r);
-        r(r(px * qy) - r(py * qx)).abs() * half
-    };
-    let whole = area(b, c, a);
-    each_sample(window, super::sample_of(base), &|at| {
-        let at = at.map_array(|v| v as f64 / 256.0);
-        let sum = r(r(area(a, b, at) + area(b, c, at)) + area(c, a, at));
-        whole > 0.0 && r(sum - whole).abs() <= most
-    })
-}
-
-/// The first pixel of a row and one past the last; nothing where the row is empty.
-fn span(mask: &Mask, window: PixelRect, y: i32) -> Option<[i32; 2]> {
-    let mut columns = (window.x0..window.x1).filter(|&x| mask.has(x, y));
-    let first = columns.next()?;
-    Some([first, columns.next_back().unwrap_or(first) + 1])
-}
-
 /// Groups of 2, 4, 8 or 16 pixels, by p mod 4; see the table.
 pub(super) fn groups(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i64) {
-    let n = 2 << (p % 4);
-    let [[x0, x1], [y0, y1]] = boxes(corners)[0];
-    let seen = |low: i64, high: i64, end: i32| {
-        let end = i64::from(end);
-        [low.clamp(0, end) as i32, (high + 1).clamp(0, end) as i32]
-    };
-    let ([x0, x1], [y0, y1]) = (seen(x0, x1, window.x1), seen(y0, y1, window.y1));
+    let (n, kind) = (2 << (p % 4), p / 4);
+    // The box around the triangle, as far as the window shows it, and where its last whole groups end.
+    let [columns, rows] = boxes(corners)[0];
+    let [x0, x1] = shown(columns, window.x1);
+    let [y0, y1] = shown(rows, window.y1);
+    let whole_rows = y0 + (y1 - y0).max(0) / n * n;
     for y in window.y0..window.y1 {
         let Some([first, end]) = span(mask, window, y) else { continue };
-        let [start, stop] = match p / 4 {
+        let [start, stop] = match kind {
             0 => [first, first + (end - first) / n * n],
             1 => [(first + n - 1) / n * n, end],
             2 => [first, end / n * n],
@@ -593,22 +736,28 @@ pub(super) fn groups(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i
             5 => [first, window.x1 / n * n],
             6 => [first, first + (end - first + n - 1) / n * n],
             7 => [first / n * n, (end + n - 1) / n * n],
-            8 if y >= y0 + (y1 - y0).max(0) / n * n => [end, end],
+            8 if y >= whole_rows => [end, end],
             9 if y >= window.y1 / n * n => [end, end],
             10 => [first, x0 / n * n + (x1 - x0 / n * n).max(0) / n * n],
             11 => [first / n * n, end / n * n],
             _ => [first, end],
         };
+        let is_added = matches!(kind, 6 | 7 | 11);
         for x in window.x0..window.x1 {
-            let is_added = matches!(p / 4, 6 | 7 | 11);
             mask.put(x, y, start <= x && x < stop && (is_added || mask.has(x, y)));
         }
     }
 }
 
+/// From the first column or row to one past the last, as far as they lie before the end of the window.
+fn shown([first, last]: [i64; 2], end: i32) -> [i32; 2] {
+    let end = i64::from(end);
+    [first.clamp(0, end) as i32, (last + 1).clamp(0, end) as i32]
+}
+
 /// Sets of neighbours of a pixel, and how they are said.
 pub(super) const NEIGHBOURS: [(&[[i32; 2]], &str); 4] = [
-    (&[[1, 0], [-1, 0], [0, 1], [0, -1]], "its four neighbours"),
+    (&BESIDE, "its four neighbours"),
     (
         &[[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]],
         "its eight neighbours",
@@ -616,6 +765,8 @@ pub(super) const NEIGHBOURS: [(&[[i32; 2]], &str); 4] = [
     (&[[1, 0], [-1, 0]], "the pixels left and right of it"),
     (&[[0, 1], [0, -1]], "the pixels above and below it"),
 ];
+/// The steps to the pixels that share a side with one.
+pub(super) const BESIDE: [[i32; 2]; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 
 /// Pixels of which any neighbour is covered, or without those of which any is not; see the table.
 pub(super) fn grown(
@@ -626,6 +777,7 @@ pub(super) fn grown(
 ) -> Mask {
     let mut grown = base.mask(corners, window).unwrap_or_default();
     for [x, y] in NEIGHBOURS[(p / 2) as usize].0 {
+        // The neighbour of a pixel is covered where the triangle, moved the other way, covers the pixel.
         let beside = base.mask(&moved(corners, [-256 * x, -256 * y]), window).unwrap_or_default();
         if p % 2 == 0 {
             grown.add(&beside);
@@ -636,6 +788,7 @@ pub(super) fn grown(
     grown
 }
 
+/// A triangle moved by so many subpixels.
 fn moved(corners: &Corners, [x, y]: [i32; 2]) -> Corners {
     corners.map_array(|c| SubpixelPoint::new(c.x.saturating_add(x), c.y.saturating_add(y)))
 }
@@ -648,12 +801,14 @@ pub(super) fn alternating(
     p: i64,
 ) -> Mask {
     let [which, way, far] = [p % 4, p / 4 % 4, p / 16];
-    let by = [[1, 0], [-1, 0], [0, 1], [0, -1]][way as usize].map_array(|v| v * (128 << far));
+    // The other picture is right for a triangle that is moved the other way than the samples.
+    let by = BESIDE[way as usize].map_array(|v| v * (128 << far));
     let mut mask = base.mask(corners, window).unwrap_or_default();
     let other = base.mask(&moved(corners, by), window).unwrap_or_default();
     for y in window.y0..window.y1 {
         for x in window.x0..window.x1 {
-            if i64::from(if which < 2 { y } else { x } % 2) == which % 2 {
+            let number = if which < 2 { y } else { x };
+            if i64::from(number % 2) == which % 2 {
                 mask.put(x, y, other.has(x, y));
             }
         }
@@ -664,24 +819,25 @@ pub(super) fn alternating(
 /// What a search for covered pixels leaves out that ends too early; see the table.
 pub(super) fn searched(mask: &mut Mask, window: PixelRect, p: i64) {
     let full = *mask;
-    let mut is_ended = [false; 2];
+    // Whether a row had a pixel, and whether an empty row came after one.
+    let [mut has_begun, mut has_ended] = [false; 2];
     let [mut first, mut end] = [window.x0, window.x1];
     for y in window.y0..window.y1 {
-        let [from, to] = match span(&full, window, y) {
-            Some([from, to]) => {
-                is_ended[0] = true;
-                [from, to]
-            }
-            None => {
-                is_ended[1] |= is_ended[0];
-                continue;
-            }
+        let Some([from, to]) = span(&full, window, y) else {
+            has_ended |= has_begun;
+            continue;
         };
-        first = if p == 1 { first.max(from) } else { window.x0 };
-        end = if p == 2 { end.min(to) } else { window.x1 };
-        if (p == 0 && is_ended[1]) || first > from || end < to {
-            let is_lost = |x: i32| (p == 0 && is_ended[1]) || x < first || x >= end;
-            (from..to).filter(|x| is_lost(*x)).for_each(|x| mask.put(x, y, false));
+        has_begun = true;
+        // The search along a row begins, or ends, where that of the row before did.
+        match p {
+            1 => first = first.max(from),
+            2 => end = end.min(to),
+            _ => {}
+        }
+        for x in from..to {
+            if (p == 0 && has_ended) || x < first || x >= end {
+                mask.put(x, y, false);
+            }
         }
     }
 }
@@ -693,65 +849,67 @@ pub(super) fn slid(
     window: PixelRect,
     base: &TriangleConvention,
 ) {
-    let points = points(corners);
-    let left = points.iter().map(|p| p[0].div_euclid(256)).min().unwrap_or(0);
+    let left = i64::from(ends_of(xs(corners))[0]).div_euclid(256);
     if left >= i64::from(window.x0) || twice_area(corners) == 0 {
         return;
     }
-    let sign = twice_area(corners).signum();
-    let (owns, sample) = (owned(corners, base), super::sample_of(base));
+    let edges = edges(corners, base);
+    let [sx, sy] = super::sample_of(base).map_array(i64::from);
+    let [side, wide] = [window.x0, window.x1].map_array(i128::from);
     for y in window.y0..window.y1 {
         // The first sample on the inner side of every edge, and the one after the last.
         let [mut first, mut end] = [left, i64::MAX].map_array(i128::from);
-        for i in 0..3 {
-            let [p, q] = [points[i], points[(i + 1) % 3]].map_array(|p| p.map_array(i128::from));
-            let [a, b] = [sign * (p[1] - q[1]), sign * (q[0] - p[0])];
-            let at = i128::from(sample[0]) - p[0];
-            let rest = a * at + b * (256 * i128::from(y) + i128::from(sample[1]) - p[1]);
-            // It is drawn where 256 a x + rest is at least this.
-            let least = i128::from(!owns[i]) - rest;
-            match a.signum() {
-                1 => first = first.max(-(-least).div_euclid(256 * a)),
-                -1 => end = end.min((-least).div_euclid(-256 * a) + 1),
+        for edge in &edges {
+            // In column x the edge function is 256 a x more than in column 0, and drawn where it is at least this.
+            let least = i128::from(!edge.owns) - edge.value([sx, 256 * i64::from(y) + sy]);
+            let step = 256 * i128::from(edge.a);
+            match step.signum() {
+                1 => first = first.max(-(-least).div_euclid(step)),
+                -1 => end = end.min((-least).div_euclid(-step) + 1),
                 _ if least > 0 => end = first,
-                _ => (),
+                _ => {}
             }
         }
-        let side = i128::from(window.x0);
-        if first < side && end > side {
-            let more = (side - first).min(i128::from(window.x1)) as i32;
-            let end = end.min(i128::from(window.x1)) as i32;
-            (end..end.saturating_add(more).min(window.x1)).for_each(|x| mask.set(x, y));
-        } else if first < side && first < end {
-            let more = (end - first).min(i128::from(window.x1)) as i32;
-            (window.x0..more.min(window.x1)).for_each(|x| mask.set(x, y));
+        if first >= side || first >= end {
+            continue;
+        }
+        // A row that enters the window is longer by what lies before it; another one moves into it as it is.
+        let (from, last) = match end > side {
+            true => (end.min(wide), end.min(wide) + side - first),
+            false => (side, end - first),
+        };
+        for x in from..last.min(wide) {
+            mask.set(x as i32, y);
         }
     }
 }
 
 /// Which pixels are drawn twice; see the table.
 pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    let rows: Vec<i32> =
-        (window.y0..window.y1).filter(|&y| span(mask, window, y).is_some()).collect();
-    let column = rows.iter().filter_map(|&y| span(mask, window, y)).map(|span| span[1] - 1).max();
+    let Some(drawn) = drawn_box(mask, window) else { return *mask };
     let [[_, right], [_, low]] = boxes(corners)[0];
-    let has = |x: i32, y: i32| window.contains(x, y) && mask.has(x, y);
     let mut twice = *mask;
-    twice.retain(window, &|x, y| {
-        let span = || span(mask, window, y).unwrap_or_default();
-        match p {
-            0 => Some(&y) == rows.last(),
-            1 => Some(&y) == rows.first(),
-            2 => i64::from(y) == middle_row(corners),
-            3 => i64::from(y) == low.min(i64::from(window.y1) - 1),
-            4 => x == span()[0],
-            5 => x == span()[1] - 1,
-            6 => Some(x) == column,
-            7 => true,
-            9 => i64::from(x) == right.min(i64::from(window.x1) - 1),
-            _ => !(has(x - 1, y) && has(x + 1, y) && has(x, y - 1) && has(x, y + 1)),
+    for y in window.y0..window.y1 {
+        let Some([first, end]) = span(mask, window, y) else { continue };
+        for x in first..end {
+            let is_twice = match p {
+                0 => y == drawn.y1 - 1,
+                1 => y == drawn.y0,
+                2 => i64::from(y) == middle_row(corners),
+                3 => i64::from(y) == low.min(i64::from(window.y1) - 1),
+                4 => x == first,
+                5 => x == end - 1,
+                6 => x == drawn.x1 - 1,
+                7 => true,
+                9 => i64::from(x) == right.min(i64::from(window.x1) - 1),
+                // Pixels at the border: one neighbour at least is not drawn.
+                _ => !BESIDE.iter().all(|[dx, dy]| has_within(mask, window, [x + dx, y + dy])),
+            };
+            if !is_twice {
+                twice.put(x, y, false);
+            }
         }
-    });
+    }
     twice
 }
 
@@ -763,314 +921,116 @@ pub(super) fn cut_edges(
     base: &TriangleConvention,
     p: i64,
 ) -> Mask {
+    if twice_area(corners) == 0 && p < 8 {
+        return Mask::default();
+    }
     let step = [256, 128, 64, 16][(p % 4) as usize];
-    let sign = match twice_area(corners).signum() as i64 {
-        0 if p < 8 => return Mask::default(),
-        0 => -1,
-        sign => sign,
-    };
-    let (points, owns) = (points(corners), owned(corners, base));
-    let [[x0, _], [y0, _]] = boxes(corners)[0];
+    let whole = i128::from(256 * step);
     let sample = super::sample_of(base);
+    let [[x0, _], [y0, _]] = boxes(corners)[0];
     let start = [x0.max(0) * 256 + i64::from(sample[0]), y0.max(0) * 256 + i64::from(sample[1])];
-    let way = |[a, b]: [i64; 2], from: Point, to: Point| {
-        i128::from(a) * i128::from(to[0] - from[0]) + i128::from(b) * i128::from(to[1] - from[1])
-    };
-    let edges = [0, 1, 2].map_array(|i: usize| {
-        let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
-        let steps = [sign * (ay - by), sign * (bx - ax)].map_array(|v| v / step * step);
-        let value = way(steps, [ax, ay], start);
-        let whole = i128::from(256 * step);
-        (steps, if p % 8 < 4 { value } else { value / whole * whole })
+    // Each edge with its short steps, from the start on, and its value there.
+    let cut = edges(corners, base).map_array(|mut edge| {
+        edge.a = edge.a / step * step;
+        edge.b = edge.b / step * step;
+        let value = edge.value(start);
+        edge.from = start;
+        (edge, if p % 8 < 4 { value } else { value / whole * whole })
     });
     each_sample(window, sample, &|at| {
-        (0..3).all(|i| {
-            let (steps, value) = edges[i];
-            let value = value + way(steps, start, at);
-            value > 0 || (value == 0 && owns[i])
+        cut.iter().all(|(edge, value)| {
+            let value = value + edge.value(at);
+            value > 0 || (value == 0 && edge.owns)
         })
     })
 }
 
-/// What `float` computes.
-pub(super) const FORMULAS: [&str; 35] = [
-    "the edge function as a difference of two products",
-    "the edge function as a x + b y + c with c computed once",
-    "the edge function in steps that are added up pixel by pixel",
-    "barycentric weights that are divided by the area first",
-    "barycentric weights of which the third is 1 minus the others",
-    "barycentric weights times the reciprocal of the area, the third being 1 minus the others",
-    "the edge function with corners relative to the sample",
-    "the products of the edge function, of differences that are exact",
-    "the edge function with a fused multiplication and addition",
-    "barycentric weights from corners relative to the sample, divided by the area first",
-    "barycentric weights from corners relative to the sample, of which the third is 1 minus the others",
-    "barycentric weights from differences to the first corner, whose weight is 1 minus the others",
-    "barycentric weights from differences to the second corner, whose weight is 1 minus the others",
-    "barycentric weights from differences to the last corner, whose weight is 1 minus the others",
-    "barycentric weights from differences to the first corner, times the reciprocal of the area, its weight being 1 minus the others",
-    "barycentric weights from differences to the last corner, times the reciprocal of the area, its weight being 1 minus the others",
-    "barycentric weights from dot products of the edges, the first being 1 minus the others",
-    "barycentric weights from dot products of the edges and a reciprocal, the first being 1 minus the others",
-    "the edge function in steps that are added up from the first pixel of the box around the triangle on",
-    "the edge function as a x + b y + c with c computed once, of each edge from its upper end",
-    "the edge function with differences to the second end of each edge",
-    "two barycentric weights from differences to the first corner, whose sum may be 1 at most",
-    "two barycentric weights from differences to the last corner, whose sum may be 1 at most",
-    "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
-    "the edge function as a x + b y + c with an exact c that is rounded once",
-    "barycentric weights that are divided by the area, the first being 1 minus the others",
-    "barycentric weights that are divided by the area, the second being 1 minus the others",
-    "barycentric weights times the reciprocal of the area, the first being 1 minus the others",
-    "barycentric weights times the reciprocal of the area, the second being 1 minus the others",
-    "the edge function as a x + b y + c, where a and b are divided by the length of the edge",
-    "two barycentric weights from dot products of the edges and a reciprocal, whose sum may be 1 at most",
-    "two barycentric weights from differences to the first corner, of 0 at least, whose sum must be less than 1",
-    "two barycentric weights from differences to the last corner, of 0 at least, whose sum must be less than 1",
-    "two barycentric weights from dot products of the edges, of 0 at least, whose sum must be less than 1",
-    "two barycentric weights from dot products of the edges and a reciprocal, of 0 at least, whose sum must be less than 1",
-];
-
-/// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
-/// exchanged, or the sign of every value is.
-pub(super) fn float(
-    corners: &Corners,
-    window: PixelRect,
-    base: &TriangleConvention,
-    formula: usize,
-    exchanges: bool,
+/// Two halves with a level side each, row by row from the corner opposite to it, the lower one upwards.
+struct Halves {
+    /// See [`rounded`].
     precision: i64,
-) -> Mask {
-    let r = |v: f64| rounded(v, precision);
-    // The last ones have a rule of their own.
-    let has_rule = formula > 30;
-    if has_rule && Some(base.ties) != Ties::named("top-left") {
-        // Once is enough: no other base predicts anything else.
-        return Mask::default();
-    }
-    let formula = if has_rule { [21, 22, 23, 30][formula - 31] } else { formula };
-    let turns = twice_area(corners).signum() as i64;
-    if turns == 0 {
-        return Mask::default();
-    }
-    let points = points(corners);
-    let is_exact = matches!(formula, 7 | 24);
-    let px =
-        |p: Point| p.map_array(|v| if is_exact { v as f64 / 256.0 } else { r(v as f64 / 256.0) });
-    let mut ordered = points;
-    let sign = if turns < 0 && !exchanges { -1.0 } else { 1.0 };
-    if turns < 0 && exchanges {
-        ordered.swap(1, 2);
-    }
-    let edge = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
-        let [dx, dy] = [q[0] - p[0], q[1] - p[1]].map_array(r);
-        let [x, y] = [at[0] - p[0], at[1] - p[1]].map_array(r);
-        let second = r(dy * x);
-        // Products of two floats of 32 bits are exact in 64.
-        match (formula, precision) {
-            (8, 1) => dx.mul_add(y, -second),
-            (8, _) => r(dx * y - second),
-            _ => r(r(dx * y) - second),
-        }
-    };
-    let relative = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
-        let [p, q] = [p, q].map_array(|p| [r(p[0] - at[0]), r(p[1] - at[1])]);
-        r(r(p[0] * q[1]) - r(p[1] * q[0]))
-    };
-    let original = corners;
-    let corners = ordered.map_array(px);
-    let sides = [[0, 1], [1, 2], [2, 0]];
-    let owns = sides.map_array(|[i, j]| {
-        let [p, q] = [ordered[i], ordered[j]];
-        let turned = sign as i64;
-        match has_rule {
-            // The side opposite to the corner whose weight is left over.
-            true => i != if formula == 22 { 0 } else { 1 },
-            false => base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))],
-        }
-    });
-    // Weights that are divided by the area have its sign already.
-    let sign = if matches!(formula, 3..=5 | 9..=17 | 21..=23 | 25..=28 | 30) { 1.0 } else { sign };
-    let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
-    let [a, b, c] = corners;
-    let area = edge(a, b, c);
-    let at_sample = super::sample_of(base);
-    if matches!(formula, 2 | 18) {
-        let [[x0, _], [y0, _]] = boxes(original)[0];
-        let first = |v: i64, end: i32| {
-            if formula == 2 { 0 } else { v.clamp(0, i64::from(end)) as i32 }
-        };
-        let (x0, y0) = (first(x0, window.x1), first(y0, window.y1));
-        let start = px([x0 * 256 + at_sample[0], y0 * 256 + at_sample[1]].map_array(i64::from));
-        let mut mask = Mask::default();
-        let mut rows = sides.map_array(|[i, j]| edge(corners[i], corners[j], start));
-        let steps = sides.map_array(|[i, j]| {
-            [r(corners[i][1] - corners[j][1]), r(corners[j][0] - corners[i][0])]
-        });
-        for y in y0..window.y1 {
-            let mut values = rows;
-            for x in x0..window.x1 {
-                if (0..3).all(|i| passes(values[i], owns[i])) {
-                    mask.set(x, y);
-                }
-                for i in 0..3 {
-                    values[i] = r(values[i] + steps[i][0]);
-                }
-            }
-            for i in 0..3 {
-                rows[i] = r(rows[i] + steps[i][1]);
-            }
-        }
-        return mask;
-    }
-    let reciprocal = r(1.0 / area);
-    // The weights of two corners and what is left for a third one, each at the side opposite to its corner.
-    let is_sum = matches!(formula, 21..=23 | 30);
-    let opposite = |rest: usize, v: f64, w: f64| {
-        let mut values = [w; 3];
-        values[(rest + 1) % 3] = if is_sum { 1.0 - r(v + w) } else { r(r(1.0 - v) - w) };
-        values[(rest + 2) % 3] = v;
-        values
-    };
-    each_sample(window, at_sample, &|at| {
-        let at = px(at);
-        let values = match formula {
-            0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
-            1 | 19 | 24 | 29 => sides.map_array(|[i, j]| {
-                let [mut p, mut q] = [corners[i], corners[j]];
-                let turns = formula == 19 && p[1] > q[1];
-                if turns {
-                    (p, q) = (q, p);
-                }
-                let [mut a, mut b] = [r(p[1] - q[1]), r(q[0] - p[0])];
-                if formula == 29 {
-                    let length = r(r(r(a * a) + r(b * b)).sqrt());
-                    [a, b] = [a, b].map_array(|v| r(v * r(1.0 / length)));
-                }
-                let c = match formula {
-                    // Of coordinates that floats of 64 bits hold with their products.
-                    24 => r(p[0] * q[1] - p[1] * q[0]),
-                    _ => r(-r(r(a * p[0]) + r(b * p[1]))),
-                };
-                let value = r(r(r(a * at[0]) + r(b * at[1])) + c);
-                if turns { -value } else { value }
-            }),
-            3 => sides.map_array(|[i, j]| r(edge(corners[i], corners[j], at) / area)),
-            4 | 5 | 10 => {
-                let weight = |i: usize, j: usize| match formula {
-                    4 => r(edge(corners[i], corners[j], at) / area),
-                    5 => r(edge(corners[i], corners[j], at) * reciprocal),
-                    _ => r(relative(corners[i], corners[j], at) / area),
-                };
-                let [u, v] = [weight(1, 2), weight(2, 0)];
-                [r(r(1.0 - u) - v), u, v]
-            }
-            25..=28 => {
-                let rest = (formula - 25) % 2;
-                let weight = |i: usize| {
-                    let value = edge(corners[(i + 1) % 3], corners[(i + 2) % 3], at);
-                    if formula < 27 { r(value / area) } else { r(value * reciprocal) }
-                };
-                opposite(rest, weight((rest + 1) % 3), weight((rest + 2) % 3))
-            }
-            11..=15 | 21 | 22 => {
-                // Of which corner the weight is left over.
-                let rest =
-                    if formula > 20 { 2 * (formula - 21) } else { [0, 1, 2, 0, 2][formula - 11] };
-                let [a, b, c] = [0, 1, 2].map_array(|i| corners[(rest + i) % 3]);
-                let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
-                let [b, c, at] = [minus(b), minus(c), minus(at)];
-                let cross = |p: [f64; 2], q: [f64; 2]| r(r(p[0] * q[1]) - r(p[1] * q[0]));
-                let area = cross(b, c);
-                let part = |v: f64| match formula {
-                    14 | 15 => r(v * r(1.0 / area)),
-                    _ => r(v / area),
-                };
-                opposite(rest, part(cross(at, c)), part(cross(b, at)))
-            }
-            16 | 17 | 23 | 30 => {
-                let [a, b, c] = corners;
-                let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
-                let [b, c, at] = [minus(b), minus(c), minus(at)];
-                let dot = |p: [f64; 2], q: [f64; 2]| r(r(p[0] * q[0]) + r(p[1] * q[1]));
-                let [bb, bc, cc] = [dot(b, b), dot(b, c), dot(c, c)];
-                let [ab, ac] = [dot(at, b), dot(at, c)];
-                let whole = r(r(bb * cc) - r(bc * bc));
-                let part = |v: f64| {
-                    if matches!(formula, 17 | 30) { r(v * r(1.0 / whole)) } else { r(v / whole) }
-                };
-                let v = part(r(r(cc * ab) - r(bc * ac)));
-                opposite(0, v, part(r(r(bb * ac) - r(bc * ab))))
-            }
-            20 => sides.map_array(|[i, j]| edge(corners[j], corners[i], at)).map_array(|v| -v),
-            9 => sides.map_array(|[i, j]| r(relative(corners[i], corners[j], at) / area)),
-            _ => sides.map_array(|[i, j]| relative(corners[i], corners[j], at)),
-        };
-        (0..3).all(|i| passes(values[i], owns[i]))
-    })
+    /// How crossings and heights become pixels.
+    ends: i64,
+    rows: i64,
+    /// What is filled, and how far it can be seen.
+    window: PixelRect,
+    mask: Mask,
 }
 
-/// Two halves with a level side each, row by row from the corner opposite to it, the lower one upwards. The digits of p are the
-/// precision, how corners are cut, how crossings and heights become pixels, and whether the row of the level side belongs to the
-/// upper half and to the lower one.
-pub(super) fn halves(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    let [precision, whole, ends, rows, upper, lower] = HALVES.digits(p);
-    let r = |v: f64| rounded(v, precision);
-    let sorted = sorted(&corners.map_array(|c| {
-        let cut = |v: i32| match whole {
-            0 => v,
-            1 => v / 256 * 256,
-            _ => v.saturating_add(128).div_euclid(256) * 256,
-        };
-        SubpixelPoint::new(cut(c.x), cut(c.y))
-    }));
-    let [top, middle, bottom] = sorted.map_array(|p| p.map_array(|v| r(v as f64 / 256.0)));
-    let pixel = |v: f64, how: i64| match how {
-        0 => v.trunc(),
-        1 => v.floor(),
-        2 => (v + 0.5).floor(),
-        _ => (v - 0.5).ceil(),
-    };
-    let mut mask = Mask::default();
-    let mut fill = |y: i64, a: f64, b: f64| {
-        let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
-        let end = pixel(a.max(b), ends) + f64::from(u8::from(ends < 3));
-        for x in clamp(pixel(a.min(b), ends))..clamp(end) {
-            mask.set(x, y as i32);
+impl Halves {
+    fn round(&self, v: f64) -> f64 {
+        rounded(v, self.precision)
+    }
+
+    /// The pixel or the row of a place.
+    fn pixel(v: f64, how: i64) -> f64 {
+        match how {
+            0 => v.trunc(),
+            1 => v.floor(),
+            2 => (v + 0.5).floor(),
+            _ => (v - 0.5).ceil(),
         }
-    };
-    // From the row of a corner on to that of a level side.
-    let mut half = |tip: [f64; 2], a: [f64; 2], b: [f64; 2], with_last: bool| {
-        let [from, to] = [tip, a].map_array(|p| pixel(p[1], rows) as i64);
-        let down = a[1] >= tip[1];
+    }
+
+    /// What is added to x from row to row, walked down or up.
+    fn step(&self, tip: [f64; 2], p: [f64; 2], sign: f64) -> f64 {
+        self.round(self.round(p[0] - tip[0]) / self.round(p[1] - tip[1])) * sign
+    }
+
+    /// From the row of the corner `tip` on to that of the level side from a to b, which is drawn or not.
+    fn fill(&mut self, tip: [f64; 2], a: [f64; 2], b: [f64; 2], with_last: bool) {
+        // Rows are counted from the tip, up or down.
+        let from = Self::pixel(tip[1], self.rows) as i64;
+        let to = Self::pixel(a[1], self.rows) as i64;
+        let sign = if a[1] >= tip[1] { 1 } else { -1 };
         let count = (to - from).abs() + i64::from(with_last);
-        let seen = if down { from + count > 0 } else { from - count < window.y1.into() };
+        let seen = match sign {
+            1 => from + count > 0,
+            _ => from - count < self.window.y1.into(),
+        };
         if count > MOST_ROWS || !seen {
             return;
         }
-        let slope =
-            |p: [f64; 2]| r(r(p[0] - tip[0]) / r(p[1] - tip[1])) * if down { 1.0 } else { -1.0 };
-        let steps = [slope(a), slope(b)];
+        // Both crossings begin at the tip, so that their errors add up from there.
+        let steps = [self.step(tip, a, sign as f64), self.step(tip, b, sign as f64)];
         let mut at = [tip[0]; 2];
         for i in 0..count {
-            let y = if down { from + i } else { from - i };
-            if (0..i64::from(window.y1)).contains(&y) {
-                fill(y, at[0], at[1]);
-            }
-            at = [0, 1].map_array(|k: usize| r(at[k] + steps[k]));
+            let left = Self::pixel(at[0].min(at[1]), self.ends) as i64;
+            let right = Self::pixel(at[0].max(at[1]), self.ends) as i64;
+            // The pixel of the right end is drawn, unless it is the first sample beyond.
+            let end = right.saturating_add(i64::from(self.ends < 3));
+            fill_row(&mut self.mask, self.window, from + sign * i, left, end);
+            at = [self.round(at[0] + steps[0]), self.round(at[1] + steps[1])];
         }
+    }
+}
+
+/// The digits of p are the precision, how corners are cut, how crossings and heights become pixels, and whether the row of the
+/// level side belongs to the upper half and to the lower one.
+pub(super) fn halves(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let [precision, whole, ends, rows, upper, lower] = HALVES.digits(p);
+    let cut = |v: i32| match whole {
+        0 => v,
+        1 => v / 256 * 256,
+        _ => v.saturating_add(128).div_euclid(256) * 256,
     };
+    let sorted = sorted(&corners.map_array(|c| SubpixelPoint::new(cut(c.x), cut(c.y))));
+    let mut halves = Halves { precision, ends, rows, window, mask: Mask::default() };
+    let [top, middle, bottom] =
+        sorted.map_array(|p| p.map_array(|v| halves.round(v as f64 / 256.0)));
     if middle[1] == bottom[1] {
-        half(top, middle, bottom, upper == 1);
+        halves.fill(top, middle, bottom, upper == 1);
     } else if top[1] == middle[1] {
-        half(bottom, top, middle, lower == 1);
+        halves.fill(bottom, top, middle, lower == 1);
     } else {
+        // The point of the long edge at the height of the middle corner.
+        let r = |v: f64| rounded(v, precision);
         let part = r(r(middle[1] - top[1]) / r(bottom[1] - top[1]));
         let cut = [r(top[0] + r(part * r(bottom[0] - top[0]))), middle[1]];
-        half(top, middle, cut, upper == 1);
-        half(bottom, middle, cut, lower == 1);
+        halves.fill(top, middle, cut, upper == 1);
+        halves.fill(bottom, middle, cut, lower == 1);
     }
-    mask
+    halves.mask
 }
 
 /// Rows that are walked one by one, at most: what begins farther above the window is not expected.
@@ -1080,6 +1040,7 @@ pub(super) const MOST_ROWS: i64 = 1 << 16;
 pub(super) struct Digits<const N: usize>(pub(super) [i64; N]);
 
 impl<const N: usize> Digits<N> {
+    /// How many such numbers there are.
     pub(super) const fn count(&self) -> i64 {
         let (mut all, mut i) = (1, 0);
         while i < N {
@@ -1089,6 +1050,7 @@ impl<const N: usize> Digits<N> {
         all
     }
 
+    /// The digits of a number, the lowest first.
     pub(super) fn digits(&self, mut p: i64) -> [i64; N] {
         let mut digits = self.0;
         for digit in &mut digits {
@@ -1100,56 +1062,89 @@ impl<const N: usize> Digits<N> {
     }
 }
 
+/// The digits of `halves`.
 pub(super) const HALVES: Digits<6> = Digits([2, 3, 4, 4, 2, 2]);
+
+/// The loop over whole pixels of many libraries for small displays, by the bits of a parameter.
+struct WholePixels {
+    /// Corners are rounded, or else cut toward zero or down.
+    rounds: bool,
+    cuts_toward_zero: bool,
+    /// Corners wrap around in 16 bits.
+    wraps_corners: bool,
+    /// Divisions are cut down, and not toward zero.
+    divides_down: bool,
+    /// Products wrap around in 16 bits.
+    wraps_products: bool,
+    /// What goes wrong at the ends: 1, a flat top is filled from row 0 on; 2, the last row is missing; 3, the right end is.
+    ends: i64,
+}
+
+impl WholePixels {
+    /// The bits of a parameter of 'whole pixels by integer divisions'.
+    fn of(p: i64) -> Self {
+        Self {
+            rounds: p & 1 != 0,
+            divides_down: p & 2 != 0,
+            wraps_products: p & 4 != 0,
+            ends: p >> 3 & 3,
+            wraps_corners: p & 32 != 0,
+            cuts_toward_zero: p >> 6 != 0,
+        }
+    }
+
+    /// The pixel of a coordinate of a corner.
+    fn whole(&self, v: i64) -> i64 {
+        let whole = match self.rounds {
+            true => (v + 128).div_euclid(256),
+            false if self.cuts_toward_zero => v / 256,
+            false => v.div_euclid(256),
+        };
+        if self.wraps_corners { wrap(whole.into(), 16) as i64 } else { whole }
+    }
+
+    /// The x of an edge in a row; of an edge without height, that of a row below its upper end.
+    fn at(&self, [from, to]: [Point; 2], y: i64) -> i64 {
+        let product = (to[0] - from[0]) * (y - from[1]);
+        let product = if self.wraps_products { wrap(product.into(), 16) as i64 } else { product };
+        let dy = (to[1] - from[1]).max(1);
+        from[0] + if self.divides_down { product.div_euclid(dy) } else { product / dy }
+    }
+
+    /// Fills a row from one end to the other, in either order.
+    fn fill(&self, mask: &mut Mask, window: PixelRect, y: i64, a: i64, b: i64) {
+        fill_row(mask, window, y, a.min(b), a.max(b) + i64::from(self.ends != 3));
+    }
+}
 
 /// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, bits 3 and 4 are
 /// what goes wrong at the ends, bit 5 wraps corners in 16 bits, and bit 6 cuts corners toward zero.
 pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    let [rounds, down, short] = [0, 1, 2].map(|bit| p >> bit & 1 == 1);
-    let (ends, is_wrapped) = (p >> 3 & 3, p >> 5 & 1 == 1);
-    let whole = |v: i64| match (rounds, p >> 6) {
-        (true, _) => (v + 128).div_euclid(256),
-        (_, 0) => v.div_euclid(256),
-        _ => v / 256,
-    };
-    let whole = |v: i64| if is_wrapped { wrap(whole(v).into(), 16) as i64 } else { whole(v) };
-    let mut points = points(corners).map_array(|c| c.map_array(whole));
-    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
-        if points[i][1] > points[j][1] {
-            points.swap(i, j);
-        }
-    }
-    let [[x0, y0], [x1, y1], [x2, y2]] = points;
+    let how = WholePixels::of(p);
+    let whole = points(corners).map_array(|c| c.map_array(|v| how.whole(v)));
+    let [top, middle, bottom] = geometry::sorted(whole, |a, b| a[1] > b[1]);
     let mut mask = Mask::default();
-    let mut fill = |y: i64, a: i64, b: i64| {
-        let (left, right) = (a.min(b), a.max(b) + i64::from(ends != 3));
-        if (0..i64::from(window.y1)).contains(&y) {
-            let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
-            for x in clamp(left)..clamp(right) {
-                mask.set(x, y as i32);
-            }
-        }
-    };
-    if y0 == y2 {
-        fill(y0, x0.min(x1).min(x2), x0.max(x1).max(x2));
+    // All in one row.
+    if top[1] == bottom[1] {
+        let (least, most) = (top[0].min(middle[0]), top[0].max(middle[0]));
+        how.fill(&mut mask, window, top[1], least.min(bottom[0]), most.max(bottom[0]));
         return mask;
     }
-    let at = |x: i64, dx: i64, ahead: i64, dy: i64| {
-        let product = if short { wrap(i128::from(dx * ahead), 16) as i64 } else { dx * ahead };
-        x + if down { product.div_euclid(dy.max(1)) } else { product / dy.max(1) }
-    };
-    let last = if y1 == y2 { y1 } else { y1 - 1 };
-    // Only rows of the window can be seen.
-    let seen = |from: i64, to: i64| from.max(0)..=to.min(i64::from(window.y1) - 1);
-    for y in seen(y0, last) {
-        fill(y, at(x0, x1 - x0, y - y0, y1 - y0), at(x0, x2 - x0, y - y0, y2 - y0));
+    // The row of the middle corner belongs to the lower part, if there is one.
+    let is_pointed = middle[1] < bottom[1];
+    let upper_end = if is_pointed { middle[1] - 1 } else { middle[1] };
+    let mut parts = vec![([top, middle], top[1], upper_end)];
+    if is_pointed {
+        let from_the_top = how.ends == 1 && middle[1] == top[1];
+        let first = if from_the_top { 0 } else { middle[1] };
+        let last = if how.ends == 2 { bottom[1] - 1 } else { bottom[1] };
+        parts.push(([middle, bottom], first, last));
     }
-    if y1 < y2 {
-        let from_the_top = ends == 1 && y1 == y0;
-        let first = if from_the_top { 0 } else { y1 };
-        let end = if ends == 2 { y2 - 1 } else { y2 };
-        for y in seen(first, end) {
-            fill(y, at(x1, x2 - x1, y - y1, y2 - y1), at(x0, x2 - x0, y - y0, y2 - y0));
+    for (short, first, last) in parts {
+        // Only rows of the window can be seen.
+        for y in first.max(0)..=last.min(i64::from(window.y1) - 1) {
+            let ends = [how.at(short, y), how.at([top, bottom], y)];
+            how.fill(&mut mask, window, y, ends[0], ends[1]);
         }
     }
     mask
@@ -1179,6 +1174,7 @@ pub(super) const LAST_ROWS: [&str; 4] = [
 /// next, both included; p is one of `CROSSINGS`, eight times one of `LAST_ROWS`, and 32 times how corners are cut: down, toward zero,
 /// or to the nearest pixel.
 pub(super) fn crossings(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    // Corners are whole pixels from here on.
     let [kind, last] = [p % 8, p / 8 % 4];
     let whole = |v: i64| match p / 32 {
         0 => v.div_euclid(256),
@@ -1186,48 +1182,46 @@ pub(super) fn crossings(corners: &Corners, window: PixelRect, p: i64) -> Mask {
         _ => (v + 128).div_euclid(256),
     };
     let whole = points(corners).map_array(|c| c.map_array(whole));
-    let heights = whole.map_array(|c| c[1]);
-    let (low, high) =
-        (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
+    let (first, second, third) = (whole[0][1], whole[1][1], whole[2][1]);
+    let (low, high) = (first.min(second).min(third), first.max(second).max(third));
     let mut mask = Mask::default();
-    let mut fill = |y: i64, left: i64, right: i64| {
-        let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
-        for x in clamp(left)..clamp(right + 1) {
-            mask.set(x, y as i32);
-        }
-    };
     for y in low.max(0)..=high.min(i64::from(window.y1) - 1) {
         let mut found = Vec::with_capacity(4);
         for i in 0..3 {
             let (named, next) = (whole[i], whole[(i + 1) % 3]);
             let (from, to) = if named[1] <= next[1] { (named, next) } else { (next, named) };
+            // A level side has no crossing.
             if from[1] == to[1] {
                 if last >= 2 && y == from[1] {
-                    fill(y, from[0].min(to[0]), from[0].max(to[0]));
+                    fill_row(&mut mask, window, y, from[0].min(to[0]), from[0].max(to[0]) + 1);
                 }
                 continue;
             }
+            // A side has its upper end, and its lower one in the last row, where that is drawn.
             let is_last = matches!(last, 1 | 2) && y == high && from[1] < y && y <= to[1];
             if (from[1] <= y && y < to[1]) || is_last {
                 found.push(crossing(kind, from, to, next, y));
             } else if last == 3 && y == to[1] {
-                fill(y, to[0], to[0]);
+                fill_row(&mut mask, window, y, to[0], to[0] + 1);
             }
         }
+        // Crossings come in pairs, from left to right.
         found.sort_unstable();
         for pair in found.chunks_exact(2) {
-            let (left, right) = (pair[0], pair[1]);
-            match kind {
-                5 => {
-                    let nearest = |v: i64| (v >> 16) + ((v & 32768) >> 15);
-                    let (left, right) = (nearest(left + 1), nearest(right - 1));
-                    fill(y, left.min(right), left.max(right));
-                }
-                _ => fill(y, left, right),
+            let [mut left, mut right] = [pair[0], pair[1]];
+            if kind == 5 {
+                let (a, b) = (nearest_px(left + 1), nearest_px(right - 1));
+                (left, right) = (a.min(b), a.max(b));
             }
+            fill_row(&mut mask, window, y, left, right + 1);
         }
     }
     mask
+}
+
+/// The nearest pixel to a place in 1/65536 px.
+fn nearest_px(v: i64) -> i64 {
+    (v >> 16) + ((v & 32768) >> 15)
 }
 
 /// The pixel of a crossing; of kind 5 it is in 1/65536 px.
@@ -1241,12 +1235,14 @@ fn crossing(kind: i64, from: Point, to: Point, named: Point, y: i64) -> i64 {
         3 => (from[0] * dy + over) / dy,
         4 => (2 * (from[0] * dy + over) + dy) / (2 * dy),
         5 => (65536 * ahead / dy) * dx + 65536 * from[0],
+        // Counted from the end that is named last, whichever is higher.
         6 => {
             let other = if named == from { to } else { from };
             let [dx, dy] = [other[0] - named[0], other[1] - named[1]];
             (32 * named[0] + 32 * dx * (y - named[1]) / dy + 16) / 32
         }
         _ => {
+            // Rounded twice: the slope, and its product with the height.
             let slope = dx as f32 / dy as f32;
             (from[0] as f32 + slope * ahead as f32).round() as i64
         }

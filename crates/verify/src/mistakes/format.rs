@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::values::rounded;
 use crate::cases::facts::exponent;
 use crate::convention::Rounding;
 
@@ -52,6 +51,7 @@ impl Format {
     /// What a number becomes.
     #[must_use]
     pub fn of(self, v: f64) -> f64 {
+        // Powers of two, which have a bit pattern of their own.
         let power = |bits: i32| f64::from_bits(((1023 + bits).max(0) as u64) << 52);
         match self {
             Self::Exact => v,
@@ -72,6 +72,20 @@ impl Format {
     }
 }
 
+/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
+pub(super) fn rounded(v: f64, precision: i64) -> f64 {
+    match precision {
+        0 => f64::from(v as f32),
+        1 => v,
+        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
+        _ => {
+            // 10 bits after the first one, down to 2^-24: a sum with 1.5 x 2^52 such units has no others, halves to even.
+            let large = f64::from_bits(((exponent(v).max(-14) + 42 + 1023) as u64) << 52) * 1.5;
+            v + large - large
+        }
+    }
+}
+
 fn whole(v: f64, to: Rounding) -> f64 {
     match to {
         Rounding::Near => (v + 0.5).floor(),
@@ -85,6 +99,7 @@ fn whole(v: f64, to: Rounding) -> f64 {
 /// As it is said after 'in'.
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // How a number is brought to the format, after what the format is.
         let how = |to| match to {
             Rounding::Near => "rounded, halves up",
             Rounding::HalfEven => "rounded, halves to even",

@@ -11,6 +11,7 @@ mod cells;
 mod common;
 mod fills;
 mod format;
+mod formulas;
 mod id;
 mod lines;
 mod questions;
@@ -21,7 +22,7 @@ pub mod values;
 mod weigh;
 
 use std::borrow::Cow;
-use std::cell::{Cell, OnceCell};
+use std::cell::OnceCell;
 use std::fmt;
 use std::future::Future;
 
@@ -49,21 +50,26 @@ pub use weigh::{Hypothesis, chosen_by};
 
 /// An entry of a table.
 #[derive(Clone, Copy)]
+/// A mistake as a pure function: `draws` says for each parameter what a program draws that makes it.
 struct Mistake<D> {
     name: &'static str,
     /// What the program does, after 'it'; from the parameter.
     sentence: fn(i64) -> String,
+    /// What has to be changed in the program.
     repair: &'static str,
     /// The page that explains it, without `.md`.
     page: &'static str,
     /// An observation that would refute it.
     refuted: &'static str,
     parameters: Parameters,
+    /// [`Fill`] or [`Stroke`].
     draws: D,
 }
 
+/// With which parameters a mistake is tried.
 #[derive(Clone, Copy)]
 enum Parameters {
+    /// These.
     Fixed(&'static [i64]),
     /// The same, each of which shows from so many pixels on.
     Words(&'static [i64], fn(i64) -> i64),
@@ -83,18 +89,19 @@ enum Parameters {
 const fn border<D: Copy>(draws: D) -> Mistake<D> {
     Mistake {
         name: "the border of the window",
-        sentence: |p| {
-            format!(
-                "never draws the {} of the window",
-                ["first row", "last row", "first column", "last column"][p as usize]
-            )
-        },
+        sentence: border_said,
         repair: "the window ends after its last pixel: compare with the width and the height, not with one less",
         page: "ch11",
         refuted: "a pixel of it that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
         draws,
     }
+}
+
+/// p is the side of the window.
+fn border_said(p: i64) -> String {
+    let which = ["first row", "last row", "first column", "last column"][p as usize];
+    format!("never draws the {which} of the window")
 }
 
 /// A program whose answers are known, such as a published algorithm.
@@ -146,9 +153,10 @@ impl Explanation {
         Self { name, does, repair, page, refuted, wrong: none, right: none }
     }
 
+    /// Answers that it does not predict, wrong and right ones.
     fn missed(&self) -> usize {
-        let missed = |count: &Count| (count.of - count.drawn) as usize;
-        missed(&self.wrong) + missed(&self.right)
+        let missed = (self.wrong.of - self.wrong.drawn) + (self.right.of - self.right.drawn);
+        missed as usize
     }
 
     /// Whether it misses one answer of a hundred at most.
@@ -191,23 +199,41 @@ impl Mistakes {
     }
 
     fn is_learned(&self) -> bool {
-        self.learned.as_ref().is_some_and(|learned| learned.is_certain)
+        self.certain().is_some()
+    }
+
+    /// What was learned, where it is a certain cause.
+    fn certain(&self) -> Option<&Learned> {
+        self.learned.as_ref().filter(|learned| learned.is_certain)
+    }
+
+    /// How much of the answers a mistake explains, after 'this explains'.
+    fn share(explained: &Explanation) -> String {
+        let Explanation { wrong, right, .. } = explained;
+        let contradicted = right.of - right.drawn;
+        format!(
+            "{} of {} wrong answers and contradicts {contradicted} of {} right ones",
+            wrong.drawn, wrong.of, right.of
+        )
     }
 
     /// What the program does, after 'it': the first mistake that explains it, or what was learned.
     #[must_use]
     pub fn does(&self) -> Option<String> {
-        let known = self.causes.first().map(|cause| cause.does.clone());
-        known.or_else(|| self.learned.as_ref().filter(|learned| learned.is_certain)?.in_short())
+        match self.causes.first() {
+            Some(cause) => Some(cause.does.clone()),
+            None => self.certain()?.in_short(),
+        }
     }
 
     /// What was learned, after 'it', where it is no certain cause and still predicts most new answers, wrong and right ones.
     #[must_use]
     pub fn mostly_does(&self) -> Option<String> {
-        self.learned
-            .as_ref()
-            .filter(|learned| !learned.is_certain && learned.predicts_most())?
-            .in_short()
+        let learned = self.learned.as_ref()?;
+        if learned.is_certain || !learned.predicts_most() {
+            return None;
+        }
+        learned.in_short()
     }
 
     /// With what is learned where no mistake of the tables explains every answer. What was learned and predicts every answer is the
@@ -217,16 +243,17 @@ impl Mistakes {
             return self;
         }
         let learned = learn.await;
+        if self.causes.is_empty() {
+            return self.with_learned(learned);
+        }
         // What comes on top of another convention is no simpler than the mistake.
-        let is_better = |learned: &Learned| learned.is_certain && !learned.is_beyond;
-        match (self.causes.is_empty(), learned.as_ref().is_some_and(is_better)) {
-            (false, false) => self,
-            (false, true) => {
-                // Its repair is what mends the program all the same.
+        match learned {
+            Some(learned) if learned.is_certain && !learned.is_beyond => {
+                // The repair of the mistake is what mends the program all the same.
                 let lead = self.causes.first().cloned();
-                Self { causes: Vec::new(), lead, ..self }.with_learned(learned)
+                Self { causes: Vec::new(), lead, learned: Some(learned), ..self }
             }
-            (true, _) => self.with_learned(learned),
+            _ => self,
         }
     }
 
@@ -239,56 +266,71 @@ impl Mistakes {
     /// What is said of it: a sentence each. The first one says what the program does, or that this is not known.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
-        let share = |wrong: &Count, right: &Count| {
-            let contradicted = right.of - right.drawn;
-            format!(
-                "{} of {} wrong answers and contradicts {contradicted} of {} right ones",
-                wrong.drawn, wrong.of, right.of
-            )
-        };
+        match self.is_known() {
+            true => self.sentences_of_causes(),
+            false => self.sentences_of_unknown(),
+        }
+    }
+
+    /// What the causes do, how they are repaired, and what they explain.
+    fn sentences_of_causes(&self) -> Vec<String> {
         let mut said = Vec::new();
+        // The first causes of the tables, of which each explains the same.
         for (i, cause) in self.causes.iter().take(MOST_SAID).enumerate() {
             let it = if i == 0 { "It" } else { "Or it" };
             said.push(format!("{it} {}.", cause.does));
             if !cause.repair.is_empty() {
                 said.push(format!("Repair: {}.", cause.repair));
             }
-            said.push(format!("This explains {}.", share(&cause.wrong, &cause.right)));
+            said.push(format!("This explains {}.", Self::share(cause)));
         }
-        if let Some(learned) = self.learned.as_ref().filter(|learned| learned.is_certain) {
+        // What was learned, beside the nearest mistake of the tables.
+        if let Some(learned) = self.certain() {
             said.extend(learned.sentences());
-            let is_like =
-                |lead: &&Explanation| lead.explains_nearly_all() && !lead.repair.is_empty();
-            if let Some(lead) = self.lead.as_ref().filter(is_like) {
-                said.push(format!("The nearest known mistake is that it {}.", lead.does));
-                said.push(format!("Its repair: {}.", lead.repair));
+            match &self.lead {
+                Some(lead) if lead.explains_nearly_all() && !lead.repair.is_empty() => {
+                    said.push(format!("The nearest known mistake is that it {}.", lead.does));
+                    said.push(format!("Its repair: {}.", lead.repair));
+                }
+                _ => {}
             }
         }
-        if self.is_known() {
-            let more = self.causes.len().saturating_sub(MOST_SAID);
-            said.extend(match more {
-                0 => None,
-                1 => Some("One other cause explains the same.".to_owned()),
-                _ => Some(format!("{more} other causes explain the same.")),
-            });
-            said.extend(self.limits.iter().map(Threshold::to_string));
-            return said;
+        match self.causes.len().saturating_sub(MOST_SAID) {
+            0 => {}
+            1 => said.push("One other cause explains the same.".to_owned()),
+            more => said.push(format!("{more} other causes explain the same.")),
         }
+        self.add_limits(&mut said);
+        said
+    }
+
+    /// What is known all the same: limits, what wrong answers have in common, and the nearest mistake.
+    fn sentences_of_unknown(&self) -> Vec<String> {
+        // How many are wrong comes first, as no cause can be said.
         let Count { drawn, of } = self.wrong;
-        said.push(match drawn {
+        let mut said = vec![match drawn {
             0 => format!("None of {of} answers is wrong, but other ones are."),
             _ => {
                 format!("{drawn} of {of} answers are wrong, and no known mistake explains them.")
             }
-        });
-        said.extend(self.limits.iter().map(Threshold::to_string));
-        said.extend(self.common.iter().cloned());
-        said.extend(self.learned.iter().flat_map(Learned::sentences));
+        }];
+        self.add_limits(&mut said);
+        said.extend_from_slice(&self.common);
+        if let Some(learned) = &self.learned {
+            said.extend(learned.sentences());
+        }
         if let Some(lead) = &self.lead {
-            let explained = share(&lead.wrong, &lead.right);
+            let explained = Self::share(lead);
             said.push(format!("The nearest is that it {}: this explains {explained}.", lead.does));
         }
         said
+    }
+
+    /// A sentence for each limit.
+    fn add_limits(&self, said: &mut Vec<String>) {
+        for limit in &self.limits {
+            said.push(limit.to_string());
+        }
     }
 }
 
@@ -307,10 +349,12 @@ const MOST_ROUNDS: u64 = 6;
 /// Lines that are asked at once, so that a slow program can be left in time.
 const AT_ONCE: usize = 100;
 /// The questions are the same in every run.
+/// The first round; each further one has the next seed.
 const SEED: u64 = 1;
 
 /// A question with its answer.
 struct AnsweredQuestion<Q> {
+    /// What was asked.
     question: Q,
     drawn: Mask,
     /// Pixels that were hit more than once; none where that cannot be seen.
@@ -325,10 +369,12 @@ impl<Q> AnsweredQuestion<Q> {
         self.drawn.is_empty()
     }
 
+    /// Whether something else was drawn than what is right, or a pixel more than once.
     fn is_wrong(&self) -> bool {
         !self.is(self.right, Mask::default())
     }
 
+    /// Whether these pixels were drawn, and these of them more than once.
     fn is(&self, drawn: Mask, twice: Mask) -> bool {
         self.drawn == drawn && self.twice == twice
     }
@@ -346,7 +392,9 @@ impl AnsweredQuestion<TriangleQuestion> {
         let wrong = self.drawn.differs(&self.right);
         let extra = wrong.shared(&self.drawn);
         let mut missing = wrong.shared(&self.right);
-        fills::boxes(&self.question.corners).into_iter().for_each(|bounds| missing.clip(bounds));
+        for bounds in fills::boxes(&self.question.corners) {
+            missing.clip(bounds);
+        }
         [(extra, true), (missing, false)].map_array(|(mask, is_in)| Some((mask.first()?, is_in)))
     }
 
@@ -359,13 +407,21 @@ impl AnsweredQuestion<TriangleQuestion> {
     /// The same of what hits no pixel twice.
     fn may_be_once(&self, drawn: Mask) -> bool {
         let once = Mask::default();
-        self.is(drawn, once)
-            || self.drawn.beyond(&drawn) == 0
-                && fills::boxes(&self.question.corners).into_iter().any(|bounds| {
-                    let mut within = drawn;
-                    within.clip(bounds);
-                    self.is(within, once)
-                })
+        if self.is(drawn, once) {
+            return true;
+        }
+        // The boxes take pixels away, so that none may be missing before.
+        if self.drawn.beyond(&drawn) > 0 {
+            return false;
+        }
+        for bounds in fills::boxes(&self.question.corners) {
+            let mut within = drawn;
+            within.clip(bounds);
+            if self.is(within, once) {
+                return true;
+            }
+        }
+        false
     }
 }
 
@@ -380,56 +436,44 @@ pub async fn of_triangles(
     programs: &[Program<'_, TriangleQuestion, Coverage>],
     learn: Option<LearnTriangles>,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<AnsweredQuestion<TriangleQuestion>> = Vec::new();
+    // A convention that is certain is what the program means to do, and answers are judged by it.
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
-    let given = Cell::new(0);
-    let ask_all = async |questions: &[TriangleQuestion],
-                         answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
-        for (question, answer) in questions.iter().zip(asker.ask(questions).await) {
-            let right = expected.mask(&question.corners, question.window);
-            let Some(right) = right else { continue };
-            // What is not answered is not drawn.
-            let drawn = answer.filter(|a| a.bounds() == question.window);
-            given.set(given.get() + u64::from(drawn.is_some()));
-            let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
-            let twice = if known.mask { Mask::default() } else { hits(2) };
-            answered.push(AnsweredQuestion { question: *question, drawn: hits(1), twice, right });
-        }
-    };
+    let mut asked = AskedTriangles { asker, known, expected, answered: Vec::new(), given: 0 };
     // Where few answers are wrong, some more are needed.
     for seed in SEED..SEED + MOST_ROUNDS {
-        ask_all(&questions::triangles(known, sample_of(expected), seed), &mut answered).await;
-        let wrong = answered.iter().filter(|a| a.is_wrong()).count();
+        asked.ask(&questions::triangles(known, sample_of(expected), seed)).await;
+        let wrong = count_wrong(&asked.answered);
         if wrong == 0 || wrong >= ENOUGH_WRONG {
             break;
         }
     }
-    if answered.iter().all(AnsweredQuestion::is_blank) {
-        return draws_nothing(&answered, given.get());
+    if asked.answered.iter().all(AnsweredQuestion::is_blank) {
+        return draws_nothing(&asked.answered, asked.given);
     }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
-    let sizes = limits(&answered).into_iter().map(triangles::size);
-    ask_all(&thresholds::near(sizes, known, expected), &mut answered).await;
+    let sizes = limits(&asked.answered);
+    asked.ask(&thresholds::near(&sizes, known, expected)).await;
+    let mut answered = asked.answered;
     let found_bases = bases(&known.declared, found);
     // In a tiny window a convention may not have been found, and explain what is wrong.
     let is_one = |base: &&Base| base.convention != *expected && base.explains(&answered);
     if let Some(base) = found_bases.iter().find(is_one) {
         let words = base.said.as_ref().map_or_else(String::new, |said| said.concat());
         let said = format!("As far as these answers tell, it {words}: this is a convention.");
-        let wrong = answered.iter().filter(|a| a.is_wrong()).count() as u64;
-        let wrong = Count { drawn: wrong, of: answered.len() as u64 };
+        let wrong = Count { drawn: count_wrong(&answered) as u64, of: answered.len() as u64 };
         return Some(Mistakes { wrong, common: vec![said], ..Mistakes::default() });
     }
+    // Limits are asked for beside the mistakes, since they may be all that is wrong.
     let limits = thresholds::of_triangles(asker, known, expected).await;
     let draws_twice = answered.iter().any(|a| !a.twice.is_empty());
     let (mut why, nearest) = explain(&answered, &found_bases, programs);
-    if why.as_ref().is_some_and(|why| !why.is_known())
-        && answered.iter().any(|a| !a.twice.is_empty())
-    {
+    if draws_twice && why.as_ref().is_some_and(|why| !why.is_known()) {
         // Pixels may be drawn twice beside another mistake.
-        answered.iter_mut().for_each(|a| a.twice = Mask::default());
+        for answer in &mut answered {
+            answer.twice = Mask::default();
+        }
         let once = explain(&answered, &found_bases, programs).0;
         if let Some(once) = once.filter(Mistakes::is_known) {
             let mut causes = once.causes;
@@ -440,10 +484,51 @@ pub async fn of_triangles(
         }
     }
     let why = with_limits(why, answered.len(), limits);
+    // What no table has is learned, with the nearest mistakes as parts that may be known.
     let starts = learn::starts(&known.declared, expected, found);
     let ways: Vec<_> = nearest.iter().map(|near| near.way(&found_bases, draws_twice)).collect();
     let learned = async { learn?(asker, known, &starts, &ways).await };
     or_learned(why, answered.len(), learned).await
+}
+
+/// What a rasterizer was asked, and what it drew.
+struct AskedTriangles<'a> {
+    asker: &'a TriangleAsker,
+    known: &'a Declarations,
+    /// What answers are judged by.
+    expected: &'a TriangleConvention,
+    answered: Vec<AnsweredQuestion<TriangleQuestion>>,
+    /// Questions that had an answer.
+    given: u64,
+}
+
+impl AskedTriangles<'_> {
+    /// Asks more, but for what the convention says nothing of.
+    async fn ask(&mut self, questions: &[TriangleQuestion]) {
+        for (question, answer) in questions.iter().zip(self.asker.ask(questions).await) {
+            let right = self.expected.mask(&question.corners, question.window);
+            let Some(right) = right else { continue };
+            // What is not answered is not drawn.
+            let (mut drawn, mut twice) = (Mask::default(), Mask::default());
+            if let Some(picture) = answer.filter(|picture| picture.bounds() == question.window) {
+                self.given += 1;
+                drawn = Mask::of(&picture, 1);
+                if !self.known.mask {
+                    twice = Mask::of(&picture, 2);
+                }
+            }
+            self.answered.push(AnsweredQuestion { question: *question, drawn, twice, right });
+        }
+    }
+}
+
+/// How many answers are wrong.
+fn count_wrong<Q>(answered: &[AnsweredQuestion<Q>]) -> usize {
+    let mut wrong = 0;
+    for answer in answered {
+        wrong += usize::from(answer.is_wrong());
+    }
+    wrong
 }
 
 /// What was learned where no mistake explains it, also where none of so many answers is wrong: others are.
@@ -461,6 +546,7 @@ async fn or_learned(
 /// A mistake of a table with its parameter, and the convention underneath.
 #[derive(Clone, Copy)]
 struct Variant<D: 'static, C> {
+    /// The entry of the table.
     mistake: &'static Mistake<D>,
     p: i64,
     base: C,
@@ -477,6 +563,7 @@ impl Variant<Fill, usize> {
             let whole = || base.convention.mask(&q.corners, q.window);
             let [drawn, twice] =
                 fill(mistake.draws, p, &base.convention, &q.corners, q.window, &whole)?;
+            // What hits pixels twice says nothing of a program in which none is hit twice.
             let is_seen = draws_twice || matches!(mistake.draws, Fill::Twice(_));
             Some([drawn, if is_seen { twice } else { Mask::default() }])
         };
@@ -488,6 +575,7 @@ impl Variant<Stroke, LineConvention> {
     fn mask(&self, ends: Ends, window: PixelRect) -> Option<Mask> {
         let Self { mistake, p, base } = self;
         Some(match mistake.draws {
+            // All lines that are drawn in place of it, by the convention underneath.
             Stroke::Instead(others) => {
                 let mut all = Mask::default();
                 for other in others(ends, window, *p) {
@@ -524,6 +612,7 @@ impl Variant<Stroke, LineConvention> {
     }
 }
 
+/// The ends of a line in 64 bits, in which differences do not overflow.
 fn wide(ends: [[i32; 2]; 2]) -> Ends {
     ends.map_array(|end| end.map_array(i64::from))
 }
@@ -534,61 +623,37 @@ fn explain(
     bases: &[Base],
     programs: &[Program<'_, TriangleQuestion, Coverage>],
 ) -> (Option<Mistakes>, Vec<Variant<Fill, usize>>) {
-    let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
+    let is_wrong = are_wrong(answered);
     if !is_wrong.contains(&true) {
         return (None, Vec::new());
     }
+    // Each mistake is tried with each parameter, on top of each base that it needs.
+    let drawn = &DrawnByBases::new(answered, bases);
     let telling = &answered.iter().map(AnsweredQuestion::telling).collect::<Vec<_>>();
-    // What each base draws, once it is needed.
-    let whole: Vec<OnceCell<Option<Mask>>> =
-        (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
-    let drawn_by = |number: usize, i: usize| {
-        *whole[number * answered.len() + i].get_or_init(|| bases[number].mask(&answered[i]))
-    };
-    let drawn_by = &drawn_by;
-    let scans = OnceCell::new();
-    let farthest = answered.iter().map(|a| fills::metric(&a.question.corners, fills::FARTHEST));
-    let farthest_px = farthest.max().unwrap_or(0) / 256 + 1;
     let (mut hypotheses, mut variants) = (Vec::new(), Vec::new());
+    let choice = Choice::new(answered, &is_wrong, &bases[0].convention);
     for mistake in triangles::TABLE {
-        let parameters = match mistake.parameters {
-            Parameters::Sizes => limits(answered),
-            Parameters::Clamps => triangles::clamps(&clamped(answered)),
-            // What no answer can show is no cause.
-            Parameters::Words(all, from_px) => {
-                all.iter().copied().filter(|p| from_px(*p) <= farthest_px).collect()
-            }
-            Parameters::Scans(is_one) => {
-                let all = scans.get_or_init(|| {
-                    scans::fitting(&near(answered, &is_wrong, &bases[0].convention))
-                });
-                all.iter().copied().filter(|p| is_one(*p)).collect()
-            }
-            others => numbers(others),
-        };
-        for p in parameters {
+        for p in choice.parameters(mistake.parameters) {
             let says = says(mistake, p);
-            // Of a program that draws one winding, a rule for each of both is a rule.
-            let is_told = |base: &&Base| {
-                mistake.name != BY_WINDING || base.convention.draws == Windings::Both
-            };
-            let is_many = matches!(mistake.parameters, Parameters::Clamps);
-            let served = bases.iter().enumerate().filter(|(_, base)| {
-                base.serves(mistake.draws) && (!is_many || base.is_first || base.is_found())
-            });
-            for (number, base) in served.filter(|(_, base)| is_told(base)) {
+            for (number, base) in bases.iter().enumerate() {
+                if !base.is_tried_with(mistake) {
+                    continue;
+                }
                 let predicts = move |i: usize| {
-                    let TriangleQuestion { corners, window } = &answered[i].question;
-                    let draws =
-                        |at| pixel(mistake.draws, p, &base.convention, corners, *window, at);
-                    if telling[i].iter().flatten().any(|(at, is_in)| draws(*at) == Some(!is_in)) {
-                        return false;
+                    // A pixel that tells is computed before the whole picture, which most mistakes need not draw then.
+                    for &(at, is_in) in telling[i].iter().flatten() {
+                        let TriangleQuestion { corners, window } = &answered[i].question;
+                        let alone = pixel(mistake.draws, p, &base.convention, corners, *window, at);
+                        if alone == Some(!is_in) {
+                            return false;
+                        }
                     }
-                    let whole = || drawn_by(number, i);
-                    let mask = fill(mistake.draws, p, &base.convention, corners, *window, &whole);
-                    mask.is_none_or(|[drawn, twice]| {
-                        answered[i].may_be(drawn, twice, mistake.draws)
-                    })
+                    let TriangleQuestion { corners, window } = &answered[i].question;
+                    let whole = || drawn.mask(number, i);
+                    match fill(mistake.draws, p, &base.convention, corners, *window, &whole) {
+                        Some([drawn, twice]) => answered[i].may_be(drawn, twice, mistake.draws),
+                        None => true,
+                    }
                 };
                 let mut says = says.clone();
                 says.does += &base.words(mistake.draws);
@@ -597,37 +662,121 @@ fn explain(
             }
         }
     }
-    hypotheses.extend(programs.iter().map(|program| {
-        program.hypothesis(answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
-    }));
+    for program in programs {
+        hypotheses.push(
+            program.hypothesis(answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)]),
+        );
+    }
     let seen = || answered.iter().map(common::AnswerTraits::triangle).collect();
-    let is_near = |i: &usize| {
-        fills::metric(&answered[*i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
-    };
-    let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
-    let alone = |among: &[usize]| {
-        let missed = |number| {
-            // What a mistake is forgiven is forgiven here, too: that only the samples of a box are tested.
-            let is_missed = |&&i: &&usize| {
-                let drawn = drawn_by(number, i);
-                drawn.is_some_and(|drawn| !answered[i].may_be_once(drawn))
-            };
-            among.iter().filter(is_missed).count()
-        };
-        let conventions = (0..bases.len()).filter(|&number| bases[number].said.is_some());
-        conventions.map(missed).min().unwrap_or(usize::MAX)
-    };
+    // Answers in which no coordinate is large: there no word overflows.
+    let mut near = Vec::new();
+    for (i, answer) in answered.iter().enumerate() {
+        let farthest = fills::metric(&answer.question.corners, fills::FARTHEST);
+        if farthest <= i64::from(NEAR_PX) * 256 {
+            near.push(i);
+        }
+    }
+    let alone = |among: &[usize]| drawn.least_missed(among);
     let why = conclude(&hypotheses, &is_wrong, &near, &alone, &seen);
     if why.as_ref().is_some_and(Mistakes::is_known) {
         return (why, Vec::new());
     }
     // A part of what a program does is looked for under its own convention alone.
-    let is_plain = |base: &Base| base.said.is_none() || base.is_found();
-    let plain: Vec<bool> = bases.iter().map(is_plain).collect();
-    let nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(answered), &|i| {
-        variants.get(i).is_some_and(|variant| plain[variant.base])
-    });
+    let may_be = |i: usize| match variants.get(i) {
+        Some(variant) => bases[variant.base].said.is_none() || bases[variant.base].is_found(),
+        None => false,
+    };
+    let nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(answered), &may_be);
     (why, nearest.into_iter().map(|i| variants[i]).collect())
+}
+
+/// The pictures that bases draw, each of which is computed when it is needed first.
+struct DrawnByBases<'a> {
+    answered: &'a [AnsweredQuestion<TriangleQuestion>],
+    bases: &'a [Base],
+    /// Those of the first base, of the second and so on.
+    masks: Vec<OnceCell<Option<Mask>>>,
+}
+
+impl<'a> DrawnByBases<'a> {
+    fn new(answered: &'a [AnsweredQuestion<TriangleQuestion>], bases: &'a [Base]) -> Self {
+        let masks = vec![OnceCell::new(); bases.len() * answered.len()];
+        Self { answered, bases, masks }
+    }
+
+    fn mask(&self, base: usize, i: usize) -> Option<Mask> {
+        let at = base * self.answered.len() + i;
+        *self.masks[at].get_or_init(|| self.bases[base].mask(&self.answered[i]))
+    }
+
+    /// How many of some answers the best convention misses, without a mistake.
+    fn least_missed(&self, among: &[usize]) -> usize {
+        let mut least = usize::MAX;
+        for (number, base) in self.bases.iter().enumerate() {
+            if base.said.is_none() {
+                continue;
+            }
+            let mut missed = 0;
+            for &i in among {
+                // What a mistake is forgiven is forgiven here, too: that only the samples of a box are tested.
+                if self.mask(number, i).is_some_and(|mask| !self.answered[i].may_be_once(mask)) {
+                    missed += 1;
+                }
+            }
+            least = least.min(missed);
+        }
+        least
+    }
+}
+
+/// The parameters with which mistakes are tried, as answers have them.
+struct Choice<'a> {
+    answered: &'a [AnsweredQuestion<TriangleQuestion>],
+    is_wrong: &'a [bool],
+    declared: &'a TriangleConvention,
+    /// The farthest coordinate of all.
+    farthest_px: i64,
+    /// Ways of filling row by row, once a mistake needs them.
+    scans: OnceCell<Vec<i64>>,
+}
+
+impl<'a> Choice<'a> {
+    fn new(
+        answered: &'a [AnsweredQuestion<TriangleQuestion>],
+        is_wrong: &'a [bool],
+        declared: &'a TriangleConvention,
+    ) -> Self {
+        let mut farthest = 0;
+        for answer in answered {
+            farthest = farthest.max(fills::metric(&answer.question.corners, fills::FARTHEST));
+        }
+        let farthest_px = farthest / 256 + 1;
+        Self { answered, is_wrong, declared, farthest_px, scans: OnceCell::new() }
+    }
+
+    /// What is read off answers is read off those by which hypotheses are chosen.
+    fn parameters(&self, of: Parameters) -> Vec<i64> {
+        match of {
+            Parameters::Sizes => limits(self.answered),
+            Parameters::Clamps => triangles::clamps(&clamped(self.answered)),
+            // What no answer can show is no cause.
+            Parameters::Words(all, from_px) => {
+                all.iter().copied().filter(|p| from_px(*p) <= self.farthest_px).collect()
+            }
+            Parameters::Scans(is_one) => {
+                let all = self.scans.get_or_init(|| {
+                    scans::fitting(&near(self.answered, self.is_wrong, self.declared))
+                });
+                all.iter().copied().filter(|p| is_one(*p)).collect()
+            }
+            others => numbers(others),
+        }
+    }
+}
+
+/// Of each answer whether it is wrong.
+fn are_wrong<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
+    answered.iter().map(AnsweredQuestion::is_wrong).collect()
 }
 
 /// Which answers are wrong and have a pixel: of others, whatever draws nothing is a part.
@@ -640,11 +789,12 @@ pub const NOTHING: &str = "nothing";
 
 /// What is said where no answer has a pixel: every mistake that draws nothing would explain it. Nothing where no answer was given.
 fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mistakes> {
-    let wrong = answered.iter().filter(|answer| answer.is_wrong()).count() as u64;
+    let wrong = count_wrong(answered) as u64;
     if given == 0 || wrong == 0 {
         return None;
     }
     let of = answered.len() as u64;
+    // Right answers without a pixel are as the program draws them, too.
     let said = Explanation::new(
         NOTHING,
         "draws nothing".to_owned(),
@@ -652,8 +802,12 @@ fn draws_nothing<Q>(answered: &[AnsweredQuestion<Q>], given: u64) -> Option<Mist
         "judge",
         "an answer with a pixel",
     );
-    let all = |count: u64| Count { drawn: count, of: count };
-    let cause = Explanation { wrong: all(wrong), right: all(of - wrong), ..said };
+    let right = of - wrong;
+    let cause = Explanation {
+        wrong: Count { drawn: wrong, of: wrong },
+        right: Count { drawn: right, of: right },
+        ..said
+    };
     Some(Mistakes { causes: vec![cause], wrong: Count { drawn: wrong, of }, ..Mistakes::default() })
 }
 
@@ -669,16 +823,11 @@ pub async fn of_lines(
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention);
     let expected = found.filter(|_| is_certain).unwrap_or(&default);
-    // Of lines, pixels that come twice are not told from others.
-    let drawn = |question: &LineQuestion, pixels: &[[i32; 2]]| {
-        let pixels: Vec<_> = pixels.iter().map(|p| p.map_array(i64::from)).collect();
-        [lines::mask(&pixels, question.window), Mask::default()]
-    };
     let mut given = 0;
     // Where few answers are wrong, some more are needed.
     'rounds: for seed in SEED..SEED + MOST_ROUNDS {
         for questions in questions::lines(known, seed).chunks(AT_ONCE) {
-            let wrong = answered.iter().filter(|a| a.is_wrong()).count();
+            let wrong = count_wrong(&answered);
             let is_settled = wrong == 0 || wrong >= ENOUGH_WRONG;
             if answered.len() >= questions::LINES && is_settled {
                 break 'rounds;
@@ -689,7 +838,7 @@ pub async fn of_lines(
                 let right = lines::of_convention(expected, ends, question.window);
                 let Some(right) = right.filter(|_| lines::is_walked(ends)) else { continue };
                 given += u64::from(answer.is_some());
-                let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
+                let [drawn, twice] = drawn_pixels(question, &answer.unwrap_or_default());
                 answered.push(AnsweredQuestion { question: *question, drawn, twice, right });
             }
         }
@@ -697,62 +846,78 @@ pub async fn of_lines(
     if answered.iter().all(AnsweredQuestion::is_blank) {
         return draws_nothing(&answered, given);
     }
-    let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
+    let is_wrong = are_wrong(&answered);
+    // Mistakes are tried on what is expected, on what was found, and on each rule for ties.
     let mut bases = vec![*expected];
-    let ties =
-        LineTie::ALL.map(|tie| LineConvention { rounding: LineRounding::Nearest(tie), ..default });
-    for base in found.into_iter().chain(&ties) {
-        if !bases.contains(base) {
-            bases.push(*base);
+    bases.extend(found.filter(|found| *found != expected));
+    for tie in LineTie::ALL {
+        let base = LineConvention { rounding: LineRounding::Nearest(tie), ..default };
+        if !bases.contains(&base) {
+            bases.push(base);
         }
     }
     let (mut hypotheses, mut variants) = (Vec::new(), Vec::new());
     for mistake in lines::TABLE {
         let parameters = match mistake.parameters {
-            Parameters::Octants => {
-                let mut chosen = chosen_by(&is_wrong).into_iter().map(|i| {
-                    let AnsweredQuestion { question, drawn, .. } = &answered[i];
-                    (wide(question.ends), question.window, drawn)
-                });
-                vec![lines::octants(&mut chosen)]
-            }
+            Parameters::Octants => vec![octants(&answered, &is_wrong)],
             others => numbers(others),
         };
         // What has its own pixels needs no convention underneath.
         let bases = if matches!(mistake.draws, Stroke::Own(_)) { &bases[..1] } else { &bases };
-        for (&p, &base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
-            let variant = Variant { mistake, p, base };
-            let answered = &answered;
-            let predicts = move |i: usize| {
-                let question = &answered[i].question;
-                let mask = variant.mask(wide(question.ends), question.window);
-                mask.is_none_or(|mask| mask == answered[i].drawn)
-            };
-            let says = variant.says(expected);
-            hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
-            variants.push(variant);
+        for p in parameters {
+            for &base in bases {
+                let variant = Variant { mistake, p, base };
+                let answered = &answered;
+                let predicts = move |i: usize| {
+                    let question = &answered[i].question;
+                    let mask = variant.mask(wide(question.ends), question.window);
+                    mask.is_none_or(|mask| mask == answered[i].drawn)
+                };
+                let says = variant.says(expected);
+                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                variants.push(variant);
+            }
         }
     }
-    hypotheses.extend(
-        programs.iter().map(|program| program.hypothesis(&answered, |q, pixels| drawn(q, pixels))),
-    );
+    for program in programs {
+        hypotheses.push(program.hypothesis(&answered, |q, pixels| drawn_pixels(q, pixels)));
+    }
     let seen = || answered.iter().map(common::AnswerTraits::line).collect();
-    let is_near =
-        |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
-    let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
+    let mut near = Vec::new();
+    for (i, answer) in answered.iter().enumerate() {
+        if answer.question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX) {
+            near.push(i);
+        }
+    }
     let why = conclude(&hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
-    let is_plain = |base: &LineConvention| base == expected || Some(base) == found;
-    let nearest = match why.as_ref().is_some_and(Mistakes::is_known) {
-        true => Vec::new(),
-        false => weigh::nearest(&hypotheses, &wrong_with_pixels(&answered), &|i| {
-            variants.get(i).is_some_and(|variant: &Variant<_, _>| is_plain(&variant.base))
-        }),
-    };
+    let mut nearest = Vec::new();
+    if !why.as_ref().is_some_and(Mistakes::is_known) {
+        // A part of what a program does is looked for under its own convention alone.
+        let may_be = |i: usize| match variants.get(i) {
+            Some(Variant { base, .. }) => base == expected || Some(base) == found,
+            None => false,
+        };
+        nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(&answered), &may_be);
+    }
     let limits = thresholds::of_lines(asker, known, expected).await;
     let why = with_limits(why, is_wrong.len(), limits);
     let starts = learn::starts(&default, expected, found);
     let ways: Vec<_> = nearest.into_iter().map(|i| variants[i].way(expected)).collect();
     or_learned(why, is_wrong.len(), learn::of_lines(asker, known, &starts, &ways)).await
+}
+
+/// What a line drawer drew; pixels that come twice are not told from others.
+fn drawn_pixels(question: &LineQuestion, pixels: &[[i32; 2]]) -> [Mask; 2] {
+    [lines::mask(&lines::widened(pixels), question.window), Mask::default()]
+}
+
+/// The octants in which ties go on, as the answers have it by which hypotheses are chosen.
+fn octants(answered: &[AnsweredQuestion<LineQuestion>], is_wrong: &[bool]) -> i64 {
+    let mut chosen = chosen_by(is_wrong).into_iter().map(|i| {
+        let AnsweredQuestion { question, drawn, .. } = &answered[i];
+        (wide(question.ends), question.window, drawn)
+    });
+    lines::octants(&mut chosen)
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
@@ -764,6 +929,7 @@ impl<Q, Picture> Program<'_, Q, Picture> {
         masks: impl Fn(&Q, &Picture) -> [Mask; 2] + 'a,
     ) -> Hypothesis<'a> {
         let predicts = move |i: usize| {
+            // A program that gives no answer predicts none.
             let AnsweredQuestion { question, .. } = &answered[i];
             (self.draw)(question).is_some_and(|picture| {
                 let [drawn, twice] = masks(question, &picture);
@@ -775,6 +941,7 @@ impl<Q, Picture> Program<'_, Q, Picture> {
     }
 }
 
+/// The parameters that do not depend on answers.
 fn numbers(parameters: Parameters) -> Vec<i64> {
     match parameters {
         Parameters::Fixed(parameters) | Parameters::Words(parameters, _) => parameters.to_vec(),
@@ -785,6 +952,7 @@ fn numbers(parameters: Parameters) -> Vec<i64> {
     }
 }
 
+/// What a mistake says with a parameter, before anything was counted.
 fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
     let Mistake { name, sentence, repair, page, refuted, .. } = *mistake;
     Explanation::new(name, sentence(p), repair, page, refuted)
@@ -809,20 +977,20 @@ fn conclude(
     if wrong == 0 {
         return None;
     }
-    let all: Vec<usize> = (0..is_wrong.len()).collect();
     // Beside a convention that explains nearly as much, a mistake that seldom shows itself would be named.
-    let keep_needed = |causes: &mut Vec<Explanation>, among: &[usize]| {
+    let needed = |among: &[usize]| {
+        let (mut causes, lead) = weigh(hypotheses, is_wrong, among);
         if !causes.is_empty() {
             let alone = alone(&fresh(is_wrong, among));
             causes.retain(|cause| 2 * cause.missed() < alone);
         }
+        (causes, lead)
     };
-    let (mut causes, lead) = weigh(hypotheses, is_wrong, &all);
-    keep_needed(&mut causes, &all);
+    let all: Vec<usize> = (0..is_wrong.len()).collect();
+    let (mut causes, lead) = needed(&all);
     if causes.is_empty() {
         // A mistake may be there beside another one that large numbers show.
-        causes = weigh(hypotheses, is_wrong, near).0;
-        keep_needed(&mut causes, near);
+        causes = needed(near).0;
         for cause in &mut causes {
             cause.does += &format!(
                 " (seen where all coordinates are below {NEAR_PX} px; beyond, more goes wrong)"
@@ -831,6 +999,7 @@ fn conclude(
     }
     let common = if causes.is_empty() { common::sentences(&seen()) } else { Vec::new() };
     // A lead that explains little leads nowhere.
+    // Half of the wrong answers, and nearly all right ones.
     let leads = |weight: &Explanation| {
         2 * weight.wrong.drawn >= weight.wrong.of && 10 * weight.right.drawn >= 9 * weight.right.of
     };
@@ -854,13 +1023,16 @@ fn with_limits(
     answers: usize,
     limits: Vec<Threshold>,
 ) -> Option<Mistakes> {
-    let all_right = || {
-        let wrong = Count { drawn: 0, of: answers as u64 };
-        let causes = limits.iter().filter_map(Threshold::as_cause).collect();
-        (!limits.is_empty()).then(|| Mistakes { wrong, causes, ..Mistakes::default() })
-    };
-    let found = found.or_else(all_right)?;
-    Some(Mistakes { limits, ..found })
+    if let Some(found) = found {
+        return Some(Mistakes { limits, ..found });
+    }
+    if limits.is_empty() {
+        return None;
+    }
+    let wrong = Count { drawn: 0, of: answers as u64 };
+    // A limit of a place in the window is a cause by itself.
+    let causes = limits.iter().filter_map(Threshold::as_cause).collect();
+    Some(Mistakes { wrong, causes, limits, ..Mistakes::default() })
 }
 
 /// Where a sample lies in its pixel, in subpixels.
@@ -882,6 +1054,7 @@ fn fill(
 ) -> Option<[Mask; 2]> {
     let mut twice = Mask::default();
     let drawn = match draws {
+        // Pixels that more than one of them has are drawn more than once.
         Fill::Instead(others) => {
             let mut all = Mask::default();
             for other in others(corners, window, p) {
@@ -920,6 +1093,7 @@ fn pixel(
     window: PixelRect,
     [x, y]: [i32; 2],
 ) -> Option<bool> {
+    // Only what depends on nothing but the pixel can be computed for it alone.
     // A mirror reflects the whole window.
     if base.mirror != Mirror::None {
         return None;
@@ -991,6 +1165,15 @@ impl Base {
         self.said.as_ref().is_some_and(|[_, rule]| rule.is_empty())
     }
 
+    /// Whether the mistake is tried on top of it.
+    fn is_tried_with(&self, mistake: &Mistake<Fill>) -> bool {
+        // Of a program that draws one winding, a rule for each of both is a rule.
+        let is_told = mistake.name != BY_WINDING || self.convention.draws == Windings::Both;
+        // Clamps are many, so that fewer bases have to do.
+        let is_many = matches!(mistake.parameters, Parameters::Clamps);
+        is_told && self.serves(mistake.draws) && (!is_many || self.is_first || self.is_found())
+    }
+
     fn words(&self, draws: Fill) -> String {
         match (&self.said, draws) {
             (Some([place, _]), Fill::Sampled(..)) => format!(" (apart from that it {place})"),
@@ -1003,6 +1186,7 @@ impl Base {
 /// What is declared, what was found, and the rules with a name for several places of the sample.
 fn bases(declared: &TriangleConvention, found: Option<&TriangleConvention>) -> Vec<Base> {
     let mut bases = vec![Base { convention: *declared, said: None, is_first: true }];
+    // Each convention once: a second one would explain the same.
     let mut add = |convention: TriangleConvention, said: [String; 2]| {
         if bases.iter().all(|base| base.convention != convention) {
             let is_first = bases.iter().all(|base| base.convention.shape != convention.shape);
@@ -1019,6 +1203,7 @@ fn bases(declared: &TriangleConvention, found: Option<&TriangleConvention>) -> V
     }
     if let Some(found) = found {
         add(*found, [found.words(), String::new()]);
+        // The found one, and what it may be beside.
         let quantum = found.quantum;
         if quantum.step > 1 && quantum.rounding == Rounding::Near {
             // No question about conventions has a negative coordinate halfway between two points of a grid.
@@ -1034,23 +1219,30 @@ fn bases(declared: &TriangleConvention, found: Option<&TriangleConvention>) -> V
 fn limits(answered: &[AnsweredQuestion<TriangleQuestion>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in 0..fills::METRICS.len() {
-        let sizes = |lost: bool| {
-            answered
-                .iter()
-                .filter(move |a| a.drawn.is_empty() == lost && !a.right.is_empty())
-                .map(move |a| fills::metric(&a.question.corners, metric))
-        };
-        let (least, most) = (sizes(true).min(), sizes(true).max());
-        // Below: all that is lost is smaller than what is drawn. Above: the other way.
-        let next = sizes(false).filter(|size| Some(*size) > most).min();
-        if let (Some(lost), Some(drawn)) = (most, next) {
-            limits.push(triangles::packed_size(metric, true, lost + (drawn - lost).max(1) / 2 + 1));
+        // The sizes of triangles that are lost, from the least to the largest; of those that are drawn, and of those that are
+        // although they should not be.
+        // By one metric after the other; a program has one of them.
+        let (mut lost, mut drawn, mut extra) = (Vec::new(), Vec::new(), Vec::new());
+        for a in answered {
+            let size = fills::metric(&a.question.corners, metric);
+            match (a.right.is_empty(), a.drawn.is_empty()) {
+                (false, true) => lost.push(size),
+                (false, false) => drawn.push(size),
+                (true, false) => extra.push(size),
+                (true, true) => {}
+            }
         }
-        limits.extend(least.map(|lost| triangles::packed_size(metric, false, lost)));
-        // What is drawn although it should not be.
-        let extra = answered.iter().filter(|a| a.right.is_empty() && !a.drawn.is_empty());
-        let most = extra.map(|a| fills::metric(&a.question.corners, metric)).max();
-        limits.extend(most.map(|most| triangles::packed_size(metric, true, most + 1)));
+        if let Some((&least, &most)) = lost.iter().min().zip(lost.iter().max()) {
+            // Below: all that is lost is smaller than what is drawn. Above: the other way.
+            if let Some(next) = drawn.iter().filter(|size| **size > most).min() {
+                let limit = most + (next - most).max(1) / 2 + 1;
+                limits.push(triangles::packed_size(metric, true, limit));
+            }
+            limits.push(triangles::packed_size(metric, false, least));
+        }
+        if let Some(most) = extra.iter().max() {
+            limits.push(triangles::packed_size(metric, true, most + 1));
+        }
     }
     limits
 }
@@ -1064,15 +1256,20 @@ fn near(
     is_wrong: &[bool],
     declared: &TriangleConvention,
 ) -> Vec<scans::DrawnTriangle> {
-    let small = |i: &usize| {
-        let corners = &answered[*i].question.corners;
-        fills::metric(corners, 3) < 64 * 256 && is_faced(declared, corners)
-    };
-    let all = chosen_by(is_wrong).into_iter().filter(small).map(|i| {
-        let AnsweredQuestion { question, drawn, .. } = &answered[i];
-        (cells::places(&question.corners), question.window, *drawn)
-    });
-    all.take(FITTED).collect()
+    let mut all = Vec::new();
+    for i in chosen_by(is_wrong) {
+        let AnsweredQuestion { question: TriangleQuestion { corners, window }, drawn, .. } =
+            &answered[i];
+        // On a long edge a small error of the slope moves many pixels.
+        let is_small = fills::metric(corners, fills::LONGER_SIDE) < 64 * 256;
+        if is_small && is_faced(declared, corners) {
+            all.push((cells::places(corners), *window, *drawn));
+        }
+        if all.len() == FITTED {
+            break;
+        }
+    }
+    all
 }
 
 /// Limits in pixels below which no answer is wrong, by the farthest coordinate of both axes or of one: some numbers before the
@@ -1080,13 +1277,14 @@ fn near(
 fn clamped(answered: &[AnsweredQuestion<TriangleQuestion>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in fills::FARTHEST..fills::METRICS.len() {
-        let of = |a: &AnsweredQuestion<TriangleQuestion>| {
-            fills::metric(&a.question.corners, metric) / 256
-        };
-        let wrong = answered.iter().filter(|a| a.is_wrong()).map(of);
-        let Some(least) = wrong.min().filter(|least| *least > i64::from(questions::SIDE_PX)) else {
+        let mut least = i64::MAX;
+        for a in answered.iter().filter(|a| a.is_wrong()) {
+            least = least.min(fills::metric(&a.question.corners, metric) / 256);
+        }
+        if least == i64::MAX || least <= i64::from(questions::SIDE_PX) {
             continue;
-        };
+        }
+        // Each number just before it, and round ones farther away.
         let is_near = |limit: &i64| least - limit < 32 || limit % 100 == 0;
         limits.extend((least - least / 5..=least).rev().filter(is_near).take(64));
     }

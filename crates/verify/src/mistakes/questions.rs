@@ -8,6 +8,7 @@ use rasterproof_core::triangle::Corners;
 
 /// The largest side of a window that is asked for, in pixels.
 pub(super) const SIDE_PX: i32 = 32;
+/// How many triangles are asked for at once.
 const TRIANGLES: usize = 1200;
 pub(super) const LINES: usize = 700;
 /// The longest line: some programs walk each pixel of it.
@@ -15,14 +16,18 @@ pub(super) const LONGEST_PX: i64 = 40_000;
 
 /// Where coordinates may lie.
 pub(super) struct Room {
+    /// The same numbers for the same seed.
     pub(super) rng: Rng,
+    /// The sides of the largest window, in pixels.
     pub(super) side: [u32; 2],
     /// Subpixels between neighbouring coordinates.
     pub(super) grain: i64,
+    /// The farthest coordinate, in pixels.
     pub(super) range_px: i64,
 }
 
 impl Room {
+    /// What a program can be asked, by what is declared of it.
     pub(super) fn new(known: &Declarations, seed: u64) -> Self {
         let grid = known.grid.clamp(1, SUBPIXELS);
         let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
@@ -32,12 +37,15 @@ impl Room {
         Self { rng: Rng::new("mistakes", seed, 0), side, grain: grain.into(), range_px }
     }
 
+    /// Every third window is smaller than the largest, so that a border lies elsewhere.
     fn window(&mut self, number: usize) -> PixelRect {
         let [width, height] = self.side;
         if number % 3 == 0 {
-            let some = |rng: &mut Rng, side: u32| rng.int(i64::from(side / 2).max(1), side.into());
-            let [w, h] = [some(&mut self.rng, width), some(&mut self.rng, height)];
-            return PixelRect::window(w as u32, h as u32);
+            let [w, h] = [width, height].map_array(|side| {
+                let least = i64::from(side / 2).max(1);
+                self.rng.int(least, side.into()) as u32
+            });
+            return PixelRect::window(w, h);
         }
         PixelRect::window(width, height)
     }
@@ -50,6 +58,7 @@ impl Room {
         on_grid.clamp(-most, most) as i32
     }
 
+    /// The nearest point that may be asked.
     pub(super) fn point(&self, [x, y]: [i64; 2]) -> SubpixelPoint {
         SubpixelPoint::new(self.place(x), self.place(y))
     }
@@ -59,10 +68,12 @@ impl Room {
         self.rng.int(low_px * 256, high_px * 256)
     }
 
+    /// A point of a window, in subpixels.
     pub(super) fn inside(&mut self, window: PixelRect) -> [i64; 2] {
         [self.within(0, window.x1.into()), self.within(0, window.y1.into())]
     }
 
+    /// A point within so many pixels of another one along each axis.
     fn near(&mut self, [x, y]: [i64; 2], reach_px: i64) -> [i64; 2] {
         [x + self.within(-reach_px, reach_px), y + self.within(-reach_px, reach_px)]
     }
@@ -94,18 +105,19 @@ impl Room {
         let pixel = [window.x1, window.y1].map_array(|side| self.rng.int(0, i64::from(side) - 1));
         let at = [0, 1].map_array(|i| pixel[i] * i64::from(SUBPIXELS) + i64::from(sample[i]));
         // An offset from the sample to the edge, so that the edge function is `wanted` steps of the grid: u x + v y = g.
-        let (g, u, v) = bezout(edge[0], edge[1]);
+        let Bezout { g, u, v } = bezout(edge[0], edge[1]);
         let wanted = self.rng.int(-4, 4) * self.rng.int(1, 64);
         let times = wanted.div_euclid(g).clamp(-4000, 4000);
         // Moved along the edge until the sample lies where it is wanted.
         let off = [-v * times, u * times];
-        let length: f64 = edge.iter().map(|side| (*side as f64).powi(2)).sum();
-        let ahead = (edge[0] as f64 * off[0] as f64 + edge[1] as f64 * off[1] as f64) / length;
+        let [dx, dy] = [edge[0] as f64, edge[1] as f64];
+        let ahead = (dx * off[0] as f64 + dy * off[1] as f64) / (dx * dx + dy * dy);
         let steps = ((part - ahead) * g as f64).round() as i64;
         let from = [0, 1].map_array(|i| at[i] - (off[i] + steps * (edge[i] / g)) * self.grain);
         [from, [0, 1].map_array(|i| from[i] + edge[i] * self.grain)]
     }
 
+    /// A point in a direction from another one.
     fn away(&mut self, [x, y]: [i64; 2], [dx, dy]: [f64; 2], length: i64) -> [i64; 2] {
         [x + (dx * length as f64) as i64, y + (dy * length as f64) as i64]
     }
@@ -118,20 +130,21 @@ pub(super) fn triangles(
     seed: u64,
 ) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, seed);
-    (0..TRIANGLES)
-        .map(|number| {
-            let window = room.window(number);
-            let mut corners = triangle(&mut room, window, sample, number % 10);
-            if room.rng.chance(2) {
-                corners.swap(1, 2);
-            }
-            TriangleQuestion { corners, window }
-        })
-        .collect()
+    let mut questions = Vec::with_capacity(TRIANGLES);
+    for number in 0..TRIANGLES {
+        let window = room.window(number);
+        let mut corners = triangle(&mut room, window, sample, number % 10);
+        // Half of them turn the other way.
+        if room.rng.chance(2) {
+            corners.swap(1, 2);
+        }
+        questions.push(TriangleQuestion { corners, window });
+    }
+    questions
 }
 
+/// A triangle of one of the ten kinds.
 fn triangle(room: &mut Room, window: PixelRect, sample: [i32; 2], kind: usize) -> Corners {
-    let aligned = |[x, y]: [i64; 2], to: i64| [x.div_euclid(to) * to, y.div_euclid(to) * to];
     let points: [[i64; 2]; 3] = match kind {
         // Samples very near an edge.
         0 => near_tie(room, window, sample),
@@ -189,11 +202,16 @@ fn triangle(room: &mut Room, window: PixelRect, sample: [i32; 2], kind: usize) -
             let [[x0, y0], [x1, y1]] = [0; 2].map_array(|_| aligned(room.inside(window), to));
             let all = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
             let left_out = room.rng.int(0, 3) as usize;
-            [1, 2, 3].map(|i| all[(left_out + i) % 4])
+            [1, 2, 3].map_array(|i| all[(left_out + i) % 4])
         }
         _ => [0; 3].map_array(|_| room.inside(window)),
     };
     points.map_array(|point| room.point(point))
+}
+
+/// A point on multiples of a step.
+fn aligned([x, y]: [i64; 2], to: i64) -> [i64; 2] {
+    [x.div_euclid(to) * to, y.div_euclid(to) * to]
 }
 
 /// A triangle with an edge that passes a sample so closely that the edge function there is a small number.
@@ -205,26 +223,34 @@ fn near_tie(room: &mut Room, window: PixelRect, sample: [i32; 2]) -> [[i64; 2]; 
     [from, to, third]
 }
 
-/// g, u and v with u a + v b = g, the greatest common divisor, not negative.
-fn bezout(a: i64, b: i64) -> (i64, i64, i64) {
+/// Numbers with u a + v b = g, the greatest common divisor of a and b, not negative.
+struct Bezout {
+    g: i64,
+    u: i64,
+    v: i64,
+}
+
+/// By Euclid's algorithm, backwards from the last remainder.
+fn bezout(a: i64, b: i64) -> Bezout {
     if b == 0 {
-        return (a.abs(), a.signum(), 0);
+        return Bezout { g: a.abs(), u: a.signum(), v: 0 };
     }
-    let (g, u, v) = bezout(b, a % b);
-    (g, v, u - a / b * v)
+    let Bezout { g, u, v } = bezout(b, a % b);
+    Bezout { g, u: v, v: u - a / b * v }
 }
 
 /// The same for lines; ends are pixels.
 pub(super) fn lines(known: &Declarations, seed: u64) -> Vec<LineQuestion> {
     let mut room = Room::new(known, seed ^ 1);
-    (0..LINES)
-        .map(|number| {
-            let window = room.window(number);
-            LineQuestion { ends: line(&mut room, window, number), window }
-        })
-        .collect()
+    let mut questions = Vec::with_capacity(LINES);
+    for number in 0..LINES {
+        let window = room.window(number);
+        questions.push(LineQuestion { ends: line(&mut room, window, number), window });
+    }
+    questions
 }
 
+/// A line of one of the eight kinds.
 fn line(room: &mut Room, window: PixelRect, number: usize) -> [[i32; 2]; 2] {
     let (wide, high) = (i64::from(window.x1), i64::from(window.y1));
     let inside = |room: &mut Room| [room.rng.int(0, wide - 1), room.rng.int(0, high - 1)];
@@ -246,17 +272,17 @@ fn line(room: &mut Room, window: PixelRect, number: usize) -> [[i32; 2]; 2] {
         4 => {
             let most = if number % 16 == 4 { LONGEST_PX } else { 2000 };
             let along = room.direction();
-            let length =
-                |room: &mut Room| room.far().div_euclid(256).min(most.min(room.range_px / 2));
-            let (ahead, back) = (length(room), length(room));
+            let longest = most.min(room.range_px / 2);
+            let [ahead, back] = [0; 2].map_array(|_| room.far().div_euclid(256).min(longest));
+            // Half of them begin inside.
             let back = if room.rng.chance(2) { 0 } else { back };
-            let to = |length: i64| {
+            [-back, ahead].map_array(|length| {
                 [0, 1].map_array(|i| from[i] + (along[i] * length as f64).round() as i64)
-            };
-            [to(-back), to(ahead)]
+            })
         }
         _ => [from, inside(room)],
     };
+    // Ends that may be asked.
     let most = room.range_px.min(1 << 22);
     // Within 2^22.
     ends.map_array(|end| end.map_array(|v| v.clamp(-most, most - 1) as i32))

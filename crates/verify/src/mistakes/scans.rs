@@ -1,4 +1,8 @@
 //! Wrong fills row by row between the crossings of rows with edges, as functions of the corners in subpixels (1/256 px).
+//!
+//! A way of filling is a list of choices (see [`Scan`]), of which there are billions together. So the search goes in two steps: which rows
+//! and pixels are drawn is found first, with exact crossings, as that decides about most pixels. How crossings are rounded decides about few, and is
+//! found for the best of these.
 
 use super::cells::{Place, places};
 use super::fills::{Digits, MOST_ROWS, wrap};
@@ -34,6 +38,7 @@ enum Slope {
     Fixed { bits: u32, cut: i64, start: i64 },
 }
 
+/// The simplest first: where several explain the same, the first of them is named.
 const SLOPES: [Slope; 22] = [
     Slope::Between(false),
     Slope::Added(true),
@@ -58,6 +63,7 @@ const SLOPES: [Slope; 22] = [
     Slope::Mantissa(16),
     Slope::AddedReciprocal,
 ];
+/// Bits of fraction of slopes in fixed point.
 const BITS: [u32; 6] = [16, 8, 10, 12, 14, 6];
 const CUTS: [&str; 4] = [
     "cut toward zero",
@@ -65,7 +71,9 @@ const CUTS: [&str; 4] = [
     "rounded to the nearest",
     "a product with a reciprocal that is cut",
 ];
+/// How a division for each row is rounded.
 const DIVIDED: [&str; 3] = ["toward zero", "down", "to the nearest"];
+/// How the first crossing of an edge comes to fixed point.
 const STARTS: [&str; 4] = [
     "",
     ", from a first crossing that is cut toward zero",
@@ -74,10 +82,12 @@ const STARTS: [&str; 4] = [
 ];
 
 impl Slope {
+    /// Those in fixed point follow: each number of bits with each cut and each start.
     const COUNT: i64 = SLOPES.len() as i64 + 6 * 4 * 4;
 
     fn of(p: i64) -> Self {
         match p - SLOPES.len() as i64 {
+            // Four starts, each with four cuts, for each number of bits.
             p @ 0.. => Self::Fixed { bits: BITS[(p / 16) as usize], cut: p % 4, start: p / 4 % 4 },
             _ => SLOPES[p as usize],
         }
@@ -88,6 +98,7 @@ impl Slope {
         matches!(self, Self::Fixed { .. }) || self.is_added_in_floats()
     }
 
+    /// Whether rounding adds up from row to row.
     fn is_added_in_floats(self) -> bool {
         matches!(self, Self::Added(_) | Self::AddedReciprocal)
     }
@@ -127,6 +138,7 @@ impl Slope {
                 bits(single)
             ),
             Self::Half => "rounds the slope of an edge to a float of 16 bits".to_owned(),
+            // The division is exact but for its rounding; what wraps is the number that is divided.
             Self::Divided { how, wraps } => format!(
                 "divides {} for each row{}",
                 DIVIDED[how as usize],
@@ -187,12 +199,14 @@ pub(super) struct Scan {
     shared: i64,
 }
 
+/// What is said of rows that both halves have.
 const SHARED: [&str; 3] = [
     "",
     ", and begins the lower half one row early, between its edges prolonged",
     ", and ends the upper half one row late, between its edges prolonged",
 ];
 
+/// What is said of corners in whole pixels.
 const WHOLE: [&str; 5] = [
     "",
     "cuts corners down to whole pixels, ",
@@ -200,18 +214,21 @@ const WHOLE: [&str; 5] = [
     "cuts corners to whole pixels toward zero, ",
     "rounds corners up to whole pixels, ",
 ];
+/// The row that a corner begins.
 const FIRSTS: [&str; 4] = [
     "the first sample below a corner",
     "the row that holds a corner",
     "the first row that begins below a corner",
     "the rounded height of a corner",
 ];
+/// Where in a row its crossing is taken.
 const HEIGHTS: [&str; 4] = [
     "",
     ", by the crossings with the upper side of each row",
     ", beginning at the corner and not at the first row",
     ", counting rows from the one that holds the corner, whatever part of it lies above",
 ];
+/// From which pixel on a row is filled.
 const LEFT: [&str; 5] = [
     "the first sample right of the left crossing or on it",
     "the first sample right of the left crossing",
@@ -219,6 +236,7 @@ const LEFT: [&str; 5] = [
     "the first pixel that begins right of the left crossing",
     "the left crossing, cut toward zero,",
 ];
+/// Up to which pixel a row is filled, that one included.
 const RIGHT: [&str; 9] = [
     "the last sample left of the right crossing",
     "the last sample left of the right crossing or on it",
@@ -230,6 +248,7 @@ const RIGHT: [&str; 9] = [
     "the first pixel that begins right of the right crossing",
     "the right crossing, cut toward zero",
 ];
+/// How heights are brought to whole pixels before corners are sorted by them.
 const SORTED: [&str; 4] = ["", "cut down", "rounded", "rounded up"];
 
 /// What may be added to all coordinates, in pixels, and how that is said.
@@ -239,6 +258,7 @@ const MOVED: [(f64, &str); 3] = [
     (-0.5, ", after half a pixel was taken from all coordinates"),
 ];
 
+/// What becomes of the long edge in the lower half.
 const LOWER: [&str; 4] = [
     "",
     ", begins anew at the middle corner",
@@ -249,9 +269,29 @@ const LOWER: [&str; 4] = [
 /// How many values each digit has, in the order of the fields.
 const DIGITS: Digits<15> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3, 2, 3]);
 
+/// Places of digits that are set by themselves.
+const LEVEL: usize = 8;
+const SORTED_BY: usize = 9;
+const LEAST: usize = 10;
+const UP: usize = 11;
+const MOVED_BY: usize = 12;
+const BOXES: usize = 13;
+const SHARED_ROW: usize = 14;
+
+/// What a digit counts.
+const fn place_of(digit: usize) -> i64 {
+    let (mut place, mut i) = (1, 0);
+    while i < digit {
+        place *= DIGITS.0[i];
+        i += 1;
+    }
+    place
+}
+
 impl Scan {
     fn of(p: i64) -> Self {
         let [slope, lower, above, whole, rows, height, left, right, rest @ ..] = DIGITS.digits(p);
+        // The last digits are seldom set, and stand alone then.
         let [level, sorted, least, up, moved, boxes, shared] = rest;
         let slope = Slope::of(slope);
         Self {
@@ -290,6 +330,7 @@ impl Scan {
         let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, .. } =
             Self::of(p);
         let Self { least, up, moved, boxes, shared, .. } = Self::of(p);
+        // What is done to the corners first.
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
             words += "sorts them by their exact heights, ";
@@ -310,6 +351,7 @@ impl Scan {
             ][above as usize];
             words += ", and ";
         }
+        // Which pixels of a row are filled, and which rows there are.
         words += &format!("fills from {} to {}", LEFT[left as usize], RIGHT[right as usize]);
         words += ["", ", but one pixel at least"][least as usize];
         words += LOWER[lower as usize];
@@ -360,53 +402,65 @@ impl Scan {
     /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
-        // The places of the last digits.
-        let [level_at, sorted_at, least_at, up_at, moved_at, boxes_at, shared_at] =
-            [8, 9, 10, 11, 12, 13, 14].map(|i| DIGITS.0[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
-        for (level, order) in
-            (0..levels).flat_map(|level| (0..orders).map(move |order| (level, order)))
-        {
-            let frame = frame + level * level_at + order * sorted_at;
-            for (slope, begins) in
-                (0..Slope::COUNT).flat_map(|slope| (0..12).map(move |begins| (slope, begins)))
-            {
-                // Where nothing is added, it does not matter where an edge begins; nor does it of whole corners, nearly.
+        for level in 0..levels {
+            for order in 0..orders {
+                let frame = frame + level * place_of(LEVEL) + order * place_of(SORTED_BY);
+                Self::add_slopes(&mut all, frame, base.whole == 0);
+                if base.whole == 0 {
+                    for sorted in 1..4 {
+                        all.push(frame + sorted * place_of(SORTED_BY));
+                    }
+                    all.push(frame + place_of(LEAST));
+                    Self::add_ways(&mut all, frame);
+                }
+            }
+        }
+        all
+    }
+
+    /// All slopes, with all places where edges may begin and rows that both halves share.
+    fn add_slopes(all: &mut Vec<i64>, frame: i64, has_fraction: bool) {
+        for slope in 0..Slope::COUNT {
+            // Where nothing is added, it does not matter where an edge begins; nor does it of whole corners, nearly.
+            let is_added = Slope::of(slope).is_added() && has_fraction;
+            for begins in 0..12 {
                 let (lower, above) = (begins % 4, begins / 4);
-                let is_added = Slope::of(slope).is_added() && base.whole == 0;
                 let is_tried = match lower {
                     0 => above == 0 || is_added,
                     1 => is_added,
-                    _ => above == 0 && (base.whole == 0 || slope < SLOPES.len() as i64),
+                    _ => above == 0 && (has_fraction || slope < SLOPES.len() as i64),
                 };
                 if is_tried {
                     all.push(frame + slope + Slope::COUNT * begins);
                 }
             }
-            let slopes = 0..SLOPES.len() as i64;
-            all.extend(
-                slopes.flat_map(|slope| [1, 2].map(|shared| frame + slope + shared * shared_at)),
-            );
-            if base.whole == 0 {
-                all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
-                all.push(frame + least_at);
-                all.extend((0..SLOPES.len() as i64).flat_map(|slope| {
-                    // Where nothing is added, upwards is the same, nearly.
-                    let is_added = SLOPES[slope as usize].is_added_in_floats();
-                    let is_single = SLOPES[slope as usize].is_single();
-                    let ways = (0..6).filter(move |way| is_added || *way == 0);
-                    ways.flat_map(move |way| {
-                        let p = frame + slope + way % 2 * up_at + way / 2 * moved_at;
-                        let within = (is_added && way > 0).then_some(p);
-                        let clipped = is_single.then_some(p + CLIPPED);
-                        within.into_iter().chain(clipped).chain(clipped.map(|p| p + boxes_at))
-                    })
-                }));
+        }
+        for slope in 0..SLOPES.len() as i64 {
+            for shared in [1, 2] {
+                all.push(frame + slope + shared * place_of(SHARED_ROW));
             }
         }
-        all
+    }
+
+    /// Rows that are walked upwards, samples at whole numbers, and triangles that are clipped first.
+    fn add_ways(all: &mut Vec<i64>, frame: i64) {
+        for (number, slope) in (0..).zip(SLOPES) {
+            // Where nothing is added, upwards is the same, nearly.
+            // Clipping is done in floats of 32 bits, and goes with slopes in these.
+            let is_added = slope.is_added_in_floats();
+            for way in 0..if is_added { 6 } else { 1 } {
+                let p = frame + number + way % 2 * place_of(UP) + way / 2 * place_of(MOVED_BY);
+                if way > 0 {
+                    all.push(p);
+                }
+                if slope.is_single() {
+                    all.extend([p + CLIPPED, p + CLIPPED + place_of(BOXES)]);
+                }
+            }
+        }
     }
 
     /// How many pixels of what was drawn it does not predict, up to a number.
@@ -450,29 +504,33 @@ impl Scan {
 /// A triangle with what was drawn of it.
 pub(super) type DrawnTriangle = ([Place; 3], PixelRect, Mask);
 /// The parameters of a frame: slopes, and where edges begin.
-const WITHIN: i64 = DIGITS.0[0] * DIGITS.0[1] * DIGITS.0[2];
+const WITHIN: i64 = place_of(3);
 /// Frames that are tried with all ways of rounding, for each of two slopes.
 const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
 pub(super) fn fitting(rows: &[DrawnTriangle]) -> Vec<i64> {
-    let columns: Vec<DrawnTriangle> = rows
-        .iter()
-        .map(|(corners, window, drawn)| (exchanged(*corners), turned(*window), drawn.turned()))
-        .collect();
+    let mut columns = Vec::with_capacity(rows.len());
+    for (corners, window, drawn) in rows {
+        columns.push((transposed_corners(*corners), transposed_window(*window), drawn.turned()));
+    }
     let (least, all) = frames(rows, 0, u32::MAX);
     // Where crossings are rounded, both may miss as many.
-    match frames(&columns, 0, least / 4) {
-        (_, all) if !all.is_empty() => {
-            around(&columns, all).into_iter().map(|p| p + COLUMNS).collect()
-        }
-        _ => around(rows, all),
+    let (_, by_columns) = frames(&columns, 0, least / 4);
+    if by_columns.is_empty() {
+        return fitting_frames(rows, all);
     }
+    let mut all = fitting_frames(&columns, by_columns);
+    for p in &mut all {
+        *p += COLUMNS;
+    }
+    all
 }
 
 /// All that is near the best frames with exact crossings.
-fn around(drawn: &[DrawnTriangle], mut all: Vec<i64>) -> Vec<i64> {
+fn fitting_frames(drawn: &[DrawnTriangle], mut all: Vec<i64>) -> Vec<i64> {
+    // The slope and the beginning that fit the first frame best.
     let mut best = (u32::MAX, 0);
     for p in Scan::within(all[0]).into_iter().filter(|p| *p < COLUMNS) {
         let missed = Scan::of(p).missed(drawn, best.0);
@@ -482,8 +540,9 @@ fn around(drawn: &[DrawnTriangle], mut all: Vec<i64>) -> Vec<i64> {
     }
     // Too many that explain the same crowd out others.
     all.truncate(2);
-    let others = frames(drawn, best.1 % WITHIN, u32::MAX).1;
-    all.extend(others.into_iter().map(|p| p - p % WITHIN));
+    for p in frames(drawn, best.1 % WITHIN, u32::MAX).1 {
+        all.push(p - p % WITHIN);
+    }
     all.sort_unstable();
     all.dedup();
     all.into_iter().flat_map(Scan::within).collect()
@@ -493,13 +552,15 @@ fn around(drawn: &[DrawnTriangle], mut all: Vec<i64>) -> Vec<i64> {
 /// misses.
 fn frames(drawn: &[DrawnTriangle], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
-    for frame in (0..DIGITS.0[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
+    for frame in 0..place_of(LEVEL) / WITHIN {
+        let frame = frame * WITHIN + slope;
         let how = Scan::of(frame);
         // Of whole corners rows are with the last one or without, and edges begin at the corner.
         let is_twice = how.height == 3 && how.rows / 2 == 1;
         if is_twice || how.whole > 0 && (how.rows > 1 || how.height > 1) {
             continue;
         }
+        // A frame that misses more than the last one of the best is given up early.
         let most = best.get(FRAMES - 1).map_or(most, |(missed, _)| *missed);
         let missed = how.missed(drawn, most);
         if missed < most {
@@ -508,6 +569,7 @@ fn frames(drawn: &[DrawnTriangle], slope: i64, most: u32) -> (u32, Vec<i64>) {
             best.truncate(FRAMES);
         }
     }
+    // Frames that miss many more than the best one explain less.
     let least = best.first().map_or(u32::MAX, |(missed, _)| *missed);
     best.retain(|(missed, _)| *missed <= least.saturating_mul(2).saturating_add(4));
     (least, best.into_iter().map(|(_, frame)| frame).collect())
@@ -515,15 +577,19 @@ fn frames(drawn: &[DrawnTriangle], slope: i64, most: u32) -> (u32, Vec<i64>) {
 
 /// A crossing that is moved from row to row, in pixels.
 struct Walk {
+    /// The crossing with the row `row`.
     x: f64,
+    /// What a step down adds, or what crossings are computed from.
     slope: f64,
     from: Place,
     to: Place,
+    /// The first row of the edge, which need not be in the window.
     first_row: i64,
     /// The row of `x`.
     row: i64,
 }
 
+/// A number of 64 bits that is one of 32 bits.
 fn single(v: f64) -> f64 {
     f64::from(v as f32)
 }
@@ -534,6 +600,7 @@ fn down(v: f64) -> i64 {
     cut.saturating_sub(i64::from(cut as f64 > v))
 }
 
+/// A number rounded up.
 fn up(v: f64) -> i64 {
     down(-v).saturating_neg()
 }
@@ -550,6 +617,7 @@ impl Walk {
         let ahead = how.ahead(begin, first_row, from[1]);
         let [dx, dy] = [to[0] - from[0], how.height_of(from, to)];
         let start = from[0] + MOVED[how.moved as usize].0;
+        // The crossing with the first row in single precision, from the corner.
         let first = |slope: f64| single(single(start) + single(slope * single(ahead)));
         let (x, slope) = match how.slope {
             Slope::Added(true) | Slope::Computed => {
@@ -560,12 +628,14 @@ impl Walk {
                 let slope = single(single(dx) * single(1.0 / single(dy)));
                 (first(slope), slope)
             }
-            Slope::Half => (0.0, super::values::rounded(dx / dy, 2)),
+            // Computed for each row, so that no first crossing is needed.
+            Slope::Half => (0.0, super::format::rounded(dx / dy, 2)),
             Slope::Inverse(bits) => {
                 let unit = 1_i64 << bits;
                 (0.0, dx * (unit / subpixels(dy)) as f64 * 256.0 / unit as f64)
             }
             Slope::Mantissa(bits) => {
+                // The bits after the first one that are not kept are 0.
                 let cut = f64::from(1.0 / dy as f32).to_bits() >> (52 - bits) << (52 - bits);
                 (0.0, single(dx * f64::from_bits(cut)))
             }
@@ -573,12 +643,14 @@ impl Walk {
                 let unit = 1_i128 << bits;
                 let [wide, dx, dy, ahead] =
                     [from[0], dx, dy, ahead].map(|v| i128::from(subpixels(v)));
+                // The slope for one row, in units of the fixed point.
                 let slope = match cut {
                     0 => dx * unit / dy,
                     1 => (dx * unit).div_euclid(dy),
                     2 => (2 * dx * unit + dy).div_euclid(2 * dy),
                     _ => (dx * (256 * unit / dy)) >> 8,
                 };
+                // The first crossing: coordinates have 8 bits of fraction, and so has the distance.
                 let x = match start {
                     0 => (wide * unit / 256 + ((slope * ahead) >> 8)) as f64,
                     1 => (wide * unit / 256 + slope * ahead / 256) as f64,
@@ -614,6 +686,7 @@ impl Walk {
                 let unit = if how.whole > 0 { 256 } else { 1 };
                 let [dx, dy] = [self.to[0] - self.from[0], how.height_of(self.from, self.to)];
                 let [dx, dy, ahead] = [dx, dy, ahead].map(|v| i128::from(subpixels(v)));
+                // In 16 bits a product of whole pixels wraps around.
                 let product = match wraps {
                     true => wrap(dx * ahead / 65536, 16) * 65536,
                     false => dx * ahead,
@@ -628,6 +701,7 @@ impl Walk {
             }
             Slope::Fixed { .. } => self.x + self.slope * (row - self.row) as f64,
             Slope::Added(_) | Slope::AddedReciprocal => {
+                // One step for each row between, since each of them is rounded.
                 let step = (row - self.row).signum();
                 while self.row != row {
                     self.x += self.slope * step as f64;
@@ -649,27 +723,28 @@ const CLIPPED: i64 = 1 << 41;
 
 /// The picture of a way of filling row by row, or column by column.
 pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    // Below `COLUMNS` are the digits; what is done first comes above them.
     let how = Scan::of(p % COLUMNS);
     if how.boxes == 1 {
         let drawn = match p & COLUMNS {
             0 => boxed(places(corners), window, how),
-            _ => boxed(exchanged(places(corners)), turned(window), how).map(|mask| mask.turned()),
+            _ => boxed(transposed_corners(places(corners)), transposed_window(window), how)
+                .map(|mask| mask.turned()),
         };
         if let Some(mask) = drawn {
             return mask;
         }
     }
     let mut mask = Mask::default();
-    let mut add = |part: [Place; 3]| match p & COLUMNS {
-        0 => mask.add(&scan(part, window, how)),
-        _ => mask.add(&scan(exchanged(part), turned(window), how).turned()),
+    let parts = match p < CLIPPED {
+        true => vec![places(corners)],
+        false => clipped(places(corners), window, usize::from(p & COLUMNS == 0), how),
     };
-    match p < CLIPPED {
-        true => add(places(corners)),
-        false => {
-            let rows = usize::from(p & COLUMNS == 0);
-            clipped(places(corners), window, rows, how).into_iter().for_each(add);
-        }
+    for part in parts {
+        mask.add(&match p & COLUMNS {
+            0 => scan(part, window, how),
+            _ => scan(transposed_corners(part), transposed_window(window), how).turned(),
+        });
     }
     mask
 }
@@ -680,13 +755,13 @@ fn boxed(corners: [Place; 3], window: PixelRect, how: Scan) -> Option<Mask> {
     let moved = MOVED[how.moved as usize].0;
     let at =
         corners.map_array(|[x, y]| [x + moved, if how.up == 1 { high - y } else { y } + moved]);
-    let is_flat = |i: usize| {
-        let [from, to] = [at[i], at[(i + 1) % 3]];
-        (0..2).any(|k: usize| (to[k] - from[k]).abs() < 0.5)
-    };
-    if !(0..3).all(is_flat) {
-        return None;
+    for (i, from) in at.iter().enumerate() {
+        let to = at[(i + 1) % 3];
+        if (to[0] - from[0]).abs() >= 0.5 && (to[1] - from[1]).abs() >= 0.5 {
+            return None;
+        }
     }
+    // The corners that lie farthest to the upper left and to the lower right.
     let by_sum = |p: &&Place, q: &&Place| (p[0] + p[1]).total_cmp(&(q[0] + q[1]));
     let [from, to] = [at.iter().min_by(by_sum)?, at.iter().rev().max_by(by_sum)?]
         .map_array(|p| p.map_array(|v| v.trunc()));
@@ -700,22 +775,25 @@ fn boxed(corners: [Place; 3], window: PixelRect, how: Scan) -> Option<Mask> {
     Some(mask)
 }
 
-fn exchanged(corners: [Place; 3]) -> [Place; 3] {
+/// A triangle whose columns are the rows of this one.
+fn transposed_corners(corners: [Place; 3]) -> [Place; 3] {
     corners.map_array(|[x, y]| [y, x])
 }
 
-fn turned(window: PixelRect) -> PixelRect {
+fn transposed_window(window: PixelRect) -> PixelRect {
     PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 }
 }
 
 /// The part of a triangle within the window, as triangles that share its first corner, in floats of 32 bits: coordinates go
 /// through numbers from -1 to 1, in which it is clipped. `rows` is the axis across the rows.
 fn clipped(corners: [Place; 3], window: PixelRect, rows: usize, how: Scan) -> Vec<[Place; 3]> {
+    // The corners in numbers from -1 to 1.
     let sides = [window.x1, window.y1].map_array(|side| side as f32);
     let moved = MOVED[how.moved as usize].0 as f32;
     let mut polygon: Vec<[f32; 2]> =
         corners.iter().map(|p| [0, 1].map(|k| 2.0 / sides[k] * p[k] as f32 - 1.0)).collect();
     for (axis, sign) in [(0, 1.0), (0, -1.0), (1, -1.0), (1, 1.0)] {
+        // Positive inside this side of the window.
         let inside = |p: [f32; 2]| 1.0 - sign * p[axis];
         let mut kept = Vec::new();
         for (i, &to) in polygon.iter().enumerate() {
@@ -742,6 +820,8 @@ fn clipped(corners: [Place; 3], window: PixelRect, rows: usize, how: Scan) -> Ve
     polygon.windows(2).skip(1).map(|side| [polygon[0], side[0], side[1]]).collect()
 }
 
+/// Fills a triangle row by row: corners are sorted by height, and each half is filled between the
+/// long edge and a short one.
 fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
     let whole = |v: f64| match how.whole {
         0 => v,
@@ -750,6 +830,7 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
         3 => (v as i64) as f64,
         _ => up(v) as f64,
     };
+    // The height by which a corner is sorted may be another one than that which is drawn.
     let exact = corners.map_array(|p| {
         let y = p[1];
         let height = match (how.whole, how.sorted) {
@@ -766,6 +847,7 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
     let [top, middle, bottom] = sorted;
     let mut mask = Mask::default();
     let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
+    // Fills a row between two crossings, in either order.
     let mut fill = |y: i64, a: f64, b: f64| {
         let (left, right) = (a.min(b), a.max(b));
         let first = match how.left {
@@ -788,12 +870,14 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
             mask.set(x, y as i32);
         }
     };
+    // The rows that the corners begin; the last one is where the triangle ends.
     let mut starts = [top, middle, bottom].map_array(|p| how.first_row(p[1]));
     let end = starts[2] + how.rows % 2;
     // A level lower side leaves nothing for the lower half.
     if how.lower > 1 && middle[1] == bottom[1] {
         starts[1] = end;
     }
+    // A level triangle has no crossings, and is a row from its least to its largest x.
     if top[1] == bottom[1] && how.level > 0 {
         let xs = sorted.map_array(|p| p[0]);
         let (least, most) = (xs[0].min(xs[1]).min(xs[2]), xs[0].max(xs[1]).max(xs[2]));
@@ -801,8 +885,9 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
             match how.level {
                 1 => fill(starts[0], least, most),
                 3 => {
-                    (clamp(least as i64)..clamp(most as i64 + 1))
-                        .for_each(|x| mask.set(x, starts[0] as i32));
+                    for x in clamp(least as i64)..clamp(most as i64 + 1) {
+                        mask.set(x, starts[0] as i32);
+                    }
                 }
                 _ => {}
             }
@@ -816,6 +901,7 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
         upwards(sorted, [starts[0], starts[1], end], window, &how, &mut fill);
         return mask;
     }
+    // From top to bottom: the long edge goes on, and each half has its own short edge.
     let mut long = Walk::new(top, bottom, [starts[0]; 2], &how);
     if how.slope.is_added_in_floats() && long.row < -MOST_ROWS {
         return mask;
@@ -851,6 +937,7 @@ fn upwards(
     if end > MOST_ROWS {
         return;
     }
+    // From bottom to top: edges begin at their lower ends.
     let mut long = Walk::new(bottom, top, [end - 1; 2], how);
     for (from, to, rows) in [(bottom, middle, second..end), (middle, top, first..second)] {
         let mut short = Walk::new(from, to, [rows.end - 1; 2], how);

@@ -3,9 +3,10 @@
 
 use std::fmt;
 
-use super::fills::{FARTHEST, RATIO, decimal};
+use super::fills::{FARTHEST, RATIO, decimal, extent, farthest, xs, ys};
 use super::questions::{LONGEST_PX, Room};
-use super::{Explanation, lines, sample_of};
+use super::triangles::{self, SizeLimit};
+use super::{Explanation, lines, sample_of, wide};
 use crate::convention::{
     Count, Declarations, LineAsker, LineConvention, LineQuestion, Mask, Mirror, TriangleAsker,
     TriangleConvention, TriangleQuestion,
@@ -48,6 +49,7 @@ pub struct Threshold {
 
 impl fmt::Display for Threshold {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A sharp limit is said by what lies just beyond it, and another one by what is largest.
         let Self { right, wrong: [near, largest], words, hint, .. } = self;
         if self.is_sharp {
             let Count { drawn, of } = near;
@@ -62,13 +64,17 @@ impl fmt::Display for Threshold {
                 "Found by asking: {words}, rarely at first and often in the end ({drawn} of the {of} largest), as where numbers are rounded."
             )?;
         }
-        hint.iter().try_for_each(|hint| write!(f, " {hint}"))
+        match hint {
+            Some(hint) => write!(f, " {hint}"),
+            None => Ok(()),
+        }
     }
 }
 
 impl Threshold {
     /// A row or a column at the end of a word, from which on it is wrong where it is right before.
     pub(super) fn as_cause(&self) -> Option<Explanation> {
+        // Only a place in the window says what was counted: sizes and coordinates have more causes.
         let is_place = [Axis::Column, Axis::Row].iter().any(|axis| axis.name() == self.of);
         let bits = (self.wrong_from as u64).checked_ilog2()?;
         if !is_place || !self.is_sharp || self.wrong_from != f64::from(2).powi(bits as i32) {
@@ -81,10 +87,11 @@ impl Threshold {
             self.wrong_from - 1.0,
             self.wrong_from
         );
-        let all = |many| Count { drawn: many, of: many };
+        // What is wrong is beyond the limit, and all that is right is before it.
+        let wrong = self.wrong[0].drawn;
         Some(Explanation {
-            wrong: all(self.wrong[0].drawn),
-            right: all(self.right),
+            wrong: Count { drawn: wrong, of: wrong },
+            right: Count { drawn: self.right, of: self.right },
             ..Explanation::new(
                 "a word for rows or columns",
                 does,
@@ -111,6 +118,7 @@ enum Axis {
 }
 
 impl Axis {
+    /// As it is said, and as reports have it.
     fn name(self) -> &'static str {
         match self {
             Self::Size => "size",
@@ -128,6 +136,7 @@ impl Axis {
 }
 
 /// A shape that was asked for.
+/// Where the measure is that of the shape on the grid, and not the one that was wished for.
 struct ShapeAnswer {
     measure: i64,
     is_wrong: bool,
@@ -135,7 +144,9 @@ struct ShapeAnswer {
 
 /// What a search came to.
 struct LimitSearch {
+    /// The largest measure up to which all are right.
     right_to: i64,
+    /// The smallest measure of a wrong shape.
     wrong_from: i64,
     /// Shapes below the limit that were asked for and are right.
     right: u64,
@@ -143,6 +154,7 @@ struct LimitSearch {
     wrong: [Count; 2],
     /// The same of those just above the limit.
     first: Count,
+    /// See [`Threshold::is_sharp`].
     is_sharp: bool,
 }
 
@@ -153,48 +165,68 @@ async fn search(
     high: i64,
     mut probe: impl AsyncFnMut(i64, i64) -> Option<Vec<ShapeAnswer>>,
 ) -> Option<LimitSearch> {
-    let least = |seen: &[ShapeAnswer]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
     let mut right_to = 2 * low;
     if high < 2 * right_to {
         return None;
     }
+    // The smallest shapes have to be right, and some of the largest wrong.
     let small = probe(low, right_to).await?;
-    if least(&small).is_some() {
+    if first_wrong(&small).is_some() {
         return None;
     }
     let largest = probe(high / 2, high).await?;
-    let mut wrong_from = least(&largest)?;
+    let mut wrong_from = first_wrong(&largest)?;
+    // What lies between is halved, on a scale on which all powers of two are equally far apart.
     for _ in 0..MOST_ROUNDS {
         if wrong_from - right_to <= 1 {
             break;
         }
         let middle = geometric_mean(right_to, wrong_from).clamp(right_to + 1, wrong_from - 1);
-        match least(&probe(right_to + 1, middle).await?) {
+        match first_wrong(&probe(right_to + 1, middle).await?) {
             Some(measure) => wrong_from = measure,
             None => right_to = middle,
         }
     }
     // Whether it is a limit: others below are right, and a good part of those above is wrong.
+    // More shapes on both sides of what was found.
     let mut below = probe(low, right_to).await?;
     below.extend(probe((right_to / 2).max(low), right_to).await?);
     let up_to = |part: f64| ((wrong_from as f64 * part) as i64).clamp(wrong_from, high);
     let first = count(&probe(wrong_from, up_to(1.2)).await?);
     let wrong = [count(&probe(wrong_from, up_to(2.0)).await?), count(&largest)];
-    let is_many = |count: &Count| 10 * count.drawn >= count.of;
-    let lower = least(&below);
-    let is_sharp = lower.is_none() && is_many(&wrong[0]);
+    let lower = first_wrong(&below);
+    let is_sharp = lower.is_none() && is_many(wrong[0]);
     let right = (small.len() + below.len()) as u64;
     wrong_from = lower.unwrap_or(wrong_from);
     // What is rare at first has to be frequent in the end.
-    let is_limit = is_sharp || (is_many(&wrong[1]) && wrong_from >= 4 * low);
+    let is_limit = is_sharp || (is_many(wrong[1]) && wrong_from >= 4 * low);
     is_limit.then_some(LimitSearch { right_to, wrong_from, right, wrong, first, is_sharp })
 }
 
-fn count(seen: &[ShapeAnswer]) -> Count {
-    let wrong = seen.iter().filter(|seen| seen.is_wrong).count();
-    Count { drawn: wrong as u64, of: seen.len() as u64 }
+/// The least measure of a wrong shape.
+fn first_wrong(seen: &[ShapeAnswer]) -> Option<i64> {
+    let mut least = None;
+    for shape in seen.iter().filter(|shape| shape.is_wrong) {
+        least = Some(least.map_or(shape.measure, |least: i64| least.min(shape.measure)));
+    }
+    least
 }
 
+/// One of ten or more.
+fn is_many(count: Count) -> bool {
+    10 * count.drawn >= count.of
+}
+
+/// How many are wrong.
+fn count(seen: &[ShapeAnswer]) -> Count {
+    let mut wrong = Count::default();
+    for shape in seen {
+        wrong.add(shape.is_wrong);
+    }
+    wrong
+}
+
+/// The middle on a scale on which all powers of two are equally far apart.
 fn geometric_mean(low: i64, high: i64) -> i64 {
     ((low as f64 * high as f64).sqrt() as i64).clamp(low, high)
 }
@@ -216,13 +248,19 @@ fn between(room: &mut Room, from: i64, to: i64, number: usize) -> i64 {
 fn shapes<S>(
     room: &mut Room,
     [from, to]: [i64; 2],
-    make: impl Fn(&mut Room, i64) -> (i64, S),
+    make: &dyn Fn(&mut Room, i64) -> (i64, S),
 ) -> (Vec<i64>, Vec<S>) {
-    let shapes = (0..AT_ONCE).map(|number| {
-        let measure = between(room, from, to, number);
-        make(room, measure)
-    });
-    shapes.filter(|(measure, _)| (from..=to).contains(measure)).unzip()
+    let (mut measures, mut shapes) = (Vec::new(), Vec::new());
+    for number in 0..AT_ONCE {
+        // What a shape comes to on the grid may lie outside, and is left out then.
+        let about = between(room, from, to, number);
+        let (measure, shape) = make(room, about);
+        if (from..=to).contains(&measure) {
+            measures.push(measure);
+            shapes.push(shape);
+        }
+    }
+    (measures, shapes)
 }
 
 /// Shapes of these measures, of which it is known whether they are drawn wrongly, or that this is open; nothing where too few were
@@ -231,11 +269,13 @@ fn answered(measures: Vec<i64>, are_wrong: Vec<Option<bool>>) -> Option<Vec<Shap
     if are_wrong.len() < measures.len() {
         return None;
     }
-    let seen = measures.into_iter().zip(are_wrong);
-    Some(
-        seen.filter_map(|(measure, is_wrong)| Some(ShapeAnswer { measure, is_wrong: is_wrong? }))
-            .collect(),
-    )
+    let mut seen = Vec::new();
+    for (measure, is_wrong) in measures.into_iter().zip(are_wrong) {
+        if let Some(is_wrong) = is_wrong {
+            seen.push(ShapeAnswer { measure, is_wrong });
+        }
+    }
+    Some(seen)
 }
 
 /// The limits of a rasterizer that is expected to follow a convention.
@@ -244,75 +284,113 @@ pub(super) async fn of_triangles(
     known: &Declarations,
     expected: &TriangleConvention,
 ) -> Vec<Threshold> {
+    // Questions of their own, so that other searches do not depend on how many were asked here.
     let mut room = Room::new(known, 2);
     let (grain, sample) = (room.grain, sample_of(expected));
-    let (wide, high) = known.window_px;
-    let widest = |side: u32| i64::from(side.min(WIDEST_PX) as i32 - SIDE_PX);
-    let farthest = room.range_px.min(1 << 22) * i64::from(SUBPIXELS) / grain;
-    let mut axes = vec![
-        (Axis::Size, i64::from(SUBPIXELS) / grain, farthest),
-        (Axis::Reach, i64::from(SIDE_PX * SUBPIXELS) / grain, farthest),
-        (Axis::Slope, 8, i64::from(SIDE_PX - 1) * 256 / grain),
-    ];
-    // Rows of a picture that is turned over lie elsewhere.
-    if expected.mirror == Mirror::None {
-        let most = room.range_px - i64::from(SIDE_PX);
-        axes.extend(
-            [(Axis::Column, wide), (Axis::Row, high)]
-                .map_array(|(axis, side)| (axis, i64::from(SIDE_PX), widest(side).min(most))),
-        );
-    }
     let per_px = 256 / grain;
-    let mut found: Vec<(Axis, LimitSearch)> = Vec::new();
-    for (axis, low, mut high) in axes {
+    let mut found: Vec<FoundLimit> = Vec::new();
+    for AxisRange { axis, low, mut high } in axes(&room, known, expected) {
         if matches!(axis, Axis::Column | Axis::Row) {
             // What is far to the right has large coordinates, whose limit is known.
-            let far = found.iter().filter(|(axis, _)| axis.is_in_steps());
-            let nearest = far.map(|(_, limit)| limit.wrong_from / per_px).min();
-            high = high.min(nearest.unwrap_or(i64::MAX) - i64::from(SIDE_PX));
+            for FoundLimit { axis, limit } in &found {
+                if axis.is_in_steps() {
+                    high = high.min(limit.wrong_from / per_px - i64::from(SIDE_PX));
+                }
+            }
         }
         let limit = search(low, high, async |from, to| {
             let make = |room: &mut Room, measure| triangle(room, axis, measure, sample);
-            let (measures, shapes) = shapes(&mut room, [from, to], make);
+            let (measures, shapes) = shapes(&mut room, [from, to], &make);
             let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
             let answers = asker.ask(&questions).await;
-            let is_wrong = |(shape, answer): (&Shape, Option<Coverage>)| {
-                Some(!shape.is_drawn(answer.as_ref()?, expected)?)
-            };
-            answered(measures, shapes.iter().zip(answers).map(is_wrong).collect())
+            let mut are_wrong = Vec::new();
+            for (shape, answer) in shapes.iter().zip(answers) {
+                let is_drawn = answer.and_then(|picture| shape.is_drawn(&picture, expected));
+                are_wrong.push(is_drawn.map(|is_drawn| !is_drawn));
+            }
+            answered(measures, are_wrong)
         });
-        let limit = limit.await;
-        found.extend(limit.map(|limit| (axis, limit)));
+        if let Some(limit) = limit.await {
+            found.push(FoundLimit { axis, limit });
+        }
     }
     // Large triangles have large coordinates: the measure that tells more is kept.
-    let both =
-        [Axis::Size, Axis::Reach].map_array(|axis| found.iter().position(|(of, _)| *of == axis));
-    if let [Some(size), Some(reach)] = both {
-        let tells = |(axis, limit): &(Axis, LimitSearch)| {
-            (limit.is_sharp, hint(*axis, per_px, limit).is_some(), limit.first.drawn)
-        };
-        found.remove(if tells(&found[size]) >= tells(&found[reach]) { reach } else { size });
+    let size = found.iter().position(|found| found.axis == Axis::Size);
+    let reach = found.iter().position(|found| found.axis == Axis::Reach);
+    if let (Some(size), Some(reach)) = (size, reach) {
+        let is_size = found[size].tells(per_px) >= found[reach].tells(per_px);
+        found.remove(if is_size { reach } else { size });
     }
-    found.into_iter().map(|(axis, limit)| threshold(axis, "triangles", per_px, limit)).collect()
+    let mut limits = Vec::new();
+    for FoundLimit { axis, limit } in found {
+        limits.push(threshold(axis, "triangles", per_px, limit));
+    }
+    limits
 }
 
-/// Triangles about as large as some limits of a metric.
+/// A limit, and what is measured.
+struct FoundLimit {
+    axis: Axis,
+    limit: LimitSearch,
+}
+
+impl FoundLimit {
+    /// How much a limit says: the larger, the more.
+    fn tells(&self, per_px: i64) -> (bool, bool, u64) {
+        let has_hint = hint(self.axis, per_px, &self.limit).is_some();
+        (self.limit.is_sharp, has_hint, self.limit.first.drawn)
+    }
+}
+
+/// Between which measures a limit is looked for.
+struct AxisRange {
+    axis: Axis,
+    low: i64,
+    high: i64,
+}
+
+/// All that is measured of triangles that a program can be asked for.
+fn axes(room: &Room, known: &Declarations, expected: &TriangleConvention) -> Vec<AxisRange> {
+    let grain = room.grain;
+    let [side, px] = [SIDE_PX, SUBPIXELS].map_array(i64::from);
+    let farthest = room.range_px.min(1 << 22) * px / grain;
+    let mut axes = vec![
+        AxisRange { axis: Axis::Size, low: px / grain, high: farthest },
+        AxisRange { axis: Axis::Reach, low: side * px / grain, high: farthest },
+        AxisRange { axis: Axis::Slope, low: 8, high: (side - 1) * 256 / grain },
+    ];
+    // Rows of a picture that is turned over lie elsewhere.
+    if expected.mirror == Mirror::None {
+        let (wide, high) = known.window_px;
+        for (axis, window) in [(Axis::Column, wide), (Axis::Row, high)] {
+            let widest = i64::from(window.min(WIDEST_PX)) - side;
+            axes.push(AxisRange { axis, low: side, high: widest.min(room.range_px - side) });
+        }
+    }
+    axes
+}
+
+/// Triangles about as large as some limits of a metric, which are the parameters of mistakes.
 pub(super) fn near(
-    limits: impl Iterator<Item = (usize, bool, i64)>,
+    limits: &[i64],
     known: &Declarations,
     expected: &TriangleConvention,
 ) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, 4);
     let mut questions = Vec::new();
-    for (metric, _, limit) in limits.filter(|(metric, ..)| *metric != RATIO) {
+    for &p in limits {
+        let SizeLimit { metric, limit, .. } = triangles::size(p);
+        if metric == RATIO {
+            continue;
+        }
         // Twice the area is the product of two sides.
         let side = if metric == 0 { (limit as f64).sqrt() as i64 } else { limit };
         let steps = (side / room.grain).max(1);
         let axis = if metric >= FARTHEST { Axis::Reach } else { Axis::Size };
-        questions.extend((0..NEAR_A_LIMIT).map(|_| {
+        for _ in 0..NEAR_A_LIMIT {
             let measure = room.rng.int(steps / 2 + 1, 2 * steps);
-            triangle(&mut room, axis, measure, sample_of(expected)).1.question
-        }));
+            questions.push(triangle(&mut room, axis, measure, sample_of(expected)).1.question);
+        }
     }
     questions
 }
@@ -334,25 +412,26 @@ pub(super) async fn of_lines(
         let high = if axis == Axis::Size { longest } else { longest / 4 };
         let limit = search(4, high, async |from, to| {
             let make = |room: &mut Room, measure| line(room, axis, measure, longest);
-            let (measures, questions) = shapes(&mut room, [from, to], make);
+            let (measures, questions) = shapes(&mut room, [from, to], &make);
             let answers = asker.ask(&questions).await;
-            let is_wrong = |(question, answer): (&LineQuestion, Option<Vec<[i32; 2]>>)| {
-                let ends = question.ends.map_array(|end| end.map_array(i64::from));
-                let right = lines::of_convention(expected, ends, question.window)?;
-                let answer = answer?;
-                let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
-                Some(lines::mask(&pixels, question.window) != right)
-            };
-            answered(measures, questions.iter().zip(answers).map(is_wrong).collect())
+            let mut are_wrong = Vec::new();
+            for (question, answer) in questions.iter().zip(answers) {
+                let right = lines::of_convention(expected, wide(question.ends), question.window);
+                let drawn = answer.map(|a| lines::mask(&lines::widened(&a), question.window));
+                are_wrong.push(right.zip(drawn).map(|(right, drawn)| right != drawn));
+            }
+            answered(measures, are_wrong)
         });
-        let limit = limit.await;
-        // Slopes are those of lines that are not too long.
-        longest = limit.as_ref().map_or(longest, |limit| limit.wrong_from - 1);
-        found.extend(limit.map(|limit| threshold(axis, "lines", 1, limit)));
+        if let Some(limit) = limit.await {
+            // Slopes are those of lines that are not too long.
+            longest = limit.wrong_from - 1;
+            found.push(threshold(axis, "lines", 1, limit));
+        }
     }
     found
 }
 
+/// A triangle that is asked for.
 struct Shape {
     question: TriangleQuestion,
     /// The window in which it lies, and how far that is from the origin in pixels.
@@ -364,10 +443,11 @@ impl Shape {
     /// Whether it was drawn as expected; nothing where that is open.
     fn is_drawn(&self, picture: &Coverage, expected: &TriangleConvention) -> Option<bool> {
         let [x, y] = self.moved_px;
-        let back = self
-            .question
-            .corners
-            .map_array(|c| SubpixelPoint::new(c.x - x * SUBPIXELS, c.y - y * SUBPIXELS));
+        // The same triangle in the window at the origin.
+        let mut back = self.question.corners;
+        for c in &mut back {
+            *c = SubpixelPoint::new(c.x - x * SUBPIXELS, c.y - y * SUBPIXELS);
+        }
         let right = expected.mask(&back, self.near)?;
         let mut drawn = Mask::default();
         let mut beyond = false;
@@ -384,55 +464,18 @@ impl Shape {
     }
 }
 
+/// A triangle of about a measure near the window, or in a window whose last column or row is that; and its measure.
 fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64, Shape) {
-    let grain = room.grain;
     let [wide, high] = room.side.map_array(|side| (side as i32).min(SIDE_PX));
     let near = PixelRect::window(wide as u32, high as u32);
     let at = room.inside(near);
     let mut moved_px = [0, 0];
     let points = match axis {
-        Axis::Size => {
-            // An edge through the window with sides of that size; products are largest on a diagonal.
-            let mut sides = [measure; 2];
-            if room.rng.chance(2) {
-                sides[usize::from(room.rng.chance(2))] = room.rng.int(0, measure);
-            }
-            let sides = sides.map_array(|side| if room.rng.chance(2) { side } else { -side });
-            // In half of them it begins or ends in the window.
-            let part = [0.0, 1.0, room.rng.unit(), room.rng.unit()][room.rng.int(0, 3) as usize];
-            let [first, second] = room.beside(near, sample, sides, part);
-            let third = match room.rng.int(0, 2) {
-                0 => [first[0], second[1]],
-                1 => [second[0], first[1]],
-                _ => [0, 1]
-                    .map_array(|i| room.rng.int(first[i].min(second[i]), first[i].max(second[i]))),
-            };
-            [first, second, third]
-        }
-        Axis::Reach => {
-            let most = measure * grain;
-            let first = [0; 2].map_array(|_| room.rng.int(-most, most));
-            let mut first =
-                first.map_array(|v| if room.rng.chance(3) { v.signum() * most } else { v });
-            first[usize::from(room.rng.chance(2))] = if room.rng.chance(2) { most } else { -most };
-            // Through the window, and not so far beyond.
-            let beyond = room.rng.unit() * 0.5;
-            let second = [0, 1].map_array(|i| at[i] + ((at[i] - first[i]) as f64 * beyond) as i64);
-            [first, second, room.inside(near)]
-        }
-        Axis::Slope => {
-            let length = i64::from(wide.min(high)) * 256 * 3 / 4 / grain;
-            let rise = (length / measure).max(1);
-            let from = [at[0] / 4, at[1]].map_array(|v| v.div_euclid(grain) * grain);
-            let sign = if room.rng.chance(2) { 1 } else { -1 };
-            let to = [from[0] + rise * measure * grain, from[1] + sign * rise * grain];
-            let off = room.rng.int(2, 10) * if room.rng.chance(2) { 256 } else { -256 };
-            let third = [room.rng.int(from[0], to[0]), from[1] + off];
-            let steep = room.rng.chance(2);
-            [from, to, third].map_array(|[x, y]| if steep { [y, x] } else { [x, y] })
-        }
+        Axis::Size => of_size(room, near, measure, sample),
+        Axis::Reach => of_reach(room, near, measure, at),
+        Axis::Slope => of_slope(room, near, measure, at),
         Axis::Column | Axis::Row => {
-            // A corner lies in that column or row, the last one of its window.
+            // The window that is asked for ends with that column or row.
             let k = usize::from(axis == Axis::Row);
             let last = [wide, high][k] - 1;
             moved_px[k] = (measure as i32 - last).max(0);
@@ -441,6 +484,7 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64
                 let [x, y] = room.inside(near);
                 [x + far[0], y + far[1]]
             });
+            // A corner lies in it.
             points[0][k] = far[k] + i64::from(last) * 256 + room.rng.int(1, 255);
             points
         }
@@ -449,39 +493,80 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64
     if room.rng.chance(2) {
         corners.swap(1, 2);
     }
-    let measure = match axis {
-        Axis::Size => {
-            let side = |of: &dyn Fn(&SubpixelPoint) -> i32| {
-                let all = corners.map_array(|c| i64::from(of(&c)));
-                all.into_iter().max().unwrap_or(0) - all.into_iter().min().unwrap_or(0)
-            };
-            side(&|c| c.x).max(side(&|c| c.y)) / grain
-        }
-        Axis::Reach => {
-            let all = corners.iter().flat_map(|c| [c.x, c.y]);
-            all.map(|v| i64::from(v).abs()).max().unwrap_or(0) / grain
-        }
-        Axis::Slope => steepest(&corners),
-        Axis::Column | Axis::Row => {
-            let [x, y] = [moved_px[0] + wide - 1, moved_px[1] + high - 1].map_array(i64::from);
-            if axis == Axis::Column { x } else { y }
-        }
-    };
+    // What it came to on the grid of coordinates.
+    let (columns, rows) = (xs(&corners), ys(&corners));
     let [x, y] = moved_px;
+    let measure = match axis {
+        Axis::Size => extent(columns).max(extent(rows)) / room.grain,
+        Axis::Reach => farthest(columns).max(farthest(rows)) / room.grain,
+        Axis::Slope => steepest(&corners),
+        Axis::Column => i64::from(x + wide - 1),
+        Axis::Row => i64::from(y + high - 1),
+    };
     let window = PixelRect::window((wide + x) as u32, (high + y) as u32);
     (measure, Shape { question: TriangleQuestion { corners, window }, near, moved_px })
 }
 
-/// The largest ratio of an edge's sides, without level and upright ones.
-fn steepest([a, b, c]: &Corners) -> i64 {
-    let ratio = |p: &SubpixelPoint, q: &SubpixelPoint| {
-        let sides = [i64::from(q.x) - i64::from(p.x), i64::from(q.y) - i64::from(p.y)];
-        let [dx, dy] = sides.map_array(i64::abs);
-        dx.max(dy).checked_div(dx.min(dy)).unwrap_or(0)
+/// Corners of a triangle with sides of that size, of which an edge passes a sample of the window closely.
+fn of_size(room: &mut Room, near: PixelRect, measure: i64, sample: [i32; 2]) -> [[i64; 2]; 3] {
+    // Products are largest on a diagonal.
+    let mut sides = [measure; 2];
+    if room.rng.chance(2) {
+        sides[usize::from(room.rng.chance(2))] = room.rng.int(0, measure);
+    }
+    let sides = sides.map_array(|side| if room.rng.chance(2) { side } else { -side });
+    // In half of them it begins or ends in the window.
+    let part = [0.0, 1.0, room.rng.unit(), room.rng.unit()][room.rng.int(0, 3) as usize];
+    let [first, second] = room.beside(near, sample, sides, part);
+    let third = match room.rng.int(0, 2) {
+        0 => [first[0], second[1]],
+        1 => [second[0], first[1]],
+        _ => [0, 1].map_array(|i| room.rng.int(first[i].min(second[i]), first[i].max(second[i]))),
     };
-    ratio(a, b).max(ratio(b, c)).max(ratio(c, a))
+    [first, second, third]
 }
 
+/// Corners of which one has that coordinate, and with an edge through the window.
+fn of_reach(room: &mut Room, near: PixelRect, measure: i64, at: [i64; 2]) -> [[i64; 2]; 3] {
+    let most = measure * room.grain;
+    let first = [0; 2].map_array(|_| room.rng.int(-most, most));
+    // Often both coordinates are as far away.
+    let mut first = first.map_array(|v| if room.rng.chance(3) { v.signum() * most } else { v });
+    first[usize::from(room.rng.chance(2))] = if room.rng.chance(2) { most } else { -most };
+    // Through the window, and not so far beyond.
+    let beyond = room.rng.unit() * 0.5;
+    let second = [0, 1].map_array(|i| at[i] + ((at[i] - first[i]) as f64 * beyond) as i64);
+    [first, second, room.inside(near)]
+}
+
+/// Corners with an edge of that slope in the window.
+fn of_slope(room: &mut Room, near: PixelRect, measure: i64, at: [i64; 2]) -> [[i64; 2]; 3] {
+    let grain = room.grain;
+    let length = i64::from(near.x1.min(near.y1)) * 256 * 3 / 4 / grain;
+    let rise = (length / measure).max(1);
+    let from = [at[0] / 4, at[1]].map_array(|v| v.div_euclid(grain) * grain);
+    let sign = if room.rng.chance(2) { 1 } else { -1 };
+    let to = [from[0] + rise * measure * grain, from[1] + sign * rise * grain];
+    let off = room.rng.int(2, 10) * if room.rng.chance(2) { 256 } else { -256 };
+    let third = [room.rng.int(from[0], to[0]), from[1] + off];
+    // Steep edges are flat ones with x and y exchanged.
+    let steep = room.rng.chance(2);
+    [from, to, third].map_array(|[x, y]| if steep { [y, x] } else { [x, y] })
+}
+
+/// The largest ratio of an edge's sides, without level and upright ones.
+fn steepest([a, b, c]: &Corners) -> i64 {
+    slope(a, b).max(slope(b, c)).max(slope(c, a))
+}
+
+/// The longer side of an edge's box over the shorter one; 0 where it has none.
+fn slope(p: &SubpixelPoint, q: &SubpixelPoint) -> i64 {
+    let dx = (i64::from(q.x) - i64::from(p.x)).abs();
+    let dy = (i64::from(q.y) - i64::from(p.y)).abs();
+    dx.max(dy).checked_div(dx.min(dy)).unwrap_or(0)
+}
+
+/// A line of about a measure through a pixel of the window, and its measure.
 fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQuestion) {
     let [wide, high] = room.side.map_array(i64::from);
     let window = PixelRect::window(wide as u32, high as u32);
@@ -493,6 +578,7 @@ fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQu
         }
         _ => (measure, room.rng.int(0, measure)),
     };
+    // Steep lines are as many as flat ones, and all directions are as many.
     let mut along = [major, minor];
     if room.rng.chance(2) {
         along = [minor, major];
@@ -512,8 +598,10 @@ fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQu
     (measure, LineQuestion { ends, window })
 }
 
+/// A limit with what is said of it.
 fn threshold(axis: Axis, shapes: &str, per_px: i64, found: LimitSearch) -> Threshold {
     let scale = if axis.is_in_steps() { per_px } else { 1 };
+    // What a number in some unit of the program would come to there.
     let hint = hint(axis, per_px, &found);
     let LimitSearch { wrong_from, right, wrong, is_sharp, .. } = found;
     let said = decimal(wrong_from, scale);

@@ -1,4 +1,14 @@
 //! Weighs hypotheses by the answers: those that explain what is wrong without predicting faults that are not there.
+//!
+//! # Steps
+//!
+//! Every mistake with every parameter on every base is a hypothesis, and a prediction costs a picture. So they are tried on few
+//! answers first:
+//!
+//! 1. all hypotheses are looked at on 16 wrong answers and 16 right ones, and the best 160 are kept, of each name 80 at most,
+//! 2. these are looked at on 40 of each, and 60 are kept,
+//! 3. these are weighed on every second answer, and the best 24
+//! 4. on the other answers, which had no part in the choice: only these count.
 
 use std::collections::BTreeMap;
 
@@ -33,6 +43,7 @@ impl Weight {
         let mut weight = Self::default();
         for &i in questions {
             let count = if is_wrong[i] { &mut weight.wrong } else { &mut weight.right };
+            // Prediction is slow, and most hypotheses are hopeless after a few answers.
             count.add((hypothesis.predicts)(i));
             if weight.missed() > most {
                 return None;
@@ -51,18 +62,28 @@ impl Weight {
 
     /// At least 99 % of both.
     fn is_convincing(&self) -> bool {
-        let enough = |count: &Count| 100 * count.drawn >= 99 * count.of;
-        self.wrong.of > 0 && enough(&self.wrong) && enough(&self.right)
+        let Self { wrong, right } = self;
+        wrong.of > 0 && 100 * wrong.drawn >= 99 * wrong.of && 100 * right.drawn >= 99 * right.of
     }
 }
 
-/// Looks at all hypotheses and at those that are left of them: how many wrong answers and as many right ones are tried, how
-/// many hypotheses are kept, and how many of one name at most.
-const LOOKS: [(usize, usize, usize); 2] = [(16, 160, 80), (40, 60, 30)];
+/// A look at the hypotheses that are left.
+struct Look {
+    /// How many wrong answers, and as many right ones, they are tried on.
+    answers: usize,
+    /// How many hypotheses are kept, and of one name.
+    kept: usize,
+    of_one_name: usize,
+}
+
+const LOOKS: [Look; 2] = [
+    Look { answers: 16, kept: 160, of_one_name: 80 },
+    Look { answers: 40, kept: 60, of_one_name: 30 },
+];
 /// Of these, those that are tried on answers that they were not chosen by.
 const TRIED: usize = 24;
 /// Wrong answers that may be missed at a look, although they are most.
-const LEAST_MISSED: usize = 2;
+const LEAST_MISSED: u64 = 2;
 /// Wrong answers below which nothing is concluded.
 pub(super) const LEAST_WRONG: usize = 6;
 
@@ -78,34 +99,71 @@ pub(super) fn weigh(
         return (Vec::new(), None);
     }
     let (fitted, fresh) = (half(is_wrong, among, 0), fresh(is_wrong, among));
-    let mut left: Vec<_> = hypotheses.iter().collect();
-    for (answers, kept, of_one_name) in LOOKS {
-        let some = |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong);
-        let few: Vec<usize> = some(true).take(answers).chain(some(false).take(answers)).collect();
-        left.sort_by_cached_key(|hypothesis| look(hypothesis, &few, is_wrong));
-        let mut of_names: BTreeMap<&str, usize> = BTreeMap::new();
-        left.retain(|hypothesis| {
-            let of_name = of_names.entry(hypothesis.says.name).or_default();
-            *of_name += 1;
-            *of_name <= of_one_name
-        });
+    let mut left: Vec<Weighed<'_, '_>> = Vec::new();
+    for hypothesis in hypotheses {
+        left.push(Weighed { missed: 0, weight: Weight::default(), hypothesis });
+    }
+    // All on a few answers first, and what is left on more.
+    for Look { answers, kept, of_one_name } in LOOKS {
+        let few = some_of_both(&fitted, is_wrong, answers);
+        for one in &mut left {
+            one.missed = look(one.hypothesis, &few, is_wrong);
+        }
+        sort_by_missed(&mut left);
+        keep_of_names(&mut left, of_one_name, |one| one.hypothesis.says.name);
         left.truncate(kept);
     }
-    let left = left.into_iter().map(|hypothesis| (0, hypothesis)).collect();
-    let scored = weighed(left, &fitted, is_wrong);
-    let scored = scored.into_iter().map(|(missed, _, hypothesis)| (missed, hypothesis));
-    let tried = weighed(scored.take(TRIED).collect(), &fresh, is_wrong);
-    let Some(&(least, ..)) = tried.first() else { return (Vec::new(), None) };
+    // The looks chose them, and count no further.
+    for one in &mut left {
+        one.missed = 0;
+    }
+    let mut scored = weighed(left, &fitted, is_wrong);
+    scored.truncate(TRIED);
+    // The best of them on answers that they were not chosen by.
+    let tried = weighed(scored, &fresh, is_wrong);
+    let Some(best) = tried.first() else { return (Vec::new(), None) };
     let mut named: Vec<Explanation> = Vec::new();
-    for (missed, weight, hypothesis) in &tried {
-        let is_new = named.iter().all(|said| said.name != hypothesis.says.name);
-        if *missed == least && weight.is_convincing() && is_new {
-            named.push(weight.of_one(hypothesis));
+    for one in &tried {
+        // Of one mistake with several parameters, the first is named.
+        let is_new = named.iter().all(|said| said.name != one.hypothesis.says.name);
+        if one.missed == best.missed && one.weight.is_convincing() && is_new {
+            named.push(one.weight.of_one(one.hypothesis));
         }
     }
-    let nearest = tried.first().map(|(_, weight, hypothesis)| weight.of_one(hypothesis));
-    let nearest = nearest.filter(|_| named.is_empty());
+    let nearest = named.is_empty().then(|| best.weight.of_one(best.hypothesis));
     (named, nearest)
+}
+
+/// A hypothesis with its weight on some answers, and how many it missed there and before.
+struct Weighed<'h, 'a> {
+    /// Answers that it does not predict, of those that count for its place.
+    missed: u64,
+    weight: Weight,
+    hypothesis: &'h Hypothesis<'a>,
+}
+
+/// The best ones first; of equal ones, the one that was first stays so.
+fn sort_by_missed(all: &mut [Weighed<'_, '_>]) {
+    all.sort_by_key(|one| one.missed);
+}
+
+/// The first wrong ones and the first right ones of some answers, so many of each.
+fn some_of_both(answers: &[usize], is_wrong: &[bool], count: usize) -> Vec<usize> {
+    let mut some = Vec::new();
+    for wrong in [true, false] {
+        some.extend(answers.iter().filter(|i| is_wrong[**i] == wrong).take(count));
+    }
+    some
+}
+
+/// Keeps the first ones of each name, so many of them.
+fn keep_of_names<T>(all: &mut Vec<T>, count: usize, name: impl Fn(&T) -> &'static str) {
+    let mut of_names: BTreeMap<&str, usize> = BTreeMap::new();
+    all.retain(|one| {
+        let of_name = of_names.entry(name(one)).or_default();
+        *of_name += 1;
+        *of_name <= count
+    });
 }
 
 /// Wrong answers by which the nearest hypotheses are found, and those of them that are looked at first.
@@ -127,6 +185,7 @@ pub(super) fn nearest(
 ) -> Vec<usize> {
     let wrong = chosen_by(is_wrong).into_iter().filter(|&i| is_wrong[i]);
     let wrong: Vec<usize> = wrong.take(NEAREST_BY).collect();
+    // A part of what a program does need not explain most of it.
     let least = LEAST_NEAR.max(wrong.len() as u32 / LEAST_PART);
     // Which wrong answers each predicts, as bits.
     let mut near: Vec<(u64, usize)> = Vec::new();
@@ -144,12 +203,7 @@ pub(super) fn nearest(
         }
     }
     near.sort_by_key(|(predicted, _)| std::cmp::Reverse(predicted.count_ones()));
-    let mut of_names: BTreeMap<&str, usize> = BTreeMap::new();
-    near.retain(|(_, number)| {
-        let of_name = of_names.entry(hypotheses[*number].says.name).or_default();
-        *of_name += 1;
-        *of_name <= NEAR_OF_ONE_NAME
-    });
+    keep_of_names(&mut near, NEAR_OF_ONE_NAME, |(_, number)| hypotheses[*number].says.name);
     near.truncate(MOST_NEAR);
     near.into_iter().map(|(_, number)| number).collect()
 }
@@ -157,27 +211,30 @@ pub(super) fn nearest(
 /// The weights of hypotheses on some answers, the best first: with how many they missed, there and before. What is much worse
 /// than the best one so far is left out.
 fn weighed<'h, 'a>(
-    hypotheses: Vec<(u64, &'h Hypothesis<'a>)>,
+    hypotheses: Vec<Weighed<'h, 'a>>,
     answers: &[usize],
     is_wrong: &[bool],
-) -> Vec<(u64, Weight, &'h Hypothesis<'a>)> {
+) -> Vec<Weighed<'h, 'a>> {
     let mut best = answers.len() as u64;
     let mut all = Vec::new();
-    for (missed, hypothesis) in hypotheses {
+    for Weighed { missed, hypothesis, .. } in hypotheses {
+        // What misses more than twice as many as the best one is not needed.
         let most = 2 * best + LEAST_WRONG as u64;
         let Some(weight) = Weight::of(hypothesis, answers, is_wrong, most) else { continue };
         best = best.min(weight.missed());
-        all.push((missed + weight.missed(), weight, hypothesis));
+        all.push(Weighed { missed: missed + weight.missed(), weight, hypothesis });
     }
-    all.sort_by_key(|(missed, ..)| *missed);
+    sort_by_missed(&mut all);
     all
 }
 
 /// Every second of the wrong answers and of the right ones, so that both halves have both.
 fn half(is_wrong: &[bool], among: &[usize], which: usize) -> Vec<usize> {
-    let of =
-        |wrong| among.iter().copied().filter(move |&i| is_wrong[i] == wrong).skip(which).step_by(2);
-    of(true).chain(of(false)).collect()
+    let mut half = Vec::new();
+    for wrong in [true, false] {
+        half.extend(among.iter().filter(|i| is_wrong[**i] == wrong).skip(which).step_by(2));
+    }
+    half
 }
 
 /// The numbers of the answers that hypotheses are weighed by.
@@ -192,12 +249,12 @@ pub fn chosen_by(is_wrong: &[bool]) -> Vec<usize> {
 }
 
 /// How many of a few answers are not predicted; it stops where most are not.
-fn look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> usize {
+fn look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> u64 {
     let mut missed = [0, 0];
     for (seen, &i) in few.iter().enumerate() {
-        missed[usize::from(is_wrong[i])] += usize::from(!(hypothesis.predicts)(i));
-        if missed[1] > LEAST_MISSED && 2 * missed[1] > seen {
-            return few.len() - seen + missed[0] + missed[1];
+        missed[usize::from(is_wrong[i])] += u64::from(!(hypothesis.predicts)(i));
+        if missed[1] > LEAST_MISSED && 2 * missed[1] > seen as u64 {
+            return (few.len() - seen) as u64 + missed[0] + missed[1];
         }
     }
     missed[0] + missed[1]

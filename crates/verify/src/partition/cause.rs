@@ -8,7 +8,10 @@ use std::fmt::Write as _;
 
 use super::exact::orientation;
 use super::region::region;
-use super::{FaultKind, Faults, FillRule, Options, Point, Polygon, Triangle, key};
+use super::{
+    FaultKind, Faults, FillRule, Options, Point, Polygon, Triangle, all_points, distinct, edges_of,
+    ends_of, key,
+};
 use crate::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 
 /// What a tessellator made of a polygon.
@@ -24,24 +27,24 @@ const SAMPLES: usize = 12;
 const PICTURE: [usize; 2] = [32, 12];
 
 fn on_edge([a, b]: [Point; 2], p: Point) -> bool {
-    let between = |axis: usize| {
+    for axis in 0..2 {
         let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
-        (low..=high).contains(&p[axis])
-    };
-    between(0) && between(1) && orientation(a, b, p) == Ordering::Equal
-}
-
-fn edges(contour: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
-    contour.iter().enumerate().map(|(i, a)| [*a, contour[(i + 1) % contour.len()]])
+        if !(low..=high).contains(&p[axis]) {
+            return false;
+        }
+    }
+    orientation(a, b, p) == Ordering::Equal
 }
 
 /// How often contours run around a point; nothing on an edge.
 fn rounds(contours: &[Vec<Point>], p: Point) -> Option<i64> {
     let mut rounds = 0;
-    for [a, b] in contours.iter().flat_map(|contour| edges(contour)) {
+    for [a, b] in contours.iter().flat_map(|contour| edges_of(contour)) {
         if on_edge([a, b], p) {
             return None;
         }
+        // An edge that passes the height of the point on its right side goes around it, upwards or
+        // downwards.
         match (a[1] <= p[1], b[1] <= p[1]) {
             (true, false) if orientation(a, b, p).is_gt() => rounds += 1,
             (false, true) if orientation(a, b, p).is_lt() => rounds -= 1,
@@ -55,10 +58,12 @@ fn rounds(contours: &[Vec<Point>], p: Point) -> Option<i64> {
 fn covering(triangles: &[Triangle], p: Point) -> Option<i64> {
     let mut covering = 0;
     for triangle in triangles {
-        let sides = [0, 1, 2].map(|i| orientation(triangle[i], triangle[(i + 1) % 3], p));
+        let [a, b, c] = *triangle;
+        // Inside, all three turn the same way.
+        let sides = [orientation(a, b, p), orientation(b, c, p), orientation(c, a, p)];
         if sides == [Ordering::Greater; 3] || sides == [Ordering::Less; 3] {
             covering += 1;
-        } else if edges(triangle).any(|edge| on_edge(edge, p)) {
+        } else if edges_of(triangle).any(|edge| on_edge(edge, p)) {
             return None;
         }
     }
@@ -67,112 +72,129 @@ fn covering(triangles: &[Triangle], p: Point) -> Option<i64> {
 
 /// Points between the vertices: on a grid that no coordinate of a polygon lies on by intent.
 fn samples(polygon: &Polygon, columns: usize, rows: usize) -> Vec<Point> {
-    let points = || polygon.contours.iter().flatten();
-    let range = |axis: usize| {
-        let values = || points().map(|point| point[axis]);
-        [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
-    };
-    let (xs, ys) = (range(0), range(1));
-    let at = |[low, high]: [f64; 2], i: usize, of: usize| {
-        low + (high - low) * ((i as f64 + 0.496_094) / of as f64)
-    };
-    let row =
-        |j: usize| (0..columns).map(move |i| [at(xs, i, columns), at(ys, rows - 1 - j, rows)]);
-    let all = (0..rows).flat_map(row);
-    all.filter(|point| point.iter().all(|v| v.is_finite())).collect()
+    let points: Vec<Point> = polygon.contours.iter().flatten().copied().collect();
+    let (xs, ys) = (ends_of(&points, 0), ends_of(&points, 1));
+    let mut samples = Vec::with_capacity(columns * rows);
+    // The upper row comes first, as in a picture.
+    for row in (0..rows).rev() {
+        for column in 0..columns {
+            let point = [part_of(xs, column, columns), part_of(ys, row, rows)];
+            if point[0].is_finite() && point[1].is_finite() {
+                samples.push(point);
+            }
+        }
+    }
+    samples
+}
+
+/// A place nearly in the middle of one of the equal parts of a range.
+fn part_of([low, high]: [f64; 2], part: usize, of: usize) -> f64 {
+    low + (high - low) * ((part as f64 + 0.496_094) / of as f64)
 }
 
 /// How often a point is covered; nothing on an edge.
 type Covers<'a> = Box<dyn Fn(Point) -> Option<i64> + 'a>;
 
 /// What else might be filled of a polygon.
-type Fills = for<'a> fn(&'a Polygon, FillRule) -> Covers<'a>;
+struct OtherFill {
+    name: &'static str,
+    does: &'static str,
+    repair: &'static str,
+    covers: for<'a> fn(&'a Polygon, FillRule) -> Covers<'a>,
+}
 
-const FILLS: [(&str, &str, &str, Fills); 6] = [
-    (
-        "contours alone",
-        "fills every contour by itself, so that holes are filled, and what lies in them twice",
-        "cut the holes out: connect each with its outline, or use their edges as constraints",
-        |polygon, rule| {
-            Box::new(move |p| polygon.contours.chunks(1).map(|alone| filled(alone, rule, p)).sum())
-        },
-    ),
-    (
-        "the first contour",
-        "fills the first contour and ignores the others",
-        "fill all contours, by the fill rule",
-        |polygon, rule| Box::new(move |p| filled(polygon.contours.get(..1)?, rule, p)),
-    ),
-    (
-        "the other fill rule",
-        "follows the other fill rule: even-odd in place of non-zero, or the other way",
-        "ask for the rule that is meant, or declare the other one by Options::fill_rule",
-        |polygon, rule| {
-            let other = match rule {
-                FillRule::EvenOdd => FillRule::NonZero,
-                FillRule::NonZero => FillRule::EvenOdd,
-            };
-            Box::new(move |p| filled(&polygon.contours, other, p))
-        },
-    ),
-    (
-        "a fan",
-        "draws a fan around the first vertex of each contour, which is right where the contour is convex",
-        "cut ears, or split into monotone pieces",
-        |polygon, _| {
-            let fan = |c: &Vec<Point>| c.windows(2).skip(1).map(|v| [c[0], v[0], v[1]]).collect();
-            made_of(polygon, fan)
-        },
-    ),
-    (
-        "a strip",
-        "joins each vertex with the next two, as a strip of triangles",
-        "cut ears, or split into monotone pieces",
-        |polygon, _| made_of(polygon, |c| c.windows(3).map(|v| [v[0], v[1], v[2]]).collect()),
-    ),
-    (
-        "the convex hull",
-        "fills the convex hull of the vertices",
-        "use the edges of the contours as constraints, and leave out triangles that lie outside",
-        |polygon, _| {
-            let hull = [hull(polygon.contours.iter().flatten().copied().collect())];
-            Box::new(move |p| filled(&hull, FillRule::NonZero, p))
-        },
-    ),
+const FILLS: [OtherFill; 6] = [
+    OtherFill {
+        name: "contours alone",
+        does: "fills every contour by itself, so that holes are filled, and what lies in them twice",
+        repair: "cut the holes out: connect each with its outline, or use their edges as constraints",
+        covers: contours_alone,
+    },
+    OtherFill {
+        name: "the first contour",
+        does: "fills the first contour and ignores the others",
+        repair: "fill all contours, by the fill rule",
+        covers: |polygon, rule| Box::new(move |p| filled(polygon.contours.get(..1)?, rule, p)),
+    },
+    OtherFill {
+        name: "the other fill rule",
+        does: "follows the other fill rule: even-odd in place of non-zero, or the other way",
+        repair: "ask for the rule that is meant, or declare the other one by Options::fill_rule",
+        covers: other_rule,
+    },
+    OtherFill {
+        name: "a fan",
+        does: "draws a fan around the first vertex of each contour, which is right where the contour is convex",
+        repair: "cut ears, or split into monotone pieces",
+        covers: |polygon, _| made_of(polygon, true),
+    },
+    OtherFill {
+        name: "a strip",
+        does: "joins each vertex with the next two, as a strip of triangles",
+        repair: "cut ears, or split into monotone pieces",
+        covers: |polygon, _| made_of(polygon, false),
+    },
+    OtherFill {
+        name: "the convex hull",
+        does: "fills the convex hull of the vertices",
+        repair: "use the edges of the contours as constraints, and leave out triangles that lie outside",
+        covers: whole_hull,
+    },
 ];
+
+/// The sum over all contours: a hole counts once more, and not once less.
+fn contours_alone(polygon: &Polygon, rule: FillRule) -> Covers<'_> {
+    Box::new(move |p| polygon.contours.chunks(1).map(|alone| filled(alone, rule, p)).sum())
+}
+
+fn other_rule(polygon: &Polygon, rule: FillRule) -> Covers<'_> {
+    let other = match rule {
+        FillRule::EvenOdd => FillRule::NonZero,
+        FillRule::NonZero => FillRule::EvenOdd,
+    };
+    Box::new(move |p| filled(&polygon.contours, other, p))
+}
+
+fn whole_hull(polygon: &Polygon, _: FillRule) -> Covers<'_> {
+    let hull = [hull(polygon)];
+    Box::new(move |p| filled(&hull, FillRule::NonZero, p))
+}
 
 /// Whether a point lies within contours by a rule, as a number.
 fn filled(contours: &[Vec<Point>], rule: FillRule, p: Point) -> Option<i64> {
     Some(i64::from(rule.fills(rounds(contours, p)?)))
 }
 
-/// The triangles that are made of each contour.
-fn made_of<'a>(polygon: &Polygon, make: fn(&Vec<Point>) -> Vec<Triangle>) -> Covers<'a> {
-    let triangles: Vec<Triangle> = polygon.contours.iter().flat_map(make).collect();
+/// The triangles of a fan around the first vertex of each contour, or of a strip along it.
+fn made_of(polygon: &Polygon, is_fan: bool) -> Covers<'_> {
+    let mut triangles = Vec::new();
+    for contour in &polygon.contours {
+        for i in 2..contour.len() {
+            let first = if is_fan { 0 } else { i - 2 };
+            triangles.push([contour[first], contour[i - 1], contour[i]]);
+        }
+    }
     Box::new(move |p| covering(&triangles, p))
 }
 
-/// The convex hull, counterclockwise.
-fn hull(mut points: Vec<Point>) -> Vec<Point> {
-    points.sort_unstable_by(super::order);
-    points.dedup();
+/// The convex hull, counterclockwise: its lower part from left to right, and the upper part back.
+fn hull(polygon: &Polygon) -> Vec<Point> {
+    let mut points = distinct(&polygon.contours);
     let mut hull: Vec<Point> = Vec::new();
-    for is_back in [false, true] {
+    for _ in 0..2 {
         let start = hull.len();
-        let mut add = |point: &Point| {
+        for point in &points {
+            // The last vertex lies within where the way over it does not turn left.
             while hull.len() >= start + 2
                 && !orientation(hull[hull.len() - 2], hull[hull.len() - 1], *point).is_gt()
             {
                 hull.pop();
             }
             hull.push(*point);
-        };
-        if is_back {
-            points.iter().rev().for_each(&mut add)
-        } else {
-            points.iter().for_each(&mut add)
         }
+        // The next part begins there.
         hull.pop();
+        points.reverse();
     }
     hull
 }
@@ -182,9 +204,7 @@ type IsKind = fn(&Polygon) -> bool;
 const NOTHING: [(&str, IsKind); 2] = [
     ("of more than one contour", |polygon| polygon.contours.len() > 1),
     ("in which a vertex occurs twice", |polygon| {
-        let mut points: Vec<Point> = polygon.contours.iter().flatten().copied().map(key).collect();
-        points.sort_unstable_by(super::order);
-        points.windows(2).any(|two| two[0] == two[1])
+        all_points(&polygon.contours).windows(2).any(|two| two[0] == two[1])
     }),
 ];
 
@@ -198,11 +218,13 @@ const ROUNDINGS: [(&str, Round); 5] = [
     ("whole numbers, halves to even", f64::round_ties_even),
 ];
 
+/// The vertices with rounded coordinates, in order.
 fn rounded(polygon: &Polygon, round: Round) -> Vec<Point> {
-    let mut points: Vec<_> =
-        polygon.contours.iter().flatten().map(|point| key(point.map(round))).collect();
-    points.sort_unstable_by(super::order);
-    points
+    let mut contours = polygon.contours.clone();
+    for v in contours.as_mut_slice().iter_mut().flatten().flatten() {
+        *v = round(*v);
+    }
+    all_points(&contours)
 }
 
 /// Whether some vertex lies on the straight edge between its neighbours.
@@ -221,37 +243,33 @@ fn says(name: &'static str, does: String, repair: &'static str) -> Explanation {
 /// What explains the polygons that came out wrong; nothing where none did.
 pub(super) fn cause(made: &[Made], options: &Options) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = made.iter().map(|made| !made.finding.faults.is_empty()).collect();
-    // Of each polygon, how often samples are covered, and how often they should be.
     let rule = options.terms.fill_rule;
-    let seen: Vec<Vec<(Point, i64, bool)>> = made
-        .iter()
-        .map(|Made { polygon, triangles, .. }| {
-            let samples = samples(polygon, SAMPLES, SAMPLES).into_iter();
-            let seen = samples.filter_map(|p| {
-                let right = rule.fills(rounds(&polygon.contours, p)?);
-                Some((p, covering(triangles, p)?, right))
-            });
-            seen.collect()
-        })
-        .collect();
-    let is_grossly = |i: usize| seen[i].iter().any(|(_, drawn, right)| *drawn != i64::from(*right));
+    let mut seen = Vec::with_capacity(made.len());
+    for one in made {
+        seen.push(samples_of(one, rule));
+    }
     // What is wrong in the large and what is right says what is filled; thin gaps and overlaps say nothing of it.
-    let gross: Vec<usize> = (0..made.len()).filter(|&i| !is_wrong[i] || is_grossly(i)).collect();
+    let mut gross = Vec::new();
+    for (i, samples) in seen.iter().enumerate() {
+        if !is_wrong[i] || samples.iter().any(|sample| sample.drawn != sample.right) {
+            gross.push(i);
+        }
+    }
+    let (seen, gross) = (&seen, &gross);
     let mut hypotheses = Vec::new();
-    for (name, does, repair, fills) in FILLS {
-        let (seen, gross) = (&seen, &gross);
+    // What else may be filled, by the samples of each polygon.
+    for OtherFill { name, does, repair, covers } in FILLS {
         let predicts = move |i: usize| {
-            let covers = fills(&made[gross[i]].polygon, rule);
-            let is_as_drawn = |&(p, drawn, _): &(Point, i64, bool)| {
-                covers(p).is_none_or(|expected| expected == drawn)
-            };
-            seen[gross[i]].iter().all(is_as_drawn)
+            let covers = covers(&made[gross[i]].polygon, rule);
+            seen[gross[i]]
+                .iter()
+                .all(|sample| covers(sample.at).is_none_or(|expected| expected == sample.drawn))
         };
         let says = says(name, does.to_owned(), repair);
         hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
     }
     for (which, is_lost) in NOTHING {
-        let (gross, is_wrong) = (&gross, &is_wrong);
+        let is_wrong = &is_wrong;
         let predicts = move |i: usize| {
             let Made { polygon, triangles, .. } = &made[gross[i]];
             if is_lost(polygon) { triangles.is_empty() } else { !is_wrong[gross[i]] }
@@ -265,14 +283,35 @@ pub(super) fn cause(made: &[Made], options: &Options) -> Option<Mistakes> {
     of_fills.or_else(|| of_answers(of_vertices(made, &is_wrong), &is_wrong))
 }
 
+/// A point of a polygon, how often triangles cover it, and how often they should.
+struct Sample {
+    /// Between the vertices, on no edge.
+    at: Point,
+    drawn: i64,
+    right: i64,
+}
+
+/// Samples that lie on no edge.
+fn samples_of(made: &Made, rule: FillRule) -> Vec<Sample> {
+    let mut all = Vec::new();
+    for at in samples(&made.polygon, SAMPLES, SAMPLES) {
+        let rounds = rounds(&made.polygon.contours, at);
+        if let (Some(rounds), Some(drawn)) = (rounds, covering(&made.triangles, at)) {
+            all.push(Sample { at, drawn, right: i64::from(rule.fills(rounds)) });
+        }
+    }
+    all
+}
+
 /// What may become of vertices and of the winding, where the right points are covered.
 fn of_vertices<'a>(made: &'a [Made], is_wrong: &'a [bool]) -> Vec<Hypothesis<'a>> {
     let mut hypotheses = Vec::new();
     for (grid, round) in ROUNDINGS {
+        // Every corner of a triangle is a rounded vertex, and right where rounding moves nothing.
         let predicts = move |i: usize| {
             let Made { polygon, triangles, .. } = &made[i];
             let points = rounded(polygon, round);
-            let moves = polygon.contours.iter().flatten().any(|p| key(p.map(round)) != key(*p));
+            let moves = points != all_points(&polygon.contours);
             let is_one = |p: &Point| points.binary_search_by(|q| super::order(q, &key(*p))).is_ok();
             triangles.iter().flatten().all(is_one) && (moves || !is_wrong[i])
         };
@@ -333,6 +372,7 @@ pub(super) fn picture(polygon: &Polygon, triangles: &[Triangle], rule: FillRule)
     }
     let mut text = format!("  {:<columns$}   expected\n", "covered");
     let mut differs = false;
+    // What is covered on the left, and what should be on the right.
     for row in points.chunks(columns) {
         let mut sides = [String::from("  "), String::new()];
         for &p in row {

@@ -46,29 +46,31 @@ pub(super) fn decide(boundary: &[[Point; 2]], triangles: &[Triangle], options: &
             Ordering::Greater => whole.push((number, corners)),
             Ordering::Less => whole.push((number, [a, c, b])),
         }
-        signs.push((number, corners, sign));
+        signs.push(Signed { number, corners, sign });
     }
-    let turned_left = signs.iter().filter(|(_, _, sign)| sign.is_gt()).count();
-    let expected = match options.terms.winding {
-        Winding::Counterclockwise => Some(Ordering::Greater),
-        Winding::Clockwise => Some(Ordering::Less),
-        Winding::Alike if 2 * turned_left >= signs.len() => Some(Ordering::Greater),
-        Winding::Alike => Some(Ordering::Less),
-        Winding::Any => None,
-    };
-    for (number, corners, _) in signs.iter().filter(|s| expected.is_some_and(|sign| s.2 != sign)) {
-        add(Fault::of_triangle(FaultKind::Flipped, *number, corners));
+    let expected = expected_sign(&signs, options.terms.winding);
+    for Signed { number, corners, sign } in &signs {
+        if expected.is_some_and(|expected| *sign != expected) {
+            add(Fault::of_triangle(FaultKind::Flipped, *number, corners));
+        }
     }
     // A flat triangle has no sign of its own, and is turned as the others are expected to be.
     if expected == Some(Ordering::Less) {
-        flat.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
+        for [_, b, c] in &mut flat {
+            std::mem::swap(b, c);
+        }
     }
-
-    let mut edges: Vec<Edge> = boundary.iter().map(|&[from, to]| Edge::new(to, from)).collect();
-    let all = whole.iter().map(|(_, corners)| corners).chain(&flat);
-    for &[a, b, c] in all {
-        let three = [[a, b], [b, c], [c, a]].into_iter().filter(|[from, to]| from != to);
-        edges.extend(three.map(|[from, to]| Edge::new(from, to)));
+    // The boundary runs the other way, so that it cancels with the triangles along it.
+    let mut edges = Vec::new();
+    for &[from, to] in boundary {
+        edges.push(Edge::new(to, from));
+    }
+    for [a, b, c] in whole.iter().map(|(_, corners)| *corners).chain(flat) {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if from != to {
+                edges.push(Edge::new(from, to));
+            }
+        }
     }
     let left = cancelled(edges);
     let mut add = |fault: Fault| finding.add(fault, options);
@@ -90,16 +92,43 @@ pub(super) fn decide(boundary: &[[Point; 2]], triangles: &[Triangle], options: &
     finding
 }
 
+/// A triangle with an area, and how it turns.
+struct Signed {
+    number: usize,
+    corners: Triangle,
+    sign: Ordering,
+}
+
+/// How triangles have to turn; nothing where each may turn as it does.
+fn expected_sign(signs: &[Signed], winding: Winding) -> Option<Ordering> {
+    match winding {
+        Winding::Counterclockwise => Some(Ordering::Greater),
+        Winding::Clockwise => Some(Ordering::Less),
+        Winding::Alike => {
+            // As most of them do.
+            let turned_left = signs.iter().filter(|signed| signed.sign.is_gt()).count();
+            let is_left = 2 * turned_left >= signs.len();
+            Some(if is_left { Ordering::Greater } else { Ordering::Less })
+        }
+        Winding::Any => None,
+    }
+}
+
 /// What remains where edges with the same two ends are added up.
 fn cancelled(mut edges: Vec<Edge>) -> Vec<Edge> {
-    let by_ends = |a: &Edge, b: &Edge| {
+    edges.sort_unstable_by(|a, b| {
         order(&a.ends[0], &b.ends[0]).then_with(|| order(&a.ends[1], &b.ends[1]))
-    };
-    edges.sort_unstable_by(by_ends);
-    let same = edges.chunk_by(|a, b| a.ends == b.ends);
-    let sums = same
-        .map(|same| Edge { ends: same[0].ends, along: same.iter().map(|edge| edge.along).sum() });
-    sums.filter(|edge| edge.along != 0).collect()
+    });
+    let mut left: Vec<Edge> = Vec::new();
+    // Edges with the same ends come together, and opposite ones cancel.
+    for edge in edges {
+        match left.last_mut() {
+            Some(last) if last.ends == edge.ends => last.along += edge.along,
+            _ => left.push(edge),
+        }
+    }
+    left.retain(|edge| edge.along != 0);
+    left
 }
 
 /// The edges in groups that lie on one line each.
@@ -120,20 +149,22 @@ fn by_line(edges: Vec<Edge>) -> Vec<Vec<Edge>> {
 
 /// All ends of the edges of one line, in order.
 fn stops(line: &[Edge]) -> Vec<Point> {
-    let mut stops: Vec<Point> = line.iter().flat_map(|edge| edge.ends).collect();
-    stops.sort_unstable_by(order);
-    stops.dedup();
-    stops
+    let mut ends = Vec::with_capacity(line.len());
+    for edge in line {
+        ends.push(edge.ends);
+    }
+    super::distinct(&ends)
 }
 
 /// Ends of edges inside other edges of the same line.
 fn junctions(line: &[Edge], add: &mut dyn FnMut(Fault)) {
     let stops = stops(line);
     for &Edge { ends: [low, high], .. } in line {
-        let inner = |stop: &&Point| order(&low, stop).is_lt() && order(stop, &high).is_lt();
-        for &stop in stops.iter().filter(inner) {
-            let points = vec![stop, low, high];
-            add(Fault { kind: FaultKind::TJunction, triangles: Vec::new(), points, said: None });
+        for &stop in &stops {
+            if order(&low, &stop).is_lt() && order(&stop, &high).is_lt() {
+                let (kind, points) = (FaultKind::TJunction, vec![stop, low, high]);
+                add(Fault { kind, triangles: Vec::new(), points, said: None });
+            }
         }
     }
 }
@@ -141,12 +172,18 @@ fn junctions(line: &[Edge], add: &mut dyn FnMut(Fault)) {
 /// The pieces of a line on which edges do not cancel.
 fn survivors(line: &[Edge]) -> Vec<[Point; 2]> {
     let stops = stops(line);
-    let pieces = stops.windows(2).map(|pair| [pair[0], pair[1]]);
-    let survives = |[low, high]: &[Point; 2]| {
-        let over = line
-            .iter()
-            .filter(|edge| order(&edge.ends[0], low).is_le() && order(high, &edge.ends[1]).is_le());
-        over.map(|edge| edge.along).sum::<i64>() != 0
-    };
-    pieces.filter(survives).collect()
+    let mut survivors = Vec::new();
+    for pair in stops.windows(2) {
+        // How often edges run along the piece, minus how often they run back.
+        let mut along = 0;
+        for edge in line {
+            if order(&edge.ends[0], &pair[0]).is_le() && order(&pair[1], &edge.ends[1]).is_le() {
+                along += edge.along;
+            }
+        }
+        if along != 0 {
+            survivors.push([pair[0], pair[1]]);
+        }
+    }
+    survivors
 }

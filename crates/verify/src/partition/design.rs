@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::exact::orientation;
 use super::families::{Family, area, is_as_generated};
-use super::{Coordinates, Point, Polygon};
+use super::{Coordinates, Point, Polygon, ends_of};
 use crate::cases::facts::asked::DesignShare;
 use crate::cases::facts::design::Blocks;
 use crate::cases::facts::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers};
@@ -128,13 +128,19 @@ impl PolygonFacts {
         }
         points.sort_unstable_by(super::order);
         let outline = area(contours.first()?);
-        let sides = [0, 1].map(|axis| side(&points, axis));
+        let sides = [side(&points, 0), side(&points, 1)];
         let size = sides[0].max(sides[1]);
-        let largest = points.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let mut heights: Vec<f64> = points.iter().map(|p| p[1]).collect();
-        heights.sort_unstable_by(f64::total_cmp);
-        let at_one_height = || heights.chunk_by(|a, b| a == b);
-        let places = points.chunk_by(|a, b| a == b).filter(|same| same.len() > 1);
+        // The largest coordinate, and the most bits of one.
+        let (mut largest, mut most_bits) = (0.0_f64, 0);
+        for v in points.iter().flatten() {
+            (largest, most_bits) = (largest.max(v.abs()), most_bits.max(bits(*v)));
+        }
+        // Vertices are in order, so that those at one place come together.
+        let mut met = 0;
+        for pair in points.windows(2) {
+            met += i64::from(pair[0] == pair[1]);
+        }
+        let heights = runs(points.iter().map(|p| p[1]).collect());
         let logarithm = |v: f64| i64::from(exponent(v));
         let mut measured = Self {
             contours: contours.len() as i64,
@@ -144,19 +150,21 @@ impl PolygonFacts {
             straight: 0,
             spikes: 0,
             repeated: 0,
-            met: places.map(|same| same.len() as i64 - 1).sum(),
+            met,
             reflex: 0,
             level: 0,
             upright: 0,
-            lowest: at_one_height().next().map_or(0, <[f64]>::len) as i64,
-            at_one_height: at_one_height().map(<[f64]>::len).max()? as i64,
+            lowest: *heights.first()?,
+            at_one_height: *heights.iter().max()?,
             size: logarithm(size),
             ratio: logarithm(sides[0] / sides[1]),
             away: logarithm(largest / size),
-            bits: points.iter().flatten().map(|v| bits(*v)).max()?,
-            signs: [0, 1].map(|axis| signs(&points, axis)),
+            bits: most_bits,
+            signs: [signs(&points, 0), signs(&points, 1)],
         };
-        contours.iter().for_each(|contour| measured.walk(contour));
+        for contour in contours {
+            measured.walk(contour);
+        }
         // What repeats the vertex before is at its place, too.
         measured.met -= measured.repeated;
         Some(measured)
@@ -180,8 +188,8 @@ impl PolygonFacts {
             match orientation(before, here, next) {
                 Ordering::Equal => {
                     // Along the axis in which the edge is longer.
-                    let by = [0, 1].map(|axis| here[axis] - before[axis]);
-                    let axis = usize::from(by[0].abs() < by[1].abs());
+                    let [dx, dy] = [here[0] - before[0], here[1] - before[1]];
+                    let axis = usize::from(dx.abs() < dy.abs());
                     let comes_back = (next[axis] > here[axis]) != (here[axis] > before[axis]);
                     self.spikes += i64::from(comes_back);
                     self.straight += i64::from(!comes_back);
@@ -192,10 +200,23 @@ impl PolygonFacts {
     }
 }
 
+/// How often each number occurs, the least one first.
+fn runs(mut values: Vec<f64>) -> Vec<i64> {
+    values.sort_unstable_by(f64::total_cmp);
+    let mut runs = Vec::new();
+    for (i, value) in values.iter().enumerate() {
+        match runs.last_mut() {
+            Some(last) if values[i - 1] == *value => *last += 1,
+            _ => runs.push(1),
+        }
+    }
+    runs
+}
+
 /// The side of the box along an axis.
 fn side(points: &[Point], axis: usize) -> f64 {
-    let values = points.iter().map(|p| p[axis]);
-    values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
+    let [least, most] = ends_of(points, axis);
+    most - least
 }
 
 /// How many bits a number has between the first and the last that is set.
@@ -205,10 +226,15 @@ fn bits(v: f64) -> i64 {
 
 /// The number of a word of [`SIGNS`].
 fn signs(points: &[Point], axis: usize) -> i64 {
-    let values = points.iter().map(|p| p[axis]);
-    match [values.clone().any(|v| v < 0.0), values.clone().any(|v| v > 0.0)] {
+    let [mut has_below, mut has_zero, mut has_above] = [false; 3];
+    for p in points {
+        has_below |= p[axis] < 0.0;
+        has_zero |= p[axis] == 0.0;
+        has_above |= p[axis] > 0.0;
+    }
+    match [has_below, has_above] {
         [true, true] => 2,
-        _ if values.clone().any(|v| v == 0.0) => 3,
+        _ if has_zero => 3,
         [true, false] => 0,
         _ => 1,
     }
@@ -216,16 +242,18 @@ fn signs(points: &[Point], axis: usize) -> i64 {
 
 /// The polygon with coordinates that a tessellator takes: large or broken ones are scaled first where they have to be whole.
 fn put(coordinates: &Coordinates, mut polygon: Polygon) -> Polygon {
-    let values = || polygon.contours.iter().flatten().flatten();
-    let largest = values().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let (mut largest, mut is_whole) = (0.0_f64, true);
+    for v in polygon.contours.iter().flatten().flatten() {
+        largest = largest.max(v.abs());
+        is_whole &= v.fract() == 0.0 && coordinates.round(*v) == *v;
+    }
+    // Whole numbers stay as they are, if they are not too large; others get as many bits as there are.
     let scale = match coordinates {
-        Coordinates::Integer => 2_f64.powi(19 - exponent(largest)),
+        Coordinates::Integer if !is_whole => 2_f64.powi(19 - exponent(largest)),
         _ => 1.0,
     };
-    let is_fit = *coordinates != Coordinates::Integer
-        || values().all(|v| v.fract() == 0.0 && coordinates.round(*v) == *v);
     for v in polygon.contours.iter_mut().flatten().flatten() {
-        *v = coordinates.round(if is_fit { *v } else { *v * scale });
+        *v = coordinates.round(*v * scale);
     }
     polygon
 }
@@ -256,9 +284,11 @@ fn adjust(rng: &mut Rng, polygon: &mut Polygon) {
         // With its least coordinate at 0.
         2 => {
             for axis in 0..2 {
-                let all = polygon.contours.iter().flatten().map(|p| p[axis]);
-                let least = all.fold(f64::MAX, f64::min);
-                move_points(polygon, |p| p[axis] -= least);
+                let mut least = f64::MAX;
+                for p in polygon.contours.iter().flatten() {
+                    least = least.min(p[axis]);
+                }
+                move_points(polygon, &|p| p[axis] -= least);
             }
         }
         _ => {}
@@ -274,17 +304,21 @@ fn vary(rng: &mut Rng, one: &Polygon, other: &Polygon) -> Polygon {
         let at = rng.int(0, contour.len() as i64 - 1) as usize;
         let (here, next) = (contour[at], contour[(at + 1) % contour.len()]);
         match rng.int(0, 17) {
-            0 => polygon.contours.iter_mut().for_each(|contour| contour.reverse()),
+            0 => {
+                for contour in &mut polygon.contours {
+                    contour.reverse();
+                }
+            }
             1 => contour.rotate_left(at),
             2 => contour.insert(at, here),
             // A vertex in the middle of an edge, or beyond its end and back.
-            3 => contour.insert(at + 1, [0, 1].map(|axis| (here[axis] + next[axis]) / 2.0)),
+            3 => contour.insert(at + 1, along(here, next, 0.5)),
             4 => {
-                let middle = [0, 1].map(|axis| (here[axis] + next[axis]) / 2.0);
-                contour.splice(at..=at, [here, middle, here]);
+                contour.insert(at + 1, here);
+                contour.insert(at + 1, along(here, next, 0.5));
             }
             // Beyond the next vertex, and back to it.
-            16 => contour.insert(at + 1, [0, 1].map(|axis| 1.5 * next[axis] - here[axis] / 2.0)),
+            16 => contour.insert(at + 1, along(here, next, 1.5)),
             5 if contour.len() > 1 => {
                 contour.remove(at);
             }
@@ -300,18 +334,18 @@ fn vary(rng: &mut Rng, one: &Polygon, other: &Polygon) -> Polygon {
             8 => {
                 let by = (1 << rng.int(0, 30)) as f64;
                 let by = if rng.chance(2) { by } else { -by };
-                move_points(&mut polygon, |p| p[axis] += by);
+                move_points(&mut polygon, &|p| p[axis] += by);
             }
             9 | 10 => {
                 let by = 2_f64.powi(rng.coordinate(-6, 6));
-                move_points(&mut polygon, |p| p[axis] *= by);
+                move_points(&mut polygon, &|p| p[axis] *= by);
             }
             11 => {
                 let by = 2_f64.powi(rng.coordinate(-12, 12));
-                move_points(&mut polygon, |p| *p = p.map(|v| v * by));
+                move_points(&mut polygon, &|p| *p = [p[0] * by, p[1] * by]);
             }
-            12 => move_points(&mut polygon, |p| p.swap(0, 1)),
-            13 => move_points(&mut polygon, |p| p[axis] = -p[axis]),
+            12 => move_points(&mut polygon, &|p| p.swap(0, 1)),
+            13 => move_points(&mut polygon, &|p| p[axis] = -p[axis]),
             14 if polygon.contours.len() > 1 => {
                 polygon.contours.remove(number);
             }
@@ -328,6 +362,13 @@ fn vary(rng: &mut Rng, one: &Polygon, other: &Polygon) -> Polygon {
     polygon
 }
 
-fn move_points(polygon: &mut Polygon, to: impl Fn(&mut Point)) {
-    polygon.contours.iter_mut().flatten().for_each(to);
+/// The point at such a part of the way.
+fn along(from: Point, to: Point, part: f64) -> Point {
+    [from[0] * (1.0 - part) + to[0] * part, from[1] * (1.0 - part) + to[1] * part]
+}
+
+fn move_points(polygon: &mut Polygon, to: &dyn Fn(&mut Point)) {
+    for point in polygon.contours.iter_mut().flatten() {
+        to(point);
+    }
 }

@@ -28,13 +28,18 @@ pub(super) fn orientation(a: Point, b: Point, c: Point) -> Ordering {
 /// products below 2^124.
 fn in_128_bits(points: [Point; 3]) -> Option<Ordering> {
     let parts = points.map_array(|point| point.map_array(take_apart));
-    let nonzero = || parts.as_flattened().iter().filter(|(mantissa, _)| *mantissa != 0);
-    let unit = nonzero().map(|&(_, exponent)| exponent).min().unwrap_or(0);
-    let fits = |&(mantissa, exponent): &(i64, i32)| {
-        i64::from(exponent) - i64::from(unit) + i64::from(64 - mantissa.abs().leading_zeros()) <= 61
-    };
-    if !nonzero().all(fits) {
-        return None;
+    // The least exponent of what is not 0.
+    let mut unit = i32::MAX;
+    for &(mantissa, exponent) in parts.as_flattened() {
+        if mantissa != 0 {
+            unit = unit.min(exponent);
+        }
+    }
+    for &(mantissa, exponent) in parts.as_flattened() {
+        let bits = i64::from(64 - mantissa.abs().leading_zeros());
+        if mantissa != 0 && i64::from(exponent) - i64::from(unit) + bits > 61 {
+            return None;
+        }
     }
     let whole = |(mantissa, exponent): (i64, i32)| match mantissa {
         0 => 0,
@@ -61,23 +66,24 @@ pub(super) fn sides(
     triangles: &[(usize, Triangle)],
     boundary: &[[Point; 2]],
 ) -> Sides {
-    // On which side of an edge all points between the ends lie; nothing where the edge passes between them.
-    let side = |[a, b]: [Point; 2]| match ends.map_array(|end| orientation(a, b, end)) {
-        [one, Ordering::Equal] => Some(one),
-        [one, other] if one == other || one.is_eq() => Some(other),
-        _ => None,
-    };
-    let mut edges: Vec<[Point; 2]> =
-        triangles.iter().flat_map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]]).collect();
-    edges.extend(boundary);
-    let sides: Vec<Option<Ordering>> = edges.iter().map(|&edge| side(edge)).collect();
-    let sides = || edges.iter().copied().zip(sides.iter().copied());
-    let values = edges.iter().chain([&ends]).flatten().flatten();
-    let unit = values.map(|&value| take_apart(value).1).min().unwrap_or(0);
+    let mut edges = Vec::with_capacity(3 * triangles.len() + boundary.len());
+    for &(_, [a, b, c]) in triangles {
+        edges.extend([[a, b], [b, c], [c, a]]);
+    }
+    edges.extend_from_slice(boundary);
+    // The largest power of two of which all coordinates are multiples.
+    let mut unit = i32::MAX;
+    for value in edges.iter().chain([&ends]).flatten().flatten() {
+        unit = unit.min(take_apart(*value).1);
+    }
     let mut frame = Frame::new(ends, unit, 1, 1);
+    let mut left_of = Vec::with_capacity(edges.len());
+    for &edge in &edges {
+        left_of.push(side_of_edge(edge, ends));
+    }
     // A point between the ends at 1/2, 1/4, 3/4, 1/8 and so on of the way. An edge that is not on the line of the piece
     // contains one of these points at most, so the search ends.
-    while sides().any(|(edge, side)| side.is_none() && frame.side(edge).is_eq()) {
+    while frame.is_on_any(&edges, &left_of) {
         let Frame { bits, part, .. } = frame;
         frame = match (part + 2) >> bits {
             0 => Frame::new(ends, unit, bits, part + 2),
@@ -85,33 +91,47 @@ pub(super) fn sides(
         };
     }
     // Whether an edge has on its left what lies beside the point, on the left of the piece and on its right.
-    let beside = sides().map(|([a, b], side)| match side.unwrap_or_else(|| frame.side([a, b])) {
-        Ordering::Equal => [true, false].map(|is_left| order(&key(a), &key(b)).is_lt() == is_left),
-        side => [side.is_gt(); 2],
-    });
-    let beside: Vec<[bool; 2]> = beside.collect();
-    let (of_triangles, of_boundary) = beside.split_at(3 * triangles.len());
-    let covering = |which: usize| {
-        let inside = of_triangles.chunks(3).zip(triangles);
-        let inside = inside.filter(|(edges, _)| edges.iter().all(|beside| beside[which]));
-        inside.map(|(_, &(number, _))| number).collect()
-    };
-    // Straight down from the point, edges to the right have the region above them, edges to the left below them.
-    let is_inside = |which: usize| {
-        let rounds = boundary.iter().zip(of_boundary).map(|(&[a, b], beside)| {
-            let goes_on = order(&key(a), &key(b)).is_lt();
-            let (low, high, round) = if goes_on { (a, b, 1) } else { (b, a, -1) };
-            let is_above = beside[which] == goes_on;
-            if is_above && frame.follows(low) && !frame.follows(high) { round } else { 0 }
+    let mut beside = Vec::with_capacity(edges.len());
+    for (&[a, b], side) in edges.iter().zip(left_of) {
+        beside.push(match side.unwrap_or_else(|| frame.side([a, b])) {
+            // The edge runs along the piece.
+            Ordering::Equal => {
+                let is_along = order(&key(a), &key(b)).is_lt();
+                [is_along, !is_along]
+            }
+            side => [side.is_gt(); 2],
         });
-        rounds.sum::<i32>() > 0
-    };
-    let ([start, end], part) = (ends, frame.part as f64 / 2_f64.powi(frame.bits as i32));
-    Sides {
-        // Halves first, since the difference of two large numbers overflows.
-        near: [0, 1].map(|axis| start[axis] * (1.0 - part) + end[axis] * part),
-        covering: [covering(0), covering(1)],
-        is_inside: [is_inside(0), is_inside(1)],
+    }
+    let (of_triangles, of_boundary) = beside.split_at(3 * triangles.len());
+    let mut sides =
+        Sides { near: frame.rounded(), covering: Default::default(), is_inside: [false; 2] };
+    for which in 0..2 {
+        for (edges, &(number, _)) in of_triangles.chunks(3).zip(triangles) {
+            if edges.iter().all(|beside| beside[which]) {
+                sides.covering[which].push(number);
+            }
+        }
+        // Straight down from the point, edges to the right have the region above them, edges to the left below them.
+        let mut rounds = 0;
+        for (&[a, b], beside) in boundary.iter().zip(of_boundary) {
+            let goes_on = order(&key(a), &key(b)).is_lt();
+            let (low, high) = if goes_on { (a, b) } else { (b, a) };
+            let is_above = beside[which] == goes_on;
+            if is_above && frame.follows(low) && !frame.follows(high) {
+                rounds += if goes_on { 1 } else { -1 };
+            }
+        }
+        sides.is_inside[which] = rounds > 0;
+    }
+    sides
+}
+
+/// On which side of an edge all points between two ends lie; nothing where the edge passes between them.
+fn side_of_edge([a, b]: [Point; 2], ends: [Point; 2]) -> Option<Ordering> {
+    match [orientation(a, b, ends[0]), orientation(a, b, ends[1])] {
+        [one, Ordering::Equal] => Some(one),
+        [one, other] if one == other || one.is_eq() => Some(other),
+        _ => None,
     }
 }
 
@@ -129,17 +149,28 @@ struct Frame {
 impl Frame {
     fn new(ends: [Point; 2], unit: i32, bits: u32, part: u64) -> Self {
         let mut frame = Self { ends, unit, bits, part, point: Big::default() };
-        let [start, end] = ends.map(|end| frame.big(end));
-        frame.point = [0, 1].map(|i| &start[i] + ((&end[i] - &start[i]) >> bits) * part);
+        let ([x0, y0], [x1, y1]) = (frame.big(ends[0]), frame.big(ends[1]));
+        frame.point = [&x0 + ((x1 - &x0) >> bits) * part, &y0 + ((y1 - &y0) >> bits) * part];
         frame
     }
 
     fn big(&self, point: Point) -> Big {
-        point.map(|value| {
+        point.map_array(|value| {
             let (mantissa, exponent) = take_apart(value);
             let shift = if mantissa == 0 { 0 } else { exponent - self.unit };
             BigInt::from(mantissa) << (shift as u32 + self.bits)
         })
+    }
+
+    /// Whether the point lies on an edge of which its side is not known yet.
+    fn is_on_any(&self, edges: &[[Point; 2]], sides: &[Option<Ordering>]) -> bool {
+        edges.iter().zip(sides).any(|(edge, side)| side.is_none() && self.side(*edge).is_eq())
+    }
+
+    /// The point in floats. Halves come first, since the difference of two large numbers overflows.
+    fn rounded(&self) -> Point {
+        let ([start, end], part) = (self.ends, self.part as f64 / 2_f64.powi(self.bits as i32));
+        [0, 1].map_array(|axis: usize| start[axis] * (1.0 - part) + end[axis] * part)
     }
 
     /// On which side of an edge the point lies.
@@ -150,7 +181,7 @@ impl Frame {
 
     /// Whether the point is this one or comes after it, by x and then by y. Those between which it lies say so of most.
     fn follows(&self, point: Point) -> bool {
-        let [start, end] = self.ends.map(|end| order(&key(point), &key(end)));
+        let [start, end] = self.ends.map_array(|end| order(&key(point), &key(end)));
         start.is_le() || (end.is_lt() && self.big(point) <= self.point)
     }
 }

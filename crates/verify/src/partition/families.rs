@@ -4,8 +4,10 @@
 //! rounding; only then are single coordinates moved by an ulp. Every one is checked to be valid, and drawn again
 //! otherwise.
 
+use std::cmp::Ordering;
+
 use super::region::region;
-use super::{FillRule, Point, Polygon};
+use super::{FillRule, Point, Polygon, edges_of};
 use crate::cases::unsnapped::{nudge_f32, nudge_f64};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::random::Rng;
@@ -110,7 +112,9 @@ impl Family {
             if is_as_generated(&polygon, self) {
                 // Drawn last: the shape of a polygon does not depend on it.
                 if rng.chance(4) {
-                    polygon.contours.iter_mut().for_each(|contour| contour.reverse());
+                    for contour in &mut polygon.contours {
+                        contour.reverse();
+                    }
                 }
                 return polygon;
             }
@@ -194,21 +198,23 @@ fn placed(contours: Vec<Contour>, rng: &mut Rng, coordinates: Coordinates) -> Po
         Coordinates::F64 => rng.int(-20, 4),
     };
     let unit = 2_f64.powi(exponent as i32);
-    let contours = contours.into_iter().map(|mut contour| {
+    let mut placed = contours;
+    for contour in &mut placed {
         let start = rng.int(0, contour.len() as i64 - 1) as usize;
         contour.rotate_left(start);
         if is_mirrored != is_transposed {
             contour.reverse();
         }
-        let place = |[x, y]: Point| {
+        for point in contour {
+            let [x, y] = *point;
             let x = x + shear * y;
             let x = if is_mirrored { -x } else { x };
             let [x, y] = if is_transposed { [y, x] } else { [x, y] };
-            [x + offset[0], y + offset[1]].map_array(|value| coordinates.round(value * unit))
-        };
-        contour.into_iter().map(place).collect()
-    });
-    Polygon { contours: contours.collect() }
+            *point =
+                [x + offset[0], y + offset[1]].map_array(|value| coordinates.round(value * unit));
+        }
+    }
+    Polygon { contours: placed }
 }
 
 /// Directions in counterclockwise order, at least one in each quadrant.
@@ -222,39 +228,62 @@ fn directions(rng: &mut Rng, most: i64) -> Vec<[i64; 2]> {
             all.push([sx * x, sy * y]);
         }
     }
-    let half = |[x, y]: [i64; 2]| y < 0 || (y == 0 && x < 0);
-    all.sort_by(|&a, &b| half(a).cmp(&half(b)).then_with(|| 0.cmp(&(a[0] * b[1] - a[1] * b[0]))));
-    all.dedup_by(|a, b| half(*a) == half(*b) && a[0] * b[1] == a[1] * b[0]);
+    // Few come out of order, so that each is moved down to its place.
+    for i in 1..all.len() {
+        let mut at = i;
+        while at > 0 && by_angle(all[at], all[at - 1]).is_lt() {
+            all.swap(at - 1, at);
+            at -= 1;
+        }
+    }
+    all.dedup_by(|a, b| by_angle(*a, *b).is_eq());
     all
+}
+
+/// Compares directions counterclockwise, from that of x on.
+fn by_angle(a: [i64; 2], b: [i64; 2]) -> Ordering {
+    let is_second_half = |[x, y]: [i64; 2]| y < 0 || (y == 0 && x < 0);
+    let halves = is_second_half(a).cmp(&is_second_half(b));
+    halves.then(0.cmp(&(a[0] * b[1] - a[1] * b[0])))
 }
 
 pub(super) fn star(rng: &mut Rng) -> Contour {
     let most = rng.int(1, 6);
-    let arms = directions(rng, most).into_iter().enumerate();
-    let contour = arms.map(|(i, [x, y])| {
+    let mut contour = Vec::new();
+    for (i, direction) in directions(rng, most).into_iter().enumerate() {
         let length = if i % 2 == 0 { rng.int(1, 3) } else { rng.int(8, 60) };
-        [(length * x) as f64, (length * y) as f64]
-    });
-    contour.collect()
+        contour.push(scaled(direction, length));
+    }
+    contour
+}
+
+/// A whole vector that is so many times as long.
+fn scaled([x, y]: [i64; 2], by: i64) -> Point {
+    [(x * by) as f64, (y * by) as f64]
 }
 
 fn comb(rng: &mut Rng) -> Contour {
     let mut x = 0;
+    // From the left; a contour has its upper side from the right.
     let mut teeth = Vec::new();
     for _ in 0..rng.int(2, 9) {
         let (left, width) = (x, rng.int(1, 3));
         let height = if rng.chance(3) { 40 } else { rng.int(1, 400) };
         x = left + width + rng.int(1, 2);
-        let is_sharp = rng.chance(2);
-        let top = if is_sharp { vec![left + rng.int(-2, 4)] } else { vec![left + width, left] };
-        teeth.push([left + width].map(|x| [x, 0]).to_vec());
-        teeth.push(top.into_iter().map(|x| [x, height]).collect());
-        teeth.push(vec![[left, 0]]);
+        let right = left + width;
+        let mut tooth = vec![[right, 0]];
+        match rng.chance(2) {
+            true => tooth.push([left + rng.int(-2, 4), height]),
+            false => tooth.extend([[right, height], [left, height]]),
+        }
+        tooth.push([left, 0]);
+        teeth.push(tooth);
     }
     let mut contour = vec![[0, -rng.int(1, 30)], [x, -rng.int(1, 30)]];
-    let tooth_from_the_right = teeth.chunks(3).rev().flatten().flatten();
-    contour.extend(tooth_from_the_right);
-    contour.into_iter().map(|[x, y]| [x as f64, y as f64]).collect()
+    for tooth in teeth.into_iter().rev() {
+        contour.extend(tooth);
+    }
+    contour.into_iter().map(|point| scaled(point, 1)).collect()
 }
 
 /// An arm along the directions in turn, whose two sides both move outwards.
@@ -262,110 +291,169 @@ fn spiral(rng: &mut Rng) -> Contour {
     let directions = directions(rng, 2);
     let (count, grows) = (directions.len() as i64, rng.int(1, 8));
     let width = rng.int(1, (count * grows - 1).clamp(1, 40));
-    let side = |step: i64, reach: i64| {
-        let [x, y] = directions[(step % count) as usize];
-        [(x * reach) as f64, (y * reach) as f64]
-    };
     let steps = rng.int(2, 30);
-    let radius = |step: i64| 45 + step * grows;
-    let outer = (0..steps).map(|step| side(step, radius(step)));
-    let inner = (0..steps).rev().map(|step| side(step, radius(step) - width));
-    outer.chain(inner).collect()
+    // Out along the one side, and back along the other.
+    let (mut contour, mut back) = (Vec::new(), Vec::new());
+    for step in 0..steps {
+        let direction = directions[(step % count) as usize];
+        let radius = 45 + step * grows;
+        contour.push(scaled(direction, radius));
+        back.push(scaled(direction, radius - width));
+    }
+    contour.extend(back.into_iter().rev());
+    contour
 }
 
 /// The outline of connected squares of a grid, whose holes touch it and each other at corners.
 fn cells(rng: &mut Rng) -> Vec<Contour> {
-    let (width, height) = (rng.int(2, 7), rng.int(2, 7));
-    let mut drawn: Vec<bool> = (0..width * height).map(|_| !rng.chance(3)).collect();
-    drawn[0] = true;
-    let at = |x: i64, y: i64| -> Option<usize> {
-        let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
-        is_inside.then(|| (y * width + x) as usize)
-    };
-    // Those that are connected to the first one along their sides.
-    let mut kept = vec![false; drawn.len()];
-    let mut open = vec![[0, 0]];
-    while let Some([x, y]) = open.pop() {
-        if let Some(cell) = at(x, y).filter(|&cell| drawn[cell] && !kept[cell]) {
-            kept[cell] = true;
-            open.extend([[x + 1, y], [x - 1, y], [x, y + 1], [x, y - 1]]);
-        }
-    }
-    let is_kept = |x: i64, y: i64| at(x, y).is_some_and(|cell| kept[cell]);
-    // Edges with their square on the left.
-    let mut edges: Vec<[[i64; 2]; 2]> = Vec::new();
-    for y in 0..height {
-        for x in (0..width).filter(|&x| is_kept(x, y)) {
-            let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
-            let beyond = [[x, y - 1], [x + 1, y], [x, y + 1], [x - 1, y]];
-            let free = (0..4).filter(|&side| !is_kept(beyond[side][0], beyond[side][1]));
-            edges.extend(free.map(|side| [corners[side], corners[(side + 1) % 4]]));
-        }
-    }
+    let squares = Squares::connected(rng);
     // Where four edges meet, either turn gives valid contours.
     let (turns_left, keeps_straight) = (rng.chance(2), rng.chance(2));
     let step = rng.int(1, 40);
-    let mut contours = Vec::new();
+    let mut edges = squares.free_edges();
+    let mut contours: Vec<Contour> = Vec::new();
     while let Some(start) = edges.pop() {
-        let mut contour = vec![start];
-        loop {
-            let [from, at] = contour[contour.len() - 1];
-            let turn = |to: [i64; 2]| {
-                (at[0] - from[0]) * (to[1] - at[1]) - (at[1] - from[1]) * (to[0] - at[0])
-            };
-            let next = edges.iter().enumerate().filter(|(_, edge)| edge[0] == at);
-            let best = next
-                .max_by_key(|(_, edge)| if turns_left { turn(edge[1]) } else { -turn(edge[1]) });
-            // The first edge is another choice where the contour comes back to its start.
-            let closes = start[0] == at;
-            let Some((number, edge)) = best.map(|(number, &edge)| (number, edge)) else { break };
-            let is_better =
-                |one: i64, other: i64| if turns_left { one > other } else { one < other };
-            if closes && !is_better(turn(edge[1]), turn(start[1])) {
-                break;
+        let ring = contour_from(start, &mut edges, turns_left);
+        let count = ring.len();
+        let mut contour = Vec::new();
+        for (i, here) in ring.iter().enumerate() {
+            let before = ring[(i + count - 1) % count];
+            if keeps_straight || turn(before, *here) != 0 {
+                contour.push(scaled(here[0], step));
             }
-            edges.swap_remove(number);
-            contour.push(edge);
         }
-        let count = contour.len();
-        let is_corner = |i: usize| {
-            let ([a, b], [_, c]) = (contour[(i + count - 1) % count], contour[i]);
-            (b[0] - a[0]) * (c[1] - b[1]) != (b[1] - a[1]) * (c[0] - b[0])
-        };
-        let points = (0..count).filter(|&i| keeps_straight || is_corner(i)).map(|i| contour[i][0]);
-        contours.push(points.map(|[x, y]| [(x * step) as f64, (y * step) as f64]).collect());
+        contours.push(contour);
     }
     // The outline is the only one with a positive area.
-    contours.sort_by(|a: &Contour, b| area(b).total_cmp(&area(a)));
+    contours.sort_by(|a, b| area(b).total_cmp(&area(a)));
     contours
+}
+
+/// A directed edge between points of a grid.
+type GridEdge = [[i64; 2]; 2];
+
+/// Positive where the second edge, which begins where the first one ends, turns left.
+fn turn([from, at]: GridEdge, [_, to]: GridEdge) -> i64 {
+    (at[0] - from[0]) * (to[1] - at[1]) - (at[1] - from[1]) * (to[0] - at[0])
+}
+
+/// The edges from one on until it is reached again. They are taken out of the list, and where several go on, the one that turns most to
+/// one side is taken.
+fn contour_from(start: GridEdge, edges: &mut Vec<GridEdge>, turns_left: bool) -> Vec<GridEdge> {
+    let sign = if turns_left { 1 } else { -1 };
+    let mut contour = vec![start];
+    loop {
+        let last = contour[contour.len() - 1];
+        let mut best = None;
+        for (number, edge) in edges.iter().enumerate() {
+            if edge[0] == last[1] {
+                let side = sign * turn(last, *edge);
+                // Of equal ones, the last.
+                if best.is_none_or(|(most, _)| side >= most) {
+                    best = Some((side, number));
+                }
+            }
+        }
+        let Some((side, number)) = best else { return contour };
+        // The first edge is another choice where the contour comes back to its start.
+        if start[0] == last[1] && side <= sign * turn(last, start) {
+            return contour;
+        }
+        contour.push(edges.swap_remove(number));
+    }
+}
+
+/// Squares of a grid, of which some are kept.
+struct Squares {
+    width: i64,
+    height: i64,
+    kept: Vec<bool>,
+}
+
+impl Squares {
+    /// Some squares, of which those are kept that are connected to the first one along their sides.
+    fn connected(rng: &mut Rng) -> Self {
+        let (width, height) = (rng.int(2, 7), rng.int(2, 7));
+        let mut drawn = Vec::new();
+        for _ in 0..width * height {
+            drawn.push(!rng.chance(3));
+        }
+        drawn[0] = true;
+        // From the first square on, over all that share a side.
+        let mut squares = Self { width, height, kept: vec![false; drawn.len()] };
+        let mut open = vec![[0, 0]];
+        while let Some([x, y]) = open.pop() {
+            match squares.number(x, y) {
+                Some(cell) if drawn[cell] && !squares.kept[cell] => {
+                    squares.kept[cell] = true;
+                    open.extend([[x + 1, y], [x - 1, y], [x, y + 1], [x, y - 1]]);
+                }
+                _ => {}
+            }
+        }
+        squares
+    }
+
+    fn number(&self, x: i64, y: i64) -> Option<usize> {
+        let is_inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
+        is_inside.then(|| (y * self.width + x) as usize)
+    }
+
+    fn is_kept(&self, [x, y]: [i64; 2]) -> bool {
+        self.number(x, y).is_some_and(|cell| self.kept[cell])
+    }
+
+    /// Edges beyond which no square is kept, with their square on the left.
+    fn free_edges(&self) -> Vec<GridEdge> {
+        let mut edges = Vec::new();
+        for y in 0..self.height {
+            for x in 0..self.width {
+                // The corners of the square counterclockwise, and the square beyond each side.
+                let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
+                let beyond = [[x, y - 1], [x + 1, y], [x, y + 1], [x - 1, y]];
+                for side in 0..4 {
+                    if self.is_kept([x, y]) && !self.is_kept(beyond[side]) {
+                        edges.push([corners[side], corners[(side + 1) % 4]]);
+                    }
+                }
+            }
+        }
+        edges
+    }
 }
 
 /// Twice the area, exact for small whole numbers.
 pub(super) fn area(contour: &[Point]) -> f64 {
-    let next = contour.iter().cycle().skip(1);
-    contour.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum()
+    let mut area = 0.0;
+    for [a, b] in edges_of(contour) {
+        area += a[0] * b[1] - a[1] * b[0];
+    }
+    area
 }
 
 fn islands(rng: &mut Rng) -> Vec<Contour> {
     let outline = if rng.chance(3) { circle_of(rng.int(1, 6), 300.0) } else { star(rng) };
     let depth = rng.int(2, 6);
-    let ring = |inward: i64| {
+    let mut contours = Vec::new();
+    for inward in 0..depth {
         let scale = (depth - inward) as f64;
         let mut contour: Contour =
             outline.iter().map(|point| point.map_array(|v| v * scale)).collect();
+        // Every second one is a hole.
         if inward % 2 == 1 {
             contour.reverse();
         }
-        contour
-    };
-    (0..depth).map(ring).collect()
+        contours.push(contour);
+    }
+    contours
 }
 
 /// The points of the contours at twelfths of their edges, so that points on them are whole.
-fn in_twelfths(contours: Vec<Contour>) -> Vec<Contour> {
-    let scaled =
-        |contour: Contour| contour.into_iter().map(|point| point.map_array(|v| v * 12.0)).collect();
-    contours.into_iter().map(scaled).collect()
+fn in_twelfths(mut contours: Vec<Contour>) -> Vec<Contour> {
+    for v in contours.iter_mut().flatten().flatten() {
+        *v *= 12.0;
+    }
+    contours
 }
 
 fn between(a: Point, b: Point, twelfths: i64) -> Point {
@@ -376,15 +464,19 @@ fn between(a: Point, b: Point, twelfths: i64) -> Point {
 fn collinear(rng: &mut Rng) -> Vec<Contour> {
     let mut contours = in_twelfths(base(rng));
     for contour in &mut contours {
-        let next: Vec<Point> =
-            contour.iter().copied().cycle().skip(1).take(contour.len()).collect();
         let mut cut = Vec::new();
-        for (&a, b) in contour.iter().zip(next) {
+        for [a, b] in edges_of(contour) {
             cut.push(a);
-            let mut at: Vec<i64> = (0..rng.int(0, 3)).map(|_| rng.int(1, 11)).collect();
+            let mut at = Vec::new();
+            for _ in 0..rng.int(0, 3) {
+                at.push(rng.int(1, 11));
+            }
+            // Places along the edge, in order, each once.
             at.sort_unstable();
             at.dedup();
-            cut.extend(at.into_iter().map(|part| between(a, b, part)));
+            for part in at {
+                cut.push(between(a, b, part));
+            }
         }
         *contour = cut;
     }
@@ -394,11 +486,14 @@ fn collinear(rng: &mut Rng) -> Vec<Contour> {
 fn duplicates(rng: &mut Rng) -> Vec<Contour> {
     let mut contours = base(rng);
     for contour in &mut contours {
-        let repeated = contour.iter().flat_map(|&point| {
+        let mut repeated = Vec::new();
+        for point in contour.iter() {
             let times = if rng.chance(3) { rng.int(2, 3) } else { 1 };
-            std::iter::repeat_n(point, times as usize)
-        });
-        *contour = repeated.collect();
+            for _ in 0..times {
+                repeated.push(*point);
+            }
+        }
+        *contour = repeated;
     }
     contours
 }
@@ -459,12 +554,14 @@ fn nearly_touching(rng: &mut Rng, coordinates: Coordinates) -> Polygon {
 
 /// A circle of four times so many points, by the rational parametrisation of a quarter.
 fn circle_of(quarter: i64, radius: f64) -> Contour {
-    let points = (0..4 * quarter).map(|i| {
+    let mut points = Vec::new();
+    for i in 0..4 * quarter {
         let t = (i % quarter) as f64 / quarter as f64;
         let (cos, sin) = ((1.0 - t * t) / (1.0 + t * t) * radius, 2.0 * t / (1.0 + t * t) * radius);
-        [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]][(i / quarter) as usize]
-    });
-    points.collect()
+        // The other quarters are this one, turned.
+        points.push([[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]][(i / quarter) as usize]);
+    }
+    points
 }
 
 fn circle(rng: &mut Rng, coordinates: Coordinates) -> Vec<Contour> {

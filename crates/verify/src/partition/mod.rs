@@ -446,22 +446,51 @@ pub fn judge_partition(
 ) -> Result<Faults, InvalidPolygon> {
     let region = region::region(polygon, options.terms.fill_rule)?;
     let mut finding = decide::decide(&region.boundary, triangles, options);
-    let sorted = |points: &mut dyn Iterator<Item = &Point>| {
-        let mut points: Vec<Point> = points.map(|&point| key(point)).collect();
-        points.sort_unstable_by(order);
-        points.dedup();
-        points
-    };
-    let given = sorted(&mut polygon.contours.iter().flatten());
-    let corners = sorted(&mut triangles.as_flattened().iter());
-    let is_added = |point: &&Point| given.binary_search_by(|other| order(other, point)).is_err();
-    finding.added_points = corners.iter().filter(is_added).count();
+    let given = distinct(polygon.contours.as_slice());
+    for point in distinct(&[triangles.as_flattened()]) {
+        if given.binary_search_by(|other| order(other, &point)).is_err() {
+            finding.added_points += 1;
+        }
+    }
     Ok(finding)
+}
+
+/// All points of some lists in order, each once.
+fn distinct<L: AsRef<[Point]>>(lists: &[L]) -> Vec<Point> {
+    let mut points = all_points(lists);
+    points.dedup();
+    points
+}
+
+/// All points of some lists in order.
+fn all_points<L: AsRef<[Point]>>(lists: &[L]) -> Vec<Point> {
+    let mut points = Vec::new();
+    for list in lists {
+        for point in list.as_ref() {
+            points.push(key(*point));
+        }
+    }
+    points.sort_unstable_by(order);
+    points
+}
+
+/// The edges of a contour, from each vertex to the next one.
+fn edges_of(contour: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
+    contour.iter().enumerate().map(|(i, a)| [*a, contour[(i + 1) % contour.len()]])
+}
+
+/// The least of some coordinates and the largest; of none, the one is above the other.
+fn ends_of(points: &[Point], axis: usize) -> [f64; 2] {
+    let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
+    for point in points {
+        (least, most) = (least.min(point[axis]), most.max(point[axis]));
+    }
+    [least, most]
 }
 
 /// The point without a negative zero, so that equal points have the same bits.
 fn key(point: Point) -> Point {
-    point.map(|value| value + 0.0)
+    [point[0] + 0.0, point[1] + 0.0]
 }
 
 /// By x, then by y.

@@ -44,26 +44,28 @@ pub(super) struct Region {
 }
 
 pub(super) fn region(polygon: &Polygon, rule: FillRule) -> Result<Region, InvalidPolygon> {
-    let mut points: Vec<Point> =
-        polygon.contours.iter().flatten().map(|&point| key(point)).collect();
-    if let Some(&point) = points.iter().find(|point| !point.iter().all(|value| value.is_finite())) {
-        return Err(InvalidPolygon::NotFinite(point));
+    for &point in polygon.contours.iter().flatten() {
+        if !point[0].is_finite() || !point[1].is_finite() {
+            return Err(InvalidPolygon::NotFinite(key(point)));
+        }
     }
-    points.sort_unstable_by(super::order);
-    points.dedup();
+    let points = super::distinct(&polygon.contours);
     let pieces = pieces(polygon, &points);
     let net = Net { points: &points, pieces };
-    net.crossing().map_or(Ok(()), Err)?;
+    if let Some(crossing) = net.crossing() {
+        return Err(crossing);
+    }
     let mut boundary = Vec::new();
     let mut rounds = [0; 2];
     for &([low, high], along) in net.pieces.iter().filter(|(_, along)| *along != 0) {
         let below = net.rounds_below([low, high]);
         let ends = [points[low], points[high]];
-        let sides = [below, below + along];
-        rounds = [rounds[0].min(sides[0]).min(sides[1]), rounds[1].max(sides[0]).max(sides[1])];
-        match sides.map(|rounds| rule.fills(rounds)) {
-            [false, true] => boundary.push(ends),
-            [true, false] => boundary.push([ends[1], ends[0]]),
+        // Across a piece the number changes by how often contours run along it.
+        let above = below + along;
+        rounds = [rounds[0].min(below).min(above), rounds[1].max(below).max(above)];
+        match (rule.fills(below), rule.fills(above)) {
+            (false, true) => boundary.push(ends),
+            (true, false) => boundary.push([ends[1], ends[0]]),
             _ => {}
         }
     }
@@ -100,8 +102,14 @@ fn pieces(polygon: &Polygon, points: &[Point]) -> Vec<Piece> {
         }
     }
     cut.sort_unstable();
-    let same = cut.chunk_by(|a, b| a.0 == b.0);
-    same.map(|same| (same[0].0, same.iter().map(|piece| piece.1).sum())).collect()
+    let mut pieces: Vec<Piece> = Vec::new();
+    for (ends, along) in cut {
+        match pieces.last_mut() {
+            Some(last) if last.0 == ends => last.1 += along,
+            _ => pieces.push((ends, along)),
+        }
+    }
+    pieces
 }
 
 /// Whether a point is between the ends of an edge in y.
@@ -124,39 +132,60 @@ impl Net<'_> {
     /// Two pieces that cross. No vertex is inside a piece, so they cross where each has its ends on both sides of the other.
     fn crossing(&self) -> Option<InvalidPolygon> {
         for (i, &(one, _)) in self.pieces.iter().enumerate() {
-            let rest = self.pieces[i + 1..].iter().map(|piece| piece.0);
-            let overlapping = rest.take_while(|other| other[0] < one[1]);
-            for other in overlapping {
-                let [a, b] = one.map(|end| self.points[end][1]);
-                let [c, d] = other.map(|end| self.points[end][1]);
-                let is_apart = a.max(b) < c.min(d) || c.max(d) < a.min(b);
+            for &(other, _) in &self.pieces[i + 1..] {
+                // Later pieces begin beyond this one.
+                if other[0] >= one[1] {
+                    break;
+                }
                 let meets = one.iter().any(|end| other.contains(end));
-                let splits = |edge, [p, q]: [usize; 2]| {
-                    let sides = [self.side(edge, p), self.side(edge, q)];
-                    sides[0].is_ne() && sides[0] == sides[1].reverse()
-                };
-                if !is_apart && !meets && splits(one, other) && splits(other, one) {
-                    let ends = |piece: [usize; 2]| piece.map(|end| self.points[end]);
-                    return Some(InvalidPolygon::Crossing([ends(one), ends(other)]));
+                if !meets
+                    && !self.is_apart(one, other)
+                    && self.splits(one, other)
+                    && self.splits(other, one)
+                {
+                    return Some(InvalidPolygon::Crossing([self.ends(one), self.ends(other)]));
                 }
             }
         }
         None
     }
 
+    fn ends(&self, piece: [usize; 2]) -> [Point; 2] {
+        [self.points[piece[0]], self.points[piece[1]]]
+    }
+
+    /// Whether one piece lies above the other.
+    fn is_apart(&self, one: [usize; 2], other: [usize; 2]) -> bool {
+        let ([[_, a], [_, b]], [[_, c], [_, d]]) = (self.ends(one), self.ends(other));
+        a.max(b) < c.min(d) || c.max(d) < a.min(b)
+    }
+
+    /// Whether two points lie on different sides of the line through a piece.
+    fn splits(&self, piece: [usize; 2], [p, q]: [usize; 2]) -> bool {
+        let sides = [self.side(piece, p), self.side(piece, q)];
+        sides[0].is_ne() && sides[0] == sides[1].reverse()
+    }
+
     /// The winding number next to a piece, below it (on its right) and just beyond its lower end. Straight down from
     /// there, every piece to be counted has its lower end at or before that end, and its other end beyond it.
     fn rounds_below(&self, [low, high]: [usize; 2]) -> i64 {
-        let reached = self.pieces.iter().take_while(|piece| piece.0[0] <= low);
-        let passed = reached.filter(|&&(piece, _)| {
-            if piece[1] <= low || piece == [low, high] {
-                return false;
+        let mut rounds = 0;
+        for &(piece, along) in &self.pieces {
+            if piece[0] > low {
+                break;
             }
-            match self.side(piece, low) {
+            if piece[1] <= low || piece == [low, high] {
+                continue;
+            }
+            let is_passed = match self.side(piece, low) {
+                // It begins at the same point, or runs through it: what matters is which one lies above.
                 Ordering::Equal => self.side([low, high], piece[1]).is_lt(),
                 side => side.is_gt(),
+            };
+            if is_passed {
+                rounds += along;
             }
-        });
-        passed.map(|piece| piece.1).sum()
+        }
+        rounds
     }
 }

@@ -14,6 +14,7 @@ use crate::cases::shrink::SmallerSearch;
 use crate::judge::machine::{JudgeKind, Place};
 use crate::judge::{self, Clock, LeftOut, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel;
 
 /// Triangles that a message lists.
@@ -69,11 +70,10 @@ impl Polygons {
         for (count, kind) in self.gravest.iter_mut().zip(FaultKind::ALL) {
             *count += u64::from(gravest == Some(kind));
         }
-        let counts = [(&mut self.faults, &finding.faults), (&mut self.allowed, &finding.allowed)];
-        for (counts, faults) in counts {
-            for (count, kind) in counts.iter_mut().zip(FaultKind::ALL) {
-                *count += u64::from(faults.iter().any(|fault| fault.kind == kind));
-            }
+        // A kind counts once for each polygon, however often it occurs there.
+        for (i, kind) in FaultKind::ALL.into_iter().enumerate() {
+            self.faults[i] += u64::from(finding.faults.iter().any(|fault| fault.kind == kind));
+            self.allowed[i] += u64::from(finding.allowed.iter().any(|fault| fault.kind == kind));
         }
     }
 
@@ -83,12 +83,11 @@ impl Polygons {
         self.triangles += other.triangles;
         self.wrong += other.wrong;
         self.added_points += other.added_points;
-        let add = |sums: &mut [u64], others: &[u64]| {
-            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
-        };
-        add(&mut self.faults, &other.faults);
-        add(&mut self.gravest, &other.gravest);
-        add(&mut self.allowed, &other.allowed);
+        for i in 0..FaultKind::ALL.len() {
+            self.faults[i] += other.faults[i];
+            self.gravest[i] += other.gravest[i];
+            self.allowed[i] += other.allowed[i];
+        }
     }
 
     /// What is wrong with how many polygons, each counted by its gravest fault; `of` follows the first number.
@@ -154,7 +153,9 @@ impl Verdict {
     pub fn sum(&self) -> Polygons {
         let first = self.families.first().map_or(Family::Collinear, |report| report.family);
         let mut sum = Polygons::new(first);
-        self.families.iter().for_each(|report| sum.add(report));
+        for report in &self.families {
+            sum.add(report);
+        }
         sum
     }
 }
@@ -195,6 +196,7 @@ impl Verdict {
         repeat: &dyn Fn(&str, u64) -> String,
     ) -> fmt::Result {
         let Self { options, families, failures, cause, more } = self;
+        // Answers that change come first: nothing else that is said would be reliable.
         let sum = self.sum();
         if failures.iter().any(|failure| failure.evidence.again.is_some()) {
             writeln!(
@@ -223,9 +225,12 @@ impl Verdict {
             let said = format!("{what}: {}", cause.sentences().join("\n"));
             writeln!(f, "\n{}\n", ascii::broken(&said, 80, "  "))?;
         }
-        let wrong = families.iter().filter(|report| report.wrong > 0);
-        let wrong: Vec<_> =
-            wrong.map(|report| format!("{} {}", report.family.name(), report.wrong)).collect();
+        let mut wrong = Vec::new();
+        for Polygons { family, wrong: count, .. } in families {
+            if *count > 0 {
+                wrong.push(format!("{} {count}", family.name()));
+            }
+        }
         writeln!(f, "  polygons by family: {}", wrong.join(", "))?;
         for failure in failures {
             let Triangulated { kind, triangles, again, .. } = &failure.evidence;
@@ -277,8 +282,12 @@ fn declared(options: &Options) -> String {
 }
 
 fn by_kind(counts: &[u64]) -> String {
-    let counts = FaultKind::ALL.iter().zip(counts).filter(|(_, count)| **count > 0);
-    let words: Vec<_> = counts.map(|(kind, count)| format!("{} {count}", kind.name())).collect();
+    let mut words = Vec::new();
+    for (kind, count) in FaultKind::ALL.iter().zip(counts) {
+        if *count > 0 {
+            words.push(format!("{} {count}", kind.name()));
+        }
+    }
     words.join(", ")
 }
 
@@ -291,16 +300,28 @@ pub fn judge_partitions<T: Tessellate + Sync>(
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     let watch = Watch::begin();
-    let answer = |polygon: &Polygon| {
-        tessellator.accepts(polygon).then(|| {
-            let triangles = watch.during(|| caught(|| tessellator.triangles(polygon)));
-            triangles.map_or_else(
-                |message| Err(Fault::saying(FaultKind::Panicked, message.to_string())),
-                |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
-            )
-        })
-    };
-    judge(&|polygons| polygons.iter().map(answer).collect(), options, &watch)
+    judge(&|polygons| answers(tessellator, polygons, &watch), options, &watch)
+}
+
+/// What a tessellator makes of polygons, one after the other.
+fn answers<T: Tessellate>(
+    tessellator: &T,
+    polygons: &[Polygon],
+    watch: &Watch,
+) -> Vec<Answer<Fault>> {
+    let mut answers = Vec::with_capacity(polygons.len());
+    for polygon in polygons {
+        if !tessellator.accepts(polygon) {
+            answers.push(None);
+            continue;
+        }
+        answers.push(Some(match watch.during(|| caught(|| tessellator.triangles(polygon))) {
+            Err(message) => Err(Fault::saying(FaultKind::Panicked, message.to_string())),
+            Ok(Err(Refused(why))) => Err(Fault::saying(FaultKind::Refused, why)),
+            Ok(Ok(triangles)) => Ok(triangles),
+        }));
+    }
+    answers
 }
 
 /// The same of somebody who answers polygons, several at once: nothing is the answer to one that he does not take.
@@ -312,16 +333,22 @@ pub fn judge_partitions_of(
     answer: &AskTessellator<'_>,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
-    let fault = |answer: Option<Result<_, _>>| answer.map(|answer| answer.map_err(refused));
     // An answer counts as time in the judged code.
     let watch = Watch::begin();
     let asked = |polygons: &[Polygon]| {
         let answers = watch.spend(|| answer(polygons));
         let answers = answers.unwrap_or_else(|| vec![None; polygons.len()]);
-        answers.into_iter().map(fault).collect()
+        answers.into_iter().map(with_fault).collect()
     };
     judge(&asked, options, &watch)
+}
+
+/// An answer whose refusal is a fault.
+fn with_fault(answer: Answer<Refused>) -> Answer<Fault> {
+    Some(match answer? {
+        Ok(triangles) => Ok(triangles),
+        Err(Refused(why)) => Err(Fault::saying(FaultKind::Refused, why)),
+    })
 }
 
 /// What is made of a polygon, if it is taken. Fewer answers than polygons are those of whose time is up.
@@ -335,16 +362,24 @@ fn ask(
     polygons: &[Polygon],
     options: &Options,
 ) -> Vec<Option<(Vec<Triangle>, Faults)>> {
-    let judged = |(polygon, made): (&Polygon, Answer<Fault>)| {
-        let made = made?;
-        // Only a valid polygon has to be taken.
-        let faults = judge_partition(polygon, made.as_deref().unwrap_or(&[]), options).ok()?;
-        Some(match made {
-            Ok(triangles) => (triangles, faults),
-            Err(fault) => (Vec::new(), Faults { faults: vec![fault], ..Faults::default() }),
-        })
-    };
-    polygons.iter().zip(tessellator(polygons)).map(judged).collect()
+    let mut judged = Vec::with_capacity(polygons.len());
+    for (polygon, made) in polygons.iter().zip(tessellator(polygons)) {
+        judged.push(made.and_then(|made| found_in(polygon, made, options)));
+    }
+    judged
+}
+
+/// The triangles of a polygon and what is found about them; nothing of a polygon that is not valid, and need not be taken.
+fn found_in(
+    polygon: &Polygon,
+    made: Result<Vec<Triangle>, Fault>,
+    options: &Options,
+) -> Option<(Vec<Triangle>, Faults)> {
+    let faults = judge_partition(polygon, made.as_deref().unwrap_or(&[]), options).ok()?;
+    Some(match made {
+        Ok(triangles) => (triangles, faults),
+        Err(fault) => (Vec::new(), Faults { faults: vec![fault], ..Faults::default() }),
+    })
 }
 
 fn judge(
@@ -355,39 +390,23 @@ fn judge(
     options.check()?;
     let wanted = wanted(options);
     let clock = Clock::new(options.time_limit);
-    let part = |family: &Family| Part {
-        polygons: Polygons::new(*family),
-        smallest: Default::default(),
-        changing: None,
-    };
-    let parts = wanted.iter().map(part).collect();
+    let mut parts = Vec::new();
+    for family in &wanted {
+        let polygons = Polygons::new(*family);
+        parts.push(Part { polygons, smallest: Default::default(), changing: None });
+    }
     let find = |_: Place, jobs: &[&PolygonJob]| {
         let polygons: Vec<Polygon> = jobs.iter().map(|job| job.polygon.clone()).collect();
         ask(tessellator, &polygons, options)
     };
     let judged = JudgedTessellator { families: &wanted, options, clock: &clock };
     let of = (options, &clock);
-    let mut parts = judge::in_process(&judged, parts, wanted.len(), of, &|_| (), &find);
+    parts = judge::in_process(&judged, parts, wanted.len(), of, &|_| (), &find);
     // Of a limited time, the last families may not have been reached.
     parts.retain(|part| part.polygons.polygons + part.polygons.left_out > 0);
-    let (mut families, mut changing) = (Vec::new(), Vec::new());
-    let mut failing: Vec<(FaultKind, Family, Failing)> = Vec::new();
-    for part in parts {
-        let family = part.polygons.family;
-        for (kind, found) in FaultKind::ALL.into_iter().zip(part.smallest) {
-            let Some(found) = found else { continue };
-            match failing.iter_mut().find(|(known, ..)| *known == kind) {
-                None => failing.push((kind, family, found)),
-                Some(best) if found.vertices < best.2.vertices => {
-                    (best.1, best.2) = (family, found);
-                }
-                Some(_) => {}
-            }
-        }
-        changing.extend(part.changing.map(|(.., failure)| failure));
-        families.push(part.polygons);
-    }
-    failing.sort_by_key(|(kind, ..)| *kind);
+    // What failed, and what did not answer the same twice.
+    let Failures { failing, mut changing } = failures_of(&mut parts);
+    let families: Vec<Polygons> = parts.into_iter().map(|part| part.polygons).collect();
     let judged: u64 = families.iter().map(|family| family.polygons + family.left_out).sum();
     let cases = options.count().saturating_mul(wanted.len() as u64) - judged;
     let option = judge::TIME_LIMIT;
@@ -403,7 +422,7 @@ fn judge(
     }
     clock.limit(watch, true);
     let failures = parallel::map(failing.len(), |number| {
-        let (kind, family, found) = &failing[number];
+        let OfKind { kind, family, found } = &failing[number];
         smallest(tessellator, options, *kind, *family, found, watch)
     });
     let mut cause = None;
@@ -418,6 +437,42 @@ fn judge(
     Ok(Verdict { options: options.clone(), families, failures, cause, more })
 }
 
+/// What is wrong over all families.
+struct Failures {
+    /// Of each kind of fault the smallest polygon, the gravest kind first.
+    failing: Vec<OfKind>,
+    /// Polygons whose triangles change from one time to the next.
+    changing: Vec<Failure>,
+}
+
+/// A polygon that failed in such a way.
+struct OfKind {
+    kind: FaultKind,
+    family: Family,
+    found: Failing,
+}
+
+/// Takes the failures out of what the families came to.
+fn failures_of(parts: &mut [Part]) -> Failures {
+    let mut failures = Failures { failing: Vec::new(), changing: Vec::new() };
+    // Kinds are in the order of their gravity.
+    for (i, kind) in FaultKind::ALL.into_iter().enumerate() {
+        let mut best: Option<OfKind> = None;
+        for part in &mut *parts {
+            let Some(found) = part.smallest[i].take() else { continue };
+            // Of several as small, that of the first family.
+            if best.as_ref().is_none_or(|best| found.vertices < best.found.vertices) {
+                best = Some(OfKind { kind, family: part.polygons.family, found });
+            }
+        }
+        failures.failing.extend(best);
+    }
+    for part in parts {
+        failures.changing.extend(part.changing.take().map(|changing| changing.failure));
+    }
+    failures
+}
+
 fn wanted(options: &Options) -> Vec<Family> {
     let wanted = |family: &Family| options.families.is_empty() || options.families.contains(family);
     Family::ALL.into_iter().filter(wanted).collect()
@@ -430,9 +485,11 @@ fn some(tessellator: &FindFaults, options: &Options) -> Vec<Made> {
         let polygon = |index| polygon(family, index, options);
         let polygons: Vec<Polygon> = (0..OF_A_FAMILY).map(polygon).collect();
         let answers = ask(tessellator, &polygons, options);
-        made.extend(polygons.into_iter().zip(answers).filter_map(|(polygon, answer)| {
-            answer.map(|(triangles, finding)| Made { polygon, triangles, finding })
-        }));
+        for (polygon, answer) in polygons.into_iter().zip(answers) {
+            if let Some((triangles, finding)) = answer {
+                made.push(Made { polygon, triangles, finding });
+            }
+        }
     }
     made
 }
@@ -449,9 +506,15 @@ struct Part {
     polygons: Polygons,
     /// Of each kind of fault the polygon with the fewest vertices.
     smallest: [Option<Failing>; FaultKind::ALL.len()],
-    /// The polygon with the fewest vertices of which other triangles were made the second time: how many, in which batch, and both
-    /// answers.
-    changing: Option<(usize, u64, Failure)>,
+    changing: Option<Changing>,
+}
+
+/// The polygon with the fewest vertices of which other triangles were made the second time.
+struct Changing {
+    vertices: usize,
+    batch: u64,
+    /// Both answers.
+    failure: Failure,
 }
 
 /// A generated polygon.
@@ -529,12 +592,13 @@ impl JudgeKind for JudgedTessellator<'_> {
         }
         let Part { polygons, changing, .. } = &mut tally[place.family];
         let vertices = job.vertices();
-        if changing.as_ref().is_none_or(|(fewest, of, _)| (vertices, batch) < (*fewest, *of)) {
+        let is_smaller = |other: &Changing| (vertices, batch) < (other.vertices, other.batch);
+        if changing.as_ref().is_none_or(is_smaller) {
             let (seed, what, kind) = (self.options.seed, faults.to_string(), faults.faults[0].kind);
             let evidence = Triangulated { kind, triangles, faults, again: Some(again) };
             let (family, case) = (polygons.family.name(), job.polygon.clone());
             let failure = Failure { family, index: job.index, seed, what, case, evidence };
-            *changing = Some((vertices, batch, failure));
+            *changing = Some(Changing { vertices, batch, failure });
         }
     }
 
@@ -549,10 +613,11 @@ impl JudgeKind for JudgedTessellator<'_> {
 
 /// Whether the corners are the same, also where they are no numbers.
 fn is_same(a: &[Triangle], b: &[Triangle]) -> bool {
-    let bits = |triangles: &[Triangle]| -> Vec<u64> {
-        triangles.as_flattened().as_flattened().iter().map(|v| v.to_bits()).collect()
-    };
-    bits(a) == bits(b)
+    if a.len() != b.len() {
+        return false;
+    }
+    let [a, b] = [a, b].map_array(|all| all.as_flattened().as_flattened());
+    a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 fn smallest(
