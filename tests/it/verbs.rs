@@ -85,7 +85,7 @@ fn wide_line([a, b]: [(f64, f64); 2], line_width: f64, width: i32, height: i32, 
 /// Each covered sample with the values of its own place, by edge functions.
 const SAMPLE_VALUES: Verb = Verb {
     declares: "values-at=sample range=4096 batch=64",
-    families: ["w-4", "w-design"],
+    families: ["w-4", "sample-value-design"],
     written: [
         Written {
             ending: "py",

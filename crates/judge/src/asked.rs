@@ -20,8 +20,9 @@ pub(super) fn asked(options: &Options, rows: &[Row], declared: &Declared) -> Vec
         let Some(topic) = family.design() else { return false };
         // What is counted over all families has a row of its own.
         let checks: &[Check] = match topic.name {
-            name if name == facts::values::TOPIC.name => &[Check::Values, Check::SampleValues],
+            name if name == facts::values::TOPIC.name => &[Check::Values],
             name if name == facts::samples::TOPIC.name => &[Check::Samples],
+            name if name == facts::sample_values::TOPIC.name => &[Check::SampleValues],
             name if name == facts::near::TOPIC.name => &[Check::Carried],
             _ => &[],
         };

@@ -294,8 +294,12 @@ impl Check {
             _ if family.starts_with("wide-line") => {
                 vec![(Self::Wide, declared.wide_line && is_sampled)]
             }
+            _ if family == facts::values::TOPIC.name => vec![(Self::Values, declared.attributes)],
             _ if family == facts::samples::TOPIC.name => {
                 vec![(Self::Samples, declared.answers_samples())]
+            }
+            _ if family == facts::sample_values::TOPIC.name => {
+                vec![(Self::SampleValues, declared.answers_sample_values())]
             }
             _ => return None,
         };
@@ -327,7 +331,8 @@ impl Check {
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
         if let Some(mut checks) = Self::made_for(family, declared) {
             let has_places = case.triangles().iter().all(has_places);
-            checks.retain(|check| *check != Self::Samples || has_places);
+            let is_of_samples = |check: &Self| [Self::Samples, Self::SampleValues].contains(check);
+            checks.retain(|check| !is_of_samples(check) || has_places);
             // Exact depths of overlapping triangles are dear, and a design leaves no case out.
             let every = match family {
                 "depth-order" => 4,

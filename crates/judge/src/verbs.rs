@@ -351,7 +351,7 @@ fn faults_of_shares_are_found_and_explained() {
 }
 
 /// The families whose triangles have values.
-const VALUED: [&str; 2] = ["w-4", "w-design"];
+const VALUED: [&str; 2] = ["w-4", "sample-value-design"];
 
 /// Each engine is right by its own place and wrong by the others.
 #[test]

@@ -59,7 +59,7 @@ fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
             ["depth-order", "depth-near-tie", "near-plane", "wide-line", "area"].contains(&name);
         match design {
             "line-design" => name.starts_with("line-"),
-            "w-design" => name.starts_with("w-"),
+            "w-design" | "sample-value-design" => name.starts_with("w-"),
             "depth-design" => name.starts_with("depth-"),
             "near-design" => name == "near-plane",
             "wide-line-design" => name == "wide-line",

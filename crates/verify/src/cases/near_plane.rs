@@ -20,6 +20,7 @@ pub const FAMILIES: &[Family] = &[
     family("mesh-border", "meshes across the border of the window", across),
     family("wide-window", "triangles far to the right or far below in their window", far_inside),
     designed(facts::samples::TOPIC, "every two facts of the samples of a triangle together"),
+    designed(facts::sample_values::TOPIC, "every two facts of the values of samples together"),
     designed(facts::meshes::TOPIC, "every two facts of a mesh together"),
     designed(facts::depth::TOPIC, "every two facts of some triangles together"),
     designed(facts::near::TOPIC, "every two facts of a triangle of clip space together"),

@@ -1,6 +1,7 @@
 //! Facts of a question about the shares of pixels that a triangle covers.
 
-use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::{centre, edges, twice_area};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 
@@ -71,9 +72,16 @@ impl AreaFacts {
         let form = TriangleFacts::of_case(case, limits)?;
         let mut measured =
             Self { form, whole: 0, partly: 0, hardly: 0, almost: 0, half: 0, mostly: 0 };
-        for y_px in case.window.y0..case.window.y1 {
+        let area = twice_area(&corners);
+        // Without an area it covers nothing of any pixel.
+        let rows = if area == 0 { 0..0 } else { case.window.y0..case.window.y1 };
+        for y_px in rows {
             for x_px in case.window.x0..case.window.x1 {
-                measured.count(share(&corners, x_px, y_px));
+                match cut(&corners, area.signum(), x_px, y_px) {
+                    Cut::Outside => {}
+                    Cut::Whole => measured.whole += 1,
+                    Cut::Perhaps => measured.count(share(&corners, x_px, y_px)),
+                }
             }
         }
         Some(measured)
@@ -89,6 +97,30 @@ impl AreaFacts {
         self.half += i64::from(share == 0.5);
         self.mostly += i64::from(is_partly && share > 0.5);
     }
+}
+
+/// How much of a pixel a triangle covers, as far as it is seen by its edges.
+enum Cut {
+    Outside,
+    Whole,
+    Perhaps,
+}
+
+/// An exact share takes much longer than looking on which side of the edges a pixel lies.
+fn cut(corners: &Corners, turn: i128, x_px: i32, y_px: i32) -> Cut {
+    let middle = [x_px, y_px].map(|px| i128::from(centre(px)));
+    let mut is_whole = true;
+    for [a, b] in edges(corners) {
+        let [dx, dy] = [[a.x, b.x], [a.y, b.y]].map(|[a, b]| i128::from(b) - i128::from(a));
+        let side = dx * (middle[1] - i128::from(a.y)) - dy * (middle[0] - i128::from(a.x));
+        // The farthest corner of the pixel lies so far beside its centre.
+        let reach = (dx.abs() + dy.abs()) * i128::from(HALF_PIXEL);
+        if side * turn <= -reach {
+            return Cut::Outside;
+        }
+        is_whole &= side * turn >= reach;
+    }
+    if is_whole { Cut::Whole } else { Cut::Perhaps }
 }
 
 /// The largest side of a window: every pixel of it is compared.

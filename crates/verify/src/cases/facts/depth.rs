@@ -133,7 +133,7 @@ impl PileFacts {
         let last = means[means.len() - 1];
         Some(Self {
             count: list.len() as i64,
-            piled: piled(list, case.window),
+            piled: piled(list, &boxes, case.window),
             in_block: in_block(&boxes, window),
             window,
             order: order(&means),
@@ -200,14 +200,20 @@ fn equal(depths: &[[f64; 3]]) -> usize {
 }
 
 /// The most triangles that cover one of a few samples.
-fn piled(list: &[Triangle], window: PixelRect) -> i64 {
+fn piled(list: &[Triangle], boxes: &[[[i64; 2]; 2]], window: PixelRect) -> i64 {
     let mut most = 0;
     let [wide, high] = [window.x1, window.y1].map(|side| side.min(4));
     for row in 0..high {
         for column in 0..wide {
             let [x, y] = [centre(column * window.x1 / wide), centre(row * window.y1 / high)];
-            let covering = list.iter().filter(|t| covers(t, [x, y])).count();
-            most = most.max(covering as i64);
+            let is_in = |[low, high]: &[[i64; 2]; 2]| {
+                low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
+            };
+            let mut covering = 0;
+            for (triangle, its_box) in list.iter().zip(boxes) {
+                covering += i64::from(is_in(its_box) && covers(triangle, [x, y]));
+            }
+            most = most.max(covering);
         }
     }
     most

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rasterproof_core::random::Rng;
 
 use super::Topic;
-use super::table::{Gain, Table};
+use super::table::Table;
 use crate::cases::{Case, Limits};
 
 /// Cases of a block.
@@ -67,7 +67,6 @@ impl Effort {
 }
 
 /// A question with its classes.
-#[derive(Clone)]
 struct Candidate<Q> {
     case: Q,
     classes: Vec<u16>,
@@ -83,8 +82,10 @@ struct Chooser<'a, Q: 'static, L: 'static> {
     effort: Effort,
     impossible: &'a [[u16; 2]],
     table: Table,
-    /// Some cases of each class.
-    examples: Vec<Vec<Candidate<Q>>>,
+    /// The cases of the block so far.
+    chosen: Vec<Q>,
+    /// The numbers of some of them, for each class.
+    examples: Vec<Vec<usize>>,
     /// What is missing, in the order in which it is looked for.
     wanted: VecDeque<Wanted>,
     /// Turns beyond the effort of a case that are left for the block.
@@ -99,16 +100,14 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
         Some(Candidate { case, classes })
     }
 
-    /// The candidate of a few that has most of what is missing.
+    /// Chooses the next case: of some candidates the one that has most of what is missing.
     fn choose(&mut self) -> Option<Candidate<Q>> {
-        let mut best = None;
+        let mut candidates = Vec::new();
         for _ in 0..self.effort.drawn {
-            let case = (self.topic.draw)(&mut self.rng);
-            self.consider(self.candidate(case), &mut best);
+            candidates.extend(self.drawn());
         }
         for _ in 0..self.effort.made {
-            let Some(case) = self.made_of_two() else { continue };
-            self.consider(self.candidate(case), &mut best);
+            candidates.extend(self.made_of_two());
         }
         // The last few are the rarest.
         let turns = match self.wanted.len() {
@@ -118,7 +117,7 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
         self.more_turns = self.more_turns.saturating_sub(turns - self.effort.wanted);
         for _ in 0..turns {
             let Some(wanted) = self.next_wanted() else { break };
-            let is_found = self.look_for(&wanted, &mut best);
+            let is_found = self.look_for(&wanted, &mut candidates);
             // It is looked for again when all others had their turn, if another candidate is better.
             self.wanted.push_back(wanted);
             if is_found {
@@ -127,21 +126,37 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
         }
         // Hardly anything that is drawn may be left within narrow limits.
         for _ in 0..MOST_DRAWN {
-            if best.is_some() {
+            if !candidates.is_empty() {
                 break;
             }
-            let case = (self.topic.draw)(&mut self.rng);
-            self.consider(self.candidate(case), &mut best);
+            candidates.extend(self.drawn());
+        }
+        self.best(candidates)
+    }
+
+    /// The first candidate with most pairs that are missing, and of several such with most triples.
+    fn best(&self, candidates: Vec<Candidate<Q>>) -> Option<Candidate<Q>> {
+        let missing_pairs = |of: &Candidate<Q>| self.table.missing_pairs(&of.classes);
+        let pairs: Vec<usize> = candidates.iter().map(missing_pairs).collect();
+        let most = *pairs.iter().max()?;
+        let mut best: Option<(usize, Candidate<Q>)> = None;
+        for (candidate, pairs) in candidates.into_iter().zip(pairs) {
+            // Counting triples takes ten times as long, so that it is done for the best alone.
+            if pairs < most {
+                continue;
+            }
+            let triples = self.table.missing_triples(&candidate.classes);
+            if best.as_ref().is_none_or(|(most, _)| triples > *most) {
+                best = Some((triples, candidate));
+            }
         }
         best.map(|(_, candidate)| candidate)
     }
 
-    fn consider(&self, candidate: Option<Candidate<Q>>, best: &mut Option<(Gain, Candidate<Q>)>) {
-        let Some(candidate) = candidate else { return };
-        let gain = self.table.gain(&candidate.classes);
-        if best.as_ref().is_none_or(|(most, _)| gain > *most) {
-            *best = Some((gain, candidate));
-        }
+    /// A candidate drawn at random.
+    fn drawn(&mut self) -> Option<Candidate<Q>> {
+        let case = (self.topic.draw)(&mut self.rng);
+        self.candidate(case)
     }
 
     /// The next thing that is still missing.
@@ -155,66 +170,70 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
     }
 
     /// Draws candidates beside cases that have a part of what is wanted, until one has all of it. Whether one had.
-    fn look_for(&mut self, wanted: &Wanted, best: &mut Option<(Gain, Candidate<Q>)>) -> bool {
+    fn look_for(&mut self, wanted: &Wanted, candidates: &mut Vec<Candidate<Q>>) -> bool {
         let mut nearest: Option<(usize, Q)> = None;
         for _ in 0..AT_ONCE {
             let Some([one, other]) = self.examples_of(wanted) else { return false };
             // What already has most of it is a good start, too.
             let one = match &nearest {
                 Some((_, nearest)) if self.rng.chance(2) => nearest,
-                _ => &one,
+                _ => &self.chosen[one],
             };
-            let case = (self.topic.vary)(&mut self.rng, one, &other);
+            let case = (self.topic.vary)(&mut self.rng, one, &self.chosen[other]);
             let Some(candidate) = self.candidate(case) else { continue };
             let has = wanted.iter().filter(|class| candidate.classes.contains(class)).count();
-            if nearest.as_ref().is_none_or(|(most, _)| has >= *most) {
+            let is_found = has == wanted.len();
+            if !is_found && nearest.as_ref().is_none_or(|(most, _)| has >= *most) {
                 nearest = Some((has, candidate.case.clone()));
             }
             // It may have something else that is missing.
-            if has == wanted.len() || self.table.missing_pairs(&candidate.classes) > 0 {
-                self.consider(Some(candidate), best);
+            if is_found || self.table.missing_pairs(&candidate.classes) > 0 {
+                candidates.push(candidate);
             }
-            if has == wanted.len() {
+            if is_found {
                 return true;
             }
         }
         false
     }
 
-    /// A case made of two that are examples of any classes.
-    fn made_of_two(&mut self) -> Option<Q> {
+    /// A candidate made of two cases that are examples of any classes.
+    fn made_of_two(&mut self) -> Option<Candidate<Q>> {
         let last = self.examples.len() as i64 - 1;
         let classes = [(); 2].map(|()| self.rng.int(0, last) as u16);
-        let [mut case, other] = self.examples_of(&classes)?;
-        for _ in 0..CHANGES {
-            case = (self.topic.vary)(&mut self.rng, &case, &other);
+        let [one, other] = self.examples_of(&classes)?;
+        let other = &self.chosen[other];
+        let mut case = (self.topic.vary)(&mut self.rng, &self.chosen[one], other);
+        for _ in 1..CHANGES {
+            case = (self.topic.vary)(&mut self.rng, &case, other);
         }
-        Some(case)
+        self.candidate(case)
     }
 
-    /// Two cases that have one of some classes each; none where a class has no case.
-    fn examples_of(&mut self, wanted: &[u16]) -> Option<[Q; 2]> {
+    /// The numbers of two cases that have one of some classes each; none where a class has no case.
+    fn examples_of(&mut self, wanted: &[u16]) -> Option<[usize; 2]> {
         let mut example = || {
             let class = wanted[self.rng.int(0, wanted.len() as i64 - 1) as usize];
             let examples = &self.examples[usize::from(class)];
             let last = examples.len().checked_sub(1)?;
-            Some(examples[self.rng.int(0, last as i64) as usize].case.clone())
+            Some(examples[self.rng.int(0, last as i64) as usize])
         };
         Some([example()?, example()?])
     }
 
     /// Notes what a chosen case has, and keeps it as an example of its classes.
-    fn note(&mut self, chosen: &Candidate<Q>) {
+    fn note(&mut self, chosen: Candidate<Q>) {
         self.table.note(&chosen.classes);
         for class in &chosen.classes {
             let examples = &mut self.examples[usize::from(*class)];
             if examples.len() < REMEMBERED {
-                examples.push(chosen.clone());
+                examples.push(self.chosen.len());
             } else if self.rng.chance(REMEMBERED as i64) {
                 let at = self.rng.int(0, REMEMBERED as i64 - 1) as usize;
-                examples[at] = chosen.clone();
+                examples[at] = self.chosen.len();
             }
         }
+        self.chosen.push(chosen.case);
     }
 
     /// Lists what can occur and is missing, in random order: the pairs, or some triples that hold a class of a fact.
@@ -306,20 +325,19 @@ pub(crate) fn block_without<Q: Clone, L>(
         effort: Effort::of_block(number, all),
         impossible,
         table: Table::new(all),
+        chosen: Vec::with_capacity(BLOCK as usize),
         examples: vec![Vec::new(); all],
         wanted: VecDeque::new(),
         more_turns: if number == 0 { MOST_TURNS } else { 0 },
     };
-    let mut cases = Vec::with_capacity(BLOCK as usize);
     for at in 0..BLOCK {
         if at == EASY {
             chooser.list_wanted(third);
         }
         let chosen = chooser.choose().expect("what is drawn has facts, put within any limits");
-        chooser.note(&chosen);
-        cases.push(chosen.case);
+        chooser.note(chosen);
     }
-    cases
+    chooser.chosen
 }
 
 /// What the questions of a block depend on.

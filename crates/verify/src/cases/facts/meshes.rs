@@ -21,7 +21,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/mesh-design.txt"),
     draw,
     vary,
-    put: Limits::put,
+    put,
 };
 
 const PX: i64 = SUBPIXELS as i64;
@@ -304,9 +304,17 @@ fn case_of(window: PixelRect, mesh: Mesh) -> Case {
     };
     let list: Vec<_> =
         mesh.iter().map(|points| ScreenTriangle { vertices: points.map(vertex) }).collect();
-    let corners: Vec<Corners> = list.iter().map(ScreenTriangle::corners).collect();
-    let disjoint = is_disjoint(&corners);
-    Case { window, shape: Shape::Triangles { list, disjoint } }
+    Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// The case within limits, with a note whether its triangles are apart.
+fn put(limits: &Limits, case: Case) -> Case {
+    let mut case = limits.put(case);
+    if let Shape::Triangles { list, disjoint } = &mut case.shape {
+        let corners: Vec<Corners> = list.iter().map(ScreenTriangle::corners).collect();
+        *disjoint = is_disjoint(&corners);
+    }
+    case
 }
 
 fn mesh_of(case: &Case) -> Mesh {

@@ -15,6 +15,7 @@ pub mod design;
 pub mod lines;
 pub mod meshes;
 pub mod near;
+pub mod sample_values;
 pub mod samples;
 mod table;
 pub mod triangles;
@@ -304,11 +305,12 @@ impl<Q, L> Topic<Q, L> {
 }
 
 /// Every kind of question about triangles and lines. Polygons have [`crate::partition::design::TOPIC`].
-pub const TOPICS: [Topic; 9] = [
+pub const TOPICS: [Topic; 10] = [
     triangles::TOPIC,
     values::TOPIC,
     lines::TOPIC,
     samples::TOPIC,
+    sample_values::TOPIC,
     meshes::TOPIC,
     depth::TOPIC,
     near::TOPIC,

@@ -23,8 +23,8 @@ pub const TOPIC: Topic = Topic {
 const SAMPLES: [Point; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
 const PX: i64 = SUBPIXELS as i64;
 const EXTENT: Test = Test::Steps(&[1, PX, 8 * PX, 64 * PX, 4096 * PX]);
-const PIXELS: Test = Test::Steps(&[1, 2, 9]);
-const WHICH: Test =
+pub(super) const PIXELS: Test = Test::Steps(&[1, 2, 9]);
+pub(super) const WHICH: Test =
     Test::Choice(&["of none", "sample 0", "sample 1", "sample 2", "sample 3", "different ones"]);
 
 /// The facts that the design covers.
@@ -71,22 +71,23 @@ const FACTS: [Read<SampleFacts>; 24] = joined(
 );
 
 /// What was measured of a triangle with its samples. What lies on its boundary counts as in it.
-struct SampleFacts {
+pub(super) struct SampleFacts {
     /// Its form and its place.
     form: TriangleFacts,
     /// Pixels of which all four samples lie in it, and pixels of which some do.
-    whole: i64,
-    partly: i64,
+    pub whole: i64,
+    pub partly: i64,
     /// The number of the sample that is the only one of its pixel in it, from 1; 0 where there is none, 5 where pixels differ.
     alone: i64,
-    /// Likewise the only one that is not in it, one on an edge, and one at a corner.
+    /// Likewise the only one that is not in it, one on an edge, one at a corner, and the first one in it where the centre is not.
     missing: i64,
-    on_edge: i64,
+    pub on_edge: i64,
     on_corner: i64,
+    pub first: i64,
     /// Pixels whose centre lies in it and none of whose samples does.
     only_centre: i64,
     /// Pixels whose centre does not lie in it and one of whose samples does.
-    without_centre: i64,
+    pub without_centre: i64,
 }
 
 /// The bit of the centre in a mask of the samples.
@@ -94,7 +95,7 @@ const CENTRE: usize = 4;
 
 impl SampleFacts {
     /// Of a case with one triangle.
-    fn of_case(case: &Case, limits: &Limits) -> Option<Self> {
+    pub fn of_case(case: &Case, limits: &Limits) -> Option<Self> {
         let corners = case.triangles().first()?.corners();
         let mut measured = Self {
             form: TriangleFacts::of_case(case, limits)?,
@@ -104,11 +105,13 @@ impl SampleFacts {
             missing: 0,
             on_edge: 0,
             on_corner: 0,
+            first: 0,
             only_centre: 0,
             without_centre: 0,
         };
+        let mut masks = vec![0_u8; case.window.width() as usize];
         for y_px in case.window.y0..case.window.y1 {
-            measured.count_row(&corners, case.window, y_px);
+            measured.count_row(&corners, case.window, y_px, &mut masks);
         }
         for (number, sample) in (1..).zip(SAMPLES) {
             let is_on = |p: &SubpixelPoint| {
@@ -123,11 +126,11 @@ impl SampleFacts {
         Some(measured)
     }
 
-    /// Counts the pixels of a row of the window.
-    fn count_row(&mut self, corners: &Corners, window: PixelRect, y_px: i32) {
+    /// Counts the pixels of a row of the window. The masks of its pixels are 0 before and afterwards.
+    fn count_row(&mut self, corners: &Corners, window: PixelRect, y_px: i32, masks: &mut [u8]) {
         let half = i64::from(HALF_PIXEL);
         let [x0, x1] = [window.x0, window.x1].map(i64::from);
-        let mut masks = vec![0_u8; (x1 - x0) as usize];
+        let [mut start, mut end] = [x1, x0];
         // The samples, and then the centre.
         for (number, sample) in SAMPLES.into_iter().chain([[half; 2]]).enumerate() {
             // The triangle moved so that the sample comes to lie at the centre.
@@ -135,6 +138,7 @@ impl SampleFacts {
                 .map(|p| [i64::from(p.x) + half - sample[0], i64::from(p.y) + half - sample[1]]);
             let Some((columns, is_exact)) = row_of(&points, y_px, [x0, x1]) else { continue };
             let [first, last] = [columns[0].max(x0), columns[1].min(x1 - 1)];
+            (start, end) = (start.min(first), end.max(last + 1));
             for x in first..=last {
                 masks[(x - x0) as usize] |= 1 << number;
             }
@@ -142,7 +146,8 @@ impl SampleFacts {
                 self.on_edge = merged(self.on_edge, number as i64 + 1);
             }
         }
-        for mask in masks {
+        for x in start..end {
+            let mask = std::mem::take(&mut masks[(x - x0) as usize]);
             let samples = mask & 0b1111;
             let has_centre = mask >> CENTRE == 1;
             match samples.count_ones() {
@@ -156,7 +161,10 @@ impl SampleFacts {
             }
             self.whole += i64::from(samples == 0b1111);
             self.partly += i64::from(samples != 0b1111);
-            self.without_centre += i64::from(!has_centre);
+            if !has_centre {
+                self.without_centre += 1;
+                self.first = merged(self.first, i64::from(samples.trailing_zeros()) + 1);
+            }
         }
     }
 }
@@ -185,7 +193,7 @@ fn merged(old: i64, new: i64) -> i64 {
 const MOST_PX: i32 = 24;
 
 /// A smaller window, and sometimes a corner on a sample of it.
-fn fitted(rng: &mut Rng, mut case: Case) -> Case {
+pub(super) fn fitted(rng: &mut Rng, mut case: Case) -> Case {
     let PixelRect { x1, y1, .. } = case.window;
     case.window = PixelRect { x1: x1.min(MOST_PX), y1: y1.min(MOST_PX), ..case.window };
     let sides = [case.window.x1, case.window.y1];

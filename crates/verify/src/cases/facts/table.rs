@@ -1,87 +1,106 @@
 //! Which classes occurred together: the pairs and the triples.
 
+/// Words of 64 bits for the classes of a topic: at most 192.
+const WORDS: usize = 3;
+/// Some classes, one bit each.
+type Bits = [u64; WORDS];
+
 /// The pairs and the triples of classes that some questions had. Classes of all facts are numbered one after the other, and of a
 /// question they are given in ascending order.
 pub(super) struct Table {
     /// How many classes there are.
     all: usize,
-    /// Rows of the larger number, columns of the smaller one.
-    pairs: Vec<bool>,
-    /// One bit for each triple, since there are millions.
-    triples: Vec<u64>,
+    /// Of each class the smaller ones that it occurred with.
+    pairs: Vec<Bits>,
+    /// Likewise of each pair of classes; see [`Self::pair`].
+    triples: Vec<Bits>,
 }
 
-/// How many pairs and triples a question has that are missing; pairs count first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Gain {
-    pairs: usize,
-    triples: usize,
+/// The bit of a class.
+fn bit(class: u16) -> (usize, u64) {
+    (usize::from(class / 64), 1 << (class % 64))
+}
+
+/// How many of some bits are not among others.
+fn missing(wanted: &Bits, known: &Bits) -> usize {
+    let rest: Bits = std::array::from_fn(|word| wanted[word] & !known[word]);
+    // Mostly none is missing, and counting takes longer.
+    if rest == [0; WORDS] { 0 } else { rest.iter().map(|word| word.count_ones() as usize).sum() }
+}
+
+fn insert(new: &Bits, known: &mut Bits) {
+    for (new, known) in new.iter().zip(known) {
+        *known |= new;
+    }
 }
 
 impl Table {
     pub(super) fn new(all: usize) -> Self {
-        Self { all, pairs: vec![false; all * all], triples: vec![0; all * all * all / 64 + 1] }
+        assert!(all <= 64 * WORDS, "{all} classes are more than the words hold");
+        let none = [0; WORDS];
+        Self { all, pairs: vec![none; all], triples: vec![none; all * all] }
+    }
+
+    /// The number of a pair of classes.
+    fn pair(&self, first: u16, second: u16) -> usize {
+        usize::from(second) * self.all + usize::from(first)
     }
 
     /// Whether two classes occurred together, or three, in ascending order.
     pub(super) fn has(&self, classes: &[u16]) -> bool {
-        match *classes {
-            [first, second] => self.pairs[usize::from(second) * self.all + usize::from(first)],
-            [first, second, third] => {
-                let row = usize::from(third) * self.all + usize::from(second);
-                let place = row * self.all + usize::from(first);
-                self.triples[place / 64] >> (place % 64) & 1 == 1
-            }
-            _ => false,
-        }
+        let (row, first) = match *classes {
+            [first, second] => (&self.pairs[usize::from(second)], first),
+            [first, second, third] => (&self.triples[self.pair(second, third)], first),
+            _ => return false,
+        };
+        let (word, bit) = bit(first);
+        row[word] & bit != 0
     }
 
     /// How many pairs a question has that are missing.
     pub(super) fn missing_pairs(&self, classes: &[u16]) -> usize {
-        let mut missing = 0;
-        for (at, &second) in classes.iter().enumerate() {
-            let row = usize::from(second) * self.all;
-            for &first in &classes[..at] {
-                missing += usize::from(!self.pairs[row + usize::from(first)]);
-            }
+        let mut count = 0;
+        let mut smaller = [0; WORDS];
+        for &class in classes {
+            count += missing(&smaller, &self.pairs[usize::from(class)]);
+            let (word, bit) = bit(class);
+            smaller[word] |= bit;
         }
-        missing
+        count
     }
 
-    /// How much a question has that is missing.
-    pub(super) fn gain(&self, classes: &[u16]) -> Gain {
-        let mut gain = Gain { pairs: 0, triples: 0 };
+    /// How many triples a question has that are missing.
+    pub(super) fn missing_triples(&self, classes: &[u16]) -> usize {
+        let mut count = 0;
         for (at, &third) in classes.iter().enumerate() {
-            for (before, &second) in classes[..at].iter().enumerate() {
-                let row = usize::from(third) * self.all + usize::from(second);
-                gain.pairs += usize::from(!self.pairs[row]);
-                for &first in &classes[..before] {
-                    let place = row * self.all + usize::from(first);
-                    gain.triples += usize::from(self.triples[place / 64] >> (place % 64) & 1 == 0);
-                }
+            let mut smaller = [0; WORDS];
+            for &second in &classes[..at] {
+                count += missing(&smaller, &self.triples[self.pair(second, third)]);
+                let (word, bit) = bit(second);
+                smaller[word] |= bit;
             }
         }
-        gain
+        count
     }
 
     /// Notes the pairs and the triples of a question.
     pub(super) fn note(&mut self, classes: &[u16]) {
         for (at, &third) in classes.iter().enumerate() {
-            for (before, &second) in classes[..at].iter().enumerate() {
-                let row = usize::from(third) * self.all + usize::from(second);
-                self.pairs[row] = true;
-                for &first in &classes[..before] {
-                    let place = row * self.all + usize::from(first);
-                    self.triples[place / 64] |= 1 << (place % 64);
-                }
+            let mut smaller = [0; WORDS];
+            for &second in &classes[..at] {
+                let pair = self.pair(second, third);
+                insert(&smaller, &mut self.triples[pair]);
+                let (word, bit) = bit(second);
+                smaller[word] |= bit;
             }
+            insert(&smaller, &mut self.pairs[usize::from(third)]);
         }
     }
 
     /// How many pairs occurred, and how many triples.
     pub(super) fn counts(&self) -> [usize; 2] {
-        let pairs = self.pairs.iter().filter(|is_there| **is_there).count();
-        [pairs, self.triples.iter().map(|bits| bits.count_ones() as usize).sum()]
+        [&self.pairs, &self.triples]
+            .map(|rows| rows.iter().flatten().map(|bits| bits.count_ones() as usize).sum())
     }
 }
 
@@ -92,10 +111,12 @@ mod tests {
     #[test]
     fn pairs_and_triples_of_two_questions() {
         let mut table = Table::new(6);
-        assert_eq!(table.gain(&[0, 2, 4]), Gain { pairs: 3, triples: 1 });
+        let missing =
+            |table: &Table, of: &[u16]| [table.missing_pairs(of), table.missing_triples(of)];
+        assert_eq!(missing(&table, &[0, 2, 4]), [3, 1]);
         table.note(&[0, 2, 4]);
         // One fact differs: two pairs are new, and the triple.
-        assert_eq!(table.gain(&[0, 2, 5]), Gain { pairs: 2, triples: 1 });
+        assert_eq!(missing(&table, &[0, 2, 5]), [2, 1]);
         table.note(&[0, 2, 5]);
         assert_eq!(table.counts(), [5, 2]);
         assert!(
@@ -104,6 +125,6 @@ mod tests {
                 && !table.has(&[0, 3])
                 && !table.has(&[0, 3, 5])
         );
-        assert!(table.gain(&[0, 3, 5]) > table.gain(&[0, 2, 4]));
+        assert_eq!(missing(&table, &[0, 2, 4]), [0, 0]);
     }
 }

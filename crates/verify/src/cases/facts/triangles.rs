@@ -14,7 +14,7 @@ use super::{
 use crate::cases::{Case, Limits, Shape};
 
 /// One pixel, in steps of the lattice.
-const PX: i64 = SUBPIXELS as i64;
+pub(super) const PX: i64 = SUBPIXELS as i64;
 /// One square pixel, in half square steps.
 const SQUARE_PX: i64 = 2 * PX * PX;
 
@@ -36,7 +36,7 @@ pub(super) const WINDING: Test =
 const SIDES: Test = Test::Steps(&[2, 3, 9, 33, 257]);
 const EXTENT: Test = Test::Steps(&[1, PX, 8 * PX, 64 * PX, 4096 * PX, PX << 17]);
 const SLOPE: Test = Test::Steps(&[0, 4, 8, 12, 15]);
-const BITS: Test = Test::Steps(&[1, 2, 5]);
+pub(super) const BITS: Test = Test::Steps(&[1, 2, 5]);
 
 /// The first facts of a question about a triangle in a small window, of what has a `form`: width and height are tested by `$extent`.
 macro_rules! form_facts {

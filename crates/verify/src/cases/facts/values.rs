@@ -22,9 +22,9 @@ pub const TOPIC: Topic = Topic {
 
 const PX: i64 = SUBPIXELS as i64;
 const EXTENT: Test = Test::Steps(&[PX, 8 * PX, 64 * PX, 4096 * PX]);
-const KINDS: Test =
+pub(super) const KINDS: Test =
     Test::Choice(&["0 everywhere", "the same everywhere", "of one sign", "of both signs"]);
-const SIZE: Test = Test::Steps(&[-8, 0, 8]);
+pub(super) const SIZE: Test = Test::Steps(&[-8, 0, 8]);
 
 /// The facts that the design covers.
 const FACTS: [Read<ValueFacts>; 16] = [
@@ -210,13 +210,13 @@ fn narrower(window: PixelRect) -> PixelRect {
     PixelRect { x1: window.x1.min(MOST_PX), y1: window.y1.min(MOST_PX), ..window }
 }
 
-fn draw(rng: &mut Rng) -> Case {
+pub(super) fn draw(rng: &mut Rng) -> Case {
     let case = triangles::draw(rng);
     let list = vec![dressed(rng, &case.triangles()[0], -1)];
     Case { window: narrower(case.window), shape: Shape::Triangles { list, disjoint: true } }
 }
 
-fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
+pub(super) fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
     let (kept, others) = (one.triangles()[0], other.triangles()[0]);
     // The form of one with the values of the other, or one of them changed a little.
     let (window, mut triangle) = match rng.int(0, 3) {

@@ -1,5 +1,7 @@
 //! Facts of a question about a line with a width.
 
+use std::cell::Cell;
+
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{WideForm, WideLine};
@@ -141,10 +143,16 @@ impl WideFacts {
                 (long, short) => i64::from((long / short).ilog2()),
             },
         };
-        for y in 0..window[1] {
-            for x in 0..window[0] {
-                let sample = [x * PX, y * PX];
-                measured.count(&line, [0, 1].map(|k| sample[k] + i64::from(limits.sample[k])));
+        // No sample lies further beside the ends than half the width.
+        let [columns, rows] = [0, 1].map(|k| {
+            let near = ends[0][k].min(ends[1][k]) - measured.width / 2 - 1;
+            let far = ends[0][k].max(ends[1][k]) + measured.width / 2 + 1;
+            near.div_euclid(PX).max(0)..(far.div_euclid(PX) + 1).min(window[k])
+        });
+        for y in rows {
+            for x in columns.clone() {
+                let pixel = [x * PX, y * PX];
+                measured.count(&line, [0, 1].map(|k| pixel[k] + i64::from(limits.sample[k])));
             }
         }
         Some(measured)
@@ -152,9 +160,16 @@ impl WideFacts {
 
     fn count(&mut self, line: &WideLine, sample: [i64; 2]) {
         for (at, form) in WideForm::ALL.into_iter().enumerate() {
-            let [closed, open] = [true, false].map(|owned| covers(line, form, sample, &|_| owned));
-            self.on_border[at] += i64::from(closed && !open);
-            self.inside += i64::from(open && form == WideForm::Rectangle);
+            // The owner is asked on the border alone.
+            let is_on_border = Cell::new(false);
+            let ask = |_| {
+                is_on_border.set(true);
+                true
+            };
+            if covers(line, form, sample, &ask) {
+                self.on_border[at] += i64::from(is_on_border.get());
+                self.inside += i64::from(!is_on_border.get() && form == WideForm::Rectangle);
+            }
         }
     }
 }
