@@ -1,7 +1,7 @@
 //! The level of a pixel by the share of it that a triangle covers, computed by somebody who may be mistaken.
 
 use super::grids::on_grid;
-use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::pixels::painted;
@@ -189,12 +189,6 @@ pub struct AreaPixel<'a> {
     tolerance: f64,
 }
 
-impl AsRef<Spot> for AreaPixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 impl AreaDrawn {
     /// The level that is drawn, not rounded, and how far it may be off.
     fn level(&self, pixel: &AreaPixel<'_>) -> [f64; 2] {
@@ -254,9 +248,9 @@ impl Stage for AreaDrawn {
         (f64::from(part.drawn) - level).abs() <= tolerance
     }
 
-    fn quantities<'a>() -> Vec<Quantity<AreaPixel<'a>>> {
-        let mut all = of_pixels::<AreaPixel<'a>>();
-        all.push(Quantity::number("the share of the pixel that is covered", |pixel| pixel.share));
+    fn quantities(pixel: &AreaPixel<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the share of the pixel that is covered", pixel.share));
         all
     }
 

@@ -1,6 +1,6 @@
 //! Which of several triangles is seen, as a test of depth that may be mistaken.
 
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::expected::Expect as _;
@@ -382,12 +382,6 @@ pub struct Pile<'a> {
     noise: f64,
 }
 
-impl AsRef<Spot> for Pile<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 /// How fast depth changes along x or y, whichever is faster.
 fn slope(t: &Triangle) -> f64 {
     let at = |place| sum(weights(&t.corners(), place), depths(t));
@@ -654,10 +648,10 @@ impl Stage for DepthTest {
         all
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Pile<'a>>> {
-        let mut all = of_pixels();
-        let of: fn(&Pile<'a>) -> f64 = |pile| pile.layers.len() as f64;
-        all.push(Quantity { of, says: Says::Number("the number of triangles at a pixel") });
+    fn quantities(pile: &Pile<'_>) -> Vec<Quantity> {
+        let mut all = pile.spot.quantities();
+        let count = pile.layers.len() as f64;
+        all.push(Quantity::number("the number of triangles at a pixel", count));
         all
     }
 

@@ -1,6 +1,6 @@
 //! What the near plane leaves of a triangle, as a clipper that may be mistaken.
 
-use super::search::{Composed as _, Field, Quantity, Says, Stage, choices, composed};
+use super::search::{Composed as _, Field, Quantity, Stage, choices, composed};
 use crate::ask::{Answer, Question};
 use crate::declared::Declared;
 use crate::near_plane::{asked, bounds, is_round};
@@ -723,14 +723,13 @@ impl Stage for NearCut {
         all
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Cut<'a>>> {
-        let of: fn(&Cut<'a>) -> f64 = |cut| cut.behind() as f64;
-        let behind =
-            Quantity { of, says: Says::Number("the number of corners behind the near plane") };
-        let whether = |of, yes| Quantity { of, says: Says::Whether([yes, ""]) };
-        let is_negative: fn(&Cut<'a>) -> f64 =
-            |cut| f64::from(u8::from(cut.corners.iter().any(|corner| corner[3] < 0.0)));
-        vec![behind, whether(is_negative, "where a corner has a negative w")]
+    fn quantities(cut: &Cut<'_>) -> Vec<Quantity> {
+        let behind = cut.behind() as f64;
+        let is_negative = cut.corners.iter().any(|corner| corner[3] < 0.0);
+        vec![
+            Quantity::number("the number of corners behind the near plane", behind),
+            Quantity::whether(is_negative, "where a corner has a negative w", ""),
+        ]
     }
 
     fn filled(&self, does: &str) -> String {

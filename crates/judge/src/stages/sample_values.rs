@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::search::{Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question, SampledValues};
 use crate::declared::Declared;
 use crate::sample_values::{CENTRE, Place, bounds, place};
@@ -77,12 +77,6 @@ pub struct ShadedPixel<'a> {
     pub(super) is_centre_covered: bool,
     declared: ValuePlace,
     tolerance: f64,
-}
-
-impl AsRef<Spot> for ShadedPixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
 }
 
 impl SampleShading {
@@ -234,11 +228,9 @@ impl Stage for SampleShading {
         seen == self.mask(part)
     }
 
-    fn quantities<'a>() -> Vec<Quantity<ShadedPixel<'a>>> {
-        let mut all = of_pixels::<ShadedPixel<'a>>();
-        all.push(Quantity::number("the number of covered samples", |pixel| {
-            pixel.right.count_ones().into()
-        }));
+    fn quantities(pixel: &ShadedPixel<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the number of covered samples", pixel.right.count_ones()));
         all
     }
 

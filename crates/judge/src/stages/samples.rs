@@ -4,7 +4,7 @@ use crate::declared::Declared;
 use std::sync::LazyLock;
 
 use super::grids::on_grid;
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::pixels::masks_of;
 use rasterproof_core::geometry::twice_area;
@@ -336,12 +336,6 @@ impl Masked<'_> {
     }
 }
 
-impl AsRef<Spot> for Masked<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 /// A direction as one of eight, from north on, clockwise.
 pub(super) fn facing(direction: [i64; 2]) -> usize {
     match direction.map(i64::signum) {
@@ -519,32 +513,23 @@ impl Stage for SampleMask {
         pattern.into_iter().chain(self.with_table(parts)).collect()
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Masked<'a>>> {
-        let mut all = of_pixels::<Masked<'a>>();
-        all.push(Quantity::number("the number of covered samples", |pixel| {
-            pixel.right.count_ones().into()
-        }));
+    fn quantities(pixel: &Masked<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the number of covered samples", pixel.right.count_ones()));
         all
     }
 
-    fn observations<'a>() -> Vec<Quantity<Masked<'a>>> {
-        let whether =
-            |of: fn(&Masked<'a>) -> f64, yes| Quantity { of, says: Says::Whether([yes, ""]) };
-        let mut all = Self::quantities();
-        all.push(whether(
-            |p| f64::from(u8::from(p.drawn & !p.right == 0)),
-            "without some samples, and have none too many",
-        ));
-        all.push(whether(
-            |p| f64::from(u8::from(p.right & !p.drawn == 0)),
-            "with samples too many, and lack none",
-        ));
-        all.push(Quantity::number("the number of the wrong sample", |p| {
-            (p.right ^ p.drawn)
-                .checked_ilog2()
-                .filter(|_| (p.right ^ p.drawn).is_power_of_two())
-                .map_or(f64::NAN, f64::from)
-        }));
+    fn observations(pixel: &Masked<'_>) -> Vec<Quantity> {
+        let (drawn, right) = (pixel.drawn, pixel.right);
+        let mut all = Self::quantities(pixel);
+        let lacks_some = "without some samples, and have none too many";
+        all.push(Quantity::whether(drawn & !right == 0, lacks_some, ""));
+        let has_more = "with samples too many, and lack none";
+        all.push(Quantity::whether(right & !drawn == 0, has_more, ""));
+        // Where several samples are wrong, no number passes a test.
+        let wrong = right ^ drawn;
+        let number = if wrong.is_power_of_two() { f64::from(wrong.ilog2()) } else { f64::NAN };
+        all.push(Quantity::number("the number of the wrong sample", number));
         all
     }
 

@@ -2,7 +2,7 @@
 
 use super::grids::{on_grid, unit};
 use super::samples::{TIES, facing};
-use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -141,12 +141,6 @@ pub struct WidePixel<'a> {
     hits: u8,
     /// Whether it has to be drawn, and whether it may be.
     pub(super) right: [bool; 2],
-}
-
-impl AsRef<Spot> for WidePixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
 }
 
 /// A vector in subpixels.
@@ -337,19 +331,14 @@ impl Stage for WideDrawn {
         if part.hits > 0 { may && part.hits == times } else { !must }
     }
 
-    fn quantities<'a>() -> Vec<Quantity<WidePixel<'a>>> {
-        let mut all = of_pixels::<WidePixel<'a>>();
-        // That of windings is about triangles.
-        all.remove(0);
-        all.push(Quantity::number("the width of the line in px", |p| {
-            f64::from(p.line.width) / f64::from(SUBPIXELS)
-        }));
-        all.push(Quantity::number("the columns from the first end to the second, in px", |p| {
-            p.by_px(0)
-        }));
-        all.push(Quantity::number("the rows from the first end to the second, in px", |p| {
-            p.by_px(1)
-        }));
+    fn quantities(pixel: &WidePixel<'_>) -> Vec<Quantity> {
+        // A line has no winding.
+        let mut all = pixel.spot.place();
+        let width = f64::from(pixel.line.width) / f64::from(SUBPIXELS);
+        all.push(Quantity::number("the width of the line in px", width));
+        let [columns, rows] = [pixel.by_px(0), pixel.by_px(1)];
+        all.push(Quantity::number("the columns from the first end to the second, in px", columns));
+        all.push(Quantity::number("the rows from the first end to the second, in px", rows));
         all
     }
 

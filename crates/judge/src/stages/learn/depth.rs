@@ -1,13 +1,14 @@
 //! Pixels that show one of several triangles, as a test of depth shows it.
 
 use std::collections::HashMap;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
-use super::{Learnable, LearnedCase, spread};
+use super::learnable::{Learnable, LearnableOf, LearnedCase, of_case, spread};
 use crate::ask::Asked;
 use crate::declared::Declared;
 use crate::stages::depth::{DepthTest, Layer, Pile};
-use crate::stages::search::{Composed as _, Mistake, Stage as _, singles};
+use crate::stages::search::{Stage as _, both, said_of, singles};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::cases::Case;
@@ -234,7 +235,7 @@ const OF_LAYER: usize = 26;
 impl Learnable for Depths {
     type Part<'a> = PixelOfList<'a>;
     type Change = Change;
-    const TOPIC: Topic = depth::TOPIC;
+    const TOPIC: &'static Topic = &depth::TOPIC;
     const PART: &'static str = "pixel";
 
     fn of_question(_: &Case, _: &mut Quantities) {}
@@ -297,13 +298,12 @@ impl Learnable for Depths {
 
     fn both(a: &Change, b: &Change) -> Option<Change> {
         let (Change::Test(a), Change::Test(b)) = (a, b) else { return None };
-        let both = a.with(b);
-        (both != *b).then_some(Change::Test(both))
+        both(a, b).map(Change::Test)
     }
 
     fn says(change: &Change) -> String {
         match change {
-            Change::Test(test) => Mistake::plain(test.clone()).says().does,
+            Change::Test(test) => said_of(test, "").does,
             Change::Without(_, words) => format!("does not draw a triangle where {words}"),
             Change::Nothing => "shows no triangle".to_owned(),
             Change::Second => "shows the nearest triangle but one, or nothing,".to_owned(),
@@ -329,7 +329,8 @@ fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work)
         shown.into_iter().for_each(|layer| examples.should_not(part.row_of(layer)));
     }
     let part = wrong.first()?;
-    let mut out = super::of_case::<Depths>(&part.asked.case, &Declared::default(), true);
+    let mut out =
+        of_case(&LearnableOf::<Depths>(PhantomData), &part.asked.case, &Declared::default(), true);
     part.of_place(&mut out);
     part.of_layer(part.pile.layers.first(), IT, &mut out);
     let names = Vocabulary::of(out);

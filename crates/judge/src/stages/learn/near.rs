@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::declared::Declared;
 use crate::stages::near::{Cut, Edge, NearCut};
-use crate::stages::search::{Composed as _, Mistake, Stage as _, singles};
+use crate::stages::search::{Stage as _, both, said_of, singles};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, near};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
@@ -38,7 +38,7 @@ const NUMBERS: [&str; 5] = ["x", "y", "z", "w", "the attribute"];
 impl Learnable for Polygons {
     type Part<'a> = PartOfPolygon<'a>;
     type Change = NearCut;
-    const TOPIC: Topic = near::TOPIC;
+    const TOPIC: &'static Topic = &near::TOPIC;
     const PART: &'static str = "corner";
 
     fn of_question(case: &Case, out: &mut Quantities) {
@@ -153,12 +153,11 @@ impl Learnable for Polygons {
     }
 
     fn both(a: &NearCut, b: &NearCut) -> Option<NearCut> {
-        let both = a.with(b);
-        (both != *b).then_some(both)
+        both(a, b)
     }
 
     fn says(change: &NearCut) -> String {
-        Mistake::plain(change.clone()).says().does
+        said_of(change, "").does
     }
 }
 

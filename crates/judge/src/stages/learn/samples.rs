@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::ask::Asked;
 use crate::declared::Declared;
 use crate::stages::samples::{Masked, POINTS, SampleMask};
-use crate::stages::search::{Composed as _, Stage as _, singles};
+use crate::stages::search::{Composed as _, Stage as _, both, singles};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::multisample::SAMPLES;
@@ -27,7 +27,7 @@ pub struct Sample<'a> {
 impl Learnable for Samples {
     type Part<'a> = Sample<'a>;
     type Change = SampleMask;
-    const TOPIC: Topic = triangles::TOPIC;
+    const TOPIC: &'static Topic = &triangles::TOPIC;
     const PART: &'static str = "sample";
 
     fn of_question(case: &Case, out: &mut Quantities) {
@@ -112,8 +112,7 @@ impl Learnable for Samples {
     }
 
     fn both(a: &SampleMask, b: &SampleMask) -> Option<SampleMask> {
-        let both = a.with(b);
-        (both != *b).then_some(both)
+        both(a, b)
     }
 
     fn says(change: &SampleMask) -> String {

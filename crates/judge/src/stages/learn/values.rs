@@ -6,7 +6,7 @@
 use std::fmt;
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::ask::{Answer, Asked};
 use crate::declared::Declared;
 use crate::expected::value_bounds;
@@ -451,7 +451,7 @@ const MOST_PIXELS: usize = 60;
 impl Learnable for Values {
     type Part<'a> = ValueOfPixel<'a>;
     type Change = Change;
-    const TOPIC: Topic = facts::values::TOPIC;
+    const TOPIC: &'static Topic = &facts::values::TOPIC;
     const PART: &'static str = "value";
 
     fn of_question(case: &Case, out: &mut Quantities) {
