@@ -34,16 +34,22 @@ impl Subject for Pair<'_> {
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         let others =
             second.ask(&questions[..answers.len()], most_deaths.saturating_sub(deaths).max(1));
-        let both = |(first, second): (Answer, Answer)| match (first, second) {
-            (Answer::Died(what), _) => Answer::Died(said_by(&names[0], what)),
-            (_, Answer::Died(what)) => Answer::Died(said_by(&names[1], what)),
-            (first, second) => Answer::Two(Box::new([first, second])),
-        };
-        answers.into_iter().zip(others).map(both).collect()
+        let mut both = Vec::new();
+        for pair in answers.into_iter().zip(others) {
+            // A death of either is one of both, and says whose it is.
+            both.push(match pair {
+                (Answer::Died(what), _) => Answer::Died(said_by(&names[0], what)),
+                (_, Answer::Died(what)) => Answer::Died(said_by(&names[1], what)),
+                (first, second) => Answer::Two(Box::new([first, second])),
+            });
+        }
+        both
     }
 
     fn end_at(&mut self, end: Option<Instant>) {
-        self.sides.iter_mut().for_each(|side| side.end_at(end));
+        for side in &mut self.sides {
+            side.end_at(end);
+        }
     }
 
     fn cases_at_once(&self) -> u64 {
@@ -64,7 +70,9 @@ impl Subject for Pair<'_> {
         for (side, name) in self.sides.iter().zip(self.names()) {
             let Complaints { lines, shown } = side.complaints();
             both.lines += lines;
-            both.shown.extend(shown.into_iter().map(|line| format!("{name}: {line}")));
+            for line in shown {
+                both.shown.push(format!("{name}: {line}"));
+            }
         }
         both
     }
@@ -78,7 +86,9 @@ impl Pair<'_> {
     ) -> Vec<Misbehaviour> {
         let mut all = Vec::new();
         for (name, side) in self.names().iter().zip(&mut self.sides) {
-            all.extend(what(&mut **side).into_iter().map(|what| said_by(name, what)));
+            for what in what(&mut **side) {
+                all.push(said_by(name, what));
+            }
         }
         all
     }
@@ -121,8 +131,9 @@ pub fn compare(
         let asked = &mut Timed::new(&mut **side, end);
         (declared.reach, declared.side) = (reach::reach(asked), reach::side(asked));
     }
-    let asked =
-        both.each_ref().map(|one| both.iter().fold(one.clone(), |d, other| d.within(other)));
+    // Each keeps its own conventions, and is asked what both can answer.
+    let [one, other] = &both;
+    let asked = [one.clone().within(one).within(other), other.clone().within(one).within(other)];
     let mut truth = Truth::of(&asked[0]);
     truth.of_two = Some(Box::new(asked.each_ref().map(Truth::of)));
     let mut pairs: Vec<Pair<'_>> = pairs

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::check::Check;
-use super::verdict::{Score, Scores as _, Shapes, Verdict};
+use super::verdict::{self, Score, Scores as _, Shapes, Verdict};
 
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
@@ -57,6 +57,30 @@ pub struct League {
     pub rows: Vec<Ranked>,
 }
 
+impl Kind {
+    /// How a kind of shapes came out, whose sentences begin with `about`; nothing where none was judged.
+    fn of(verdict: &Verdict, shapes: Shapes, about: &str) -> Option<Self> {
+        let as_declared = verdict.score(Some(shapes), &verdict::as_declared);
+        if as_declared.pixels == 0 {
+            return None;
+        }
+        // What was recognised is one of the sentences about both kinds.
+        let mut sentence = String::new();
+        if let Some(said) = &verdict.more.recognised {
+            let found = said.sentences.iter().find_map(|said| said.strip_prefix(about));
+            sentence = found.unwrap_or_default().to_owned();
+        }
+        let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
+        let by_convention =
+            is_explained.then(|| verdict.score(Some(shapes), &verdict::by_convention));
+        // The first mistake is the one that explains most.
+        let check = if shapes == Shapes::Lines { Check::Line } else { Check::Coverage };
+        let why = verdict.cause.iter().find(|why| why.check == check);
+        let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
+        Some(Self { sentence, as_declared, by_convention, mistake })
+    }
+}
+
 impl League {
     /// The first and the last day on which a library was judged; empty where none was.
     #[must_use]
@@ -70,24 +94,12 @@ impl Ranked {
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));
-        let kind = |shapes: Shapes, about: &str| {
-            let as_declared = verdict.score(Some(shapes), |r| (r.tally.total(), r.pixels, 0));
-            let found = verdict
-                .score(Some(shapes), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
-            let said = verdict.more.recognised.as_ref();
-            let sentence =
-                said.and_then(|said| said.sentences.iter().find_map(|s| s.strip_prefix(about)));
-            let sentence = sentence.unwrap_or_default().to_owned();
-            let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
-            let by_convention = is_explained.then_some(found);
-            let check = if shapes == Shapes::Lines { Check::Line } else { Check::Coverage };
-            let why = verdict.cause.iter().find(|why| why.check == check);
-            let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
-            let kind = Kind { sentence, as_declared, by_convention, mistake };
-            (as_declared.pixels > 0).then_some(kind)
-        };
         let changed = |check| row(check).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
-        let sum = |of: fn(&super::run::Row) -> u64| verdict.families.iter().map(of).sum();
+        let (mut refused, mut deaths) = (0, 0);
+        for row in &verdict.families {
+            refused += row.refused;
+            deaths += row.deaths;
+        }
         Self {
             name: adapter.name.clone(),
             library: adapter.library.clone(),
@@ -95,13 +107,13 @@ impl Ranked {
             date,
             call: adapter.call.clone(),
             declares: verdict.more.declared.to_string(),
-            triangles: kind(Shapes::Triangles, "Triangles: "),
-            lines: kind(Shapes::Lines, "Lines: "),
+            triangles: Kind::of(verdict, Shapes::Triangles, "Triangles: "),
+            lines: Kind::of(verdict, Shapes::Lines, "Lines: "),
             meshes: row(Check::Watertight)
                 .map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
             orders: changed(Check::Order),
             directions: changed(Check::Direction),
-            unanswered: [sum(|r| r.refused), sum(|r| r.deaths)],
+            unanswered: [refused, deaths],
         }
     }
 }

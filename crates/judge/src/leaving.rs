@@ -22,10 +22,11 @@ const CASES: u64 = 48;
 /// Whether a corner lies outside the window, once it is on the grid that was found. One on the right or
 /// the lower side does: an outline has a pixel there.
 pub fn triangle_leaves(corners: &Corners, quantum: Quantum, window: PixelRect) -> bool {
-    let is_in = |v: i64, side_px: i32| (0..i64::from(side_px) * i64::from(SUBPIXELS)).contains(&v);
-    let is_out =
-        |x: i32, y: i32| !is_in(quantum.apply(x), window.x1) || !is_in(quantum.apply(y), window.y1);
-    corners.iter().any(|p| is_out(p.x, p.y))
+    let is_in = |v: i32, side_px: i32| {
+        let end = i64::from(side_px) * i64::from(SUBPIXELS);
+        (0..end).contains(&quantum.apply(v))
+    };
+    !corners.iter().all(|corner| is_in(corner.x, window.x1) && is_in(corner.y, window.y1))
 }
 
 pub fn line_leaves(ends: &[PixelPoint; 2], window: PixelRect) -> bool {
@@ -94,31 +95,56 @@ pub fn otherwise(questions: &[Question], answers: &[Answer], expect: &dyn Expect
         let window = window(question);
         let expected: Option<Vec<Span>> = match &question.of {
             Asked::Coverage(corners) => expect.picture(corners, window).map(|p| p.must),
-            Asked::Line { ends, .. } => expect.line(ends, window).map(|pixels| {
-                pixels.iter().map(|&(x, y)| Span { y_px: y, x0_px: x, x1_px: x + 1 }).collect()
-            }),
+            Asked::Line { ends, .. } => expect.line(ends, window).map(|pixels| runs_of(&pixels)),
             _ => None,
         };
         let (Some(expected), Some(drawn)) = (expected, picture_of(answer, window)) else {
             continue;
         };
         let expected = hits(&expected, window).0;
-        let same = expected
-            .rows()
-            .zip(drawn.rows())
-            .all(|((_, a), (_, b))| a.iter().zip(b).all(|(a, b)| (*a > 0) == (*b > 0)));
+        // Otherwise is what differs in any pixel, and grossly so what lies farther than a pixel from all that is expected.
         found.otherwise.of += 1;
-        found.otherwise.drawn += u64::from(!same);
+        found.otherwise.drawn += u64::from(!covers_same(&expected, &drawn));
         let is_near = is_beside(&expected, &drawn) && is_beside(&drawn, &expected);
         found.gross += u64::from(!is_near);
     }
     found
 }
 
+/// The pixels of a line as runs of one pixel each.
+fn runs_of(pixels: &[(i32, i32)]) -> Vec<Span> {
+    let mut runs = Vec::new();
+    for &(x, y) in pixels {
+        runs.push(Span { y_px: y, x0_px: x, x1_px: x + 1 });
+    }
+    runs
+}
+
+/// Whether the same pixels are covered, however often.
+fn covers_same(first: &Coverage, second: &Coverage) -> bool {
+    for ((_, first), (_, second)) in first.rows().zip(second.rows()) {
+        for (first, second) in first.iter().zip(second) {
+            if (*first > 0) != (*second > 0) {
+                return false;
+            }
+        }
+    }
+    true
+}
+
 /// Whether every covered pixel of `a` has one of `b` beside it.
 fn is_beside(a: &Coverage, b: &Coverage) -> bool {
-    let near = |x: i32, y: i32| {
-        (y - 1..=y + 1).any(|y| (x - 1..=x + 1).any(|x| b.get(x, y).is_some_and(|hits| hits > 0)))
-    };
-    a.runs().all(|(y, x0, x1)| (x0..x1).all(|x| near(x, y)))
+    a.runs().all(|(y, x0, x1)| (x0..x1).all(|x| has_beside(b, x, y)))
+}
+
+/// Whether a pixel or one of its eight neighbours is covered.
+fn has_beside(coverage: &Coverage, x: i32, y: i32) -> bool {
+    for y in y - 1..=y + 1 {
+        for x in x - 1..=x + 1 {
+            if coverage.get(x, y).is_some_and(|hits| hits > 0) {
+                return true;
+            }
+        }
+    }
+    false
 }

@@ -145,12 +145,11 @@ pub fn verdict(
     cause: Vec<Why>,
 ) -> Verdict {
     let families = adapt_case::families(&[]);
+    // Families in the order in which they are asked, then the checks over all families.
     let rank = |row: &Row| {
         let family = families.iter().position(|f| f.name == row.name);
-        family.unwrap_or_else(|| {
-            let place = CHECKS.iter().position(|(check, _)| row.check == Some(*check));
-            families.len() + place.unwrap_or(0)
-        })
+        let check = CHECKS.iter().position(|(check, _)| row.check == Some(*check));
+        family.unwrap_or(families.len() + check.unwrap_or(0))
     };
     let mut rows = std::mem::take(&mut of.found.rows);
     rows.sort_by_key(rank);
@@ -223,11 +222,13 @@ pub trait Scores {
     /// How often each of two programs is right, summed over all rows.
     #[must_use]
     fn sides(&self) -> Sides {
-        let sides = self.verdict().families.iter().filter_map(|row| row.sides);
-        sides.fold(Sides::default(), |mut sum, sides| {
-            sum += sides;
-            sum
-        })
+        let mut sum = Sides::default();
+        for row in &self.verdict().families {
+            if let Some(sides) = row.sides {
+                sum += sides;
+            }
+        }
+        sum
     }
 
     /// Whether nothing is to be done. Where nothing could be asked, nothing agrees.
@@ -289,19 +290,11 @@ pub trait Scores {
     #[must_use]
     fn counts(&self) -> Vec<Count> {
         let mut counts: Vec<Count> = Vec::new();
-        let mut add = |what: Counted, wrong: u64, pixels: u64| {
-            let at = counts.iter().position(|count| count.what == what).unwrap_or_else(|| {
-                counts.push(Count { what, score: Score::default() });
-                counts.len() - 1
-            });
-            counts[at].score.wrong += wrong;
-            counts[at].score.pixels += pixels;
-        };
         for row in &self.verdict().families {
             let Some(check) = row.check else { continue };
-            add(check.counted(), row.tally.total(), row.pixels);
+            add(&mut counts, check.counted(), row.tally.total(), row.pixels);
             if matches!(check, Check::Values | Check::SampleValues) {
-                add(Counted::Values, row.wrong_values, row.values);
+                add(&mut counts, Counted::Values, row.wrong_values, row.values);
             }
         }
         counts.sort_by_key(|count| count.what as usize);
@@ -310,16 +303,14 @@ pub trait Scores {
 
     #[must_use]
     fn as_declared(&self) -> Score {
-        self.score(None, |row| (row.tally.total(), row.pixels, 0))
+        self.score(None, &as_declared)
     }
 
     /// The score by the convention that was recognised; nothing where nothing was, or is explained.
     #[must_use]
     fn by_convention(&self) -> Option<Score> {
-        let score = || {
-            self.score(None, |row| (row.recognised.total(), row.recognised_pixels, row.unscored))
-        };
-        self.verdict().more.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
+        let said = self.verdict().more.recognised.as_ref()?;
+        said.is_explained.then(|| self.score(None, &by_convention))
     }
 
     /// Pixels that are wrong as declared, of the shapes of which the recognised convention says nothing.
@@ -330,18 +321,42 @@ pub trait Scores {
 
     /// Sums over the rows, those of one kind of shape alone where that is asked.
     #[must_use]
-    fn score(&self, shapes: Option<Shapes>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
-        let is_asked = |check: Check| shapes.is_none_or(|kind| Shapes::of(Some(check)) == kind);
-        // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
-        let is_of_pixels = |check: Check| check.counted() == Counted::Pixels && is_asked(check);
-        let rows = self.verdict().families.iter();
-        let rows = rows.filter(|row| row.check.is_some_and(is_of_pixels));
-        rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
-            wrong: sum.wrong + wrong,
-            pixels: sum.pixels + pixels,
-            unscored: sum.unscored + unscored,
-        })
+    fn score(&self, shapes: Option<Shapes>, of: &dyn Fn(&Row) -> Score) -> Score {
+        let mut sum = Score::default();
+        for row in &self.verdict().families {
+            let Some(check) = row.check else { continue };
+            // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
+            let is_asked = shapes.is_none_or(|kind| Shapes::of(Some(check)) == kind);
+            if check.counted() == Counted::Pixels && is_asked {
+                let Score { wrong, pixels, unscored } = of(row);
+                sum.wrong += wrong;
+                sum.pixels += pixels;
+                sum.unscored += unscored;
+            }
+        }
+        sum
     }
+}
+
+/// What a row counts as declared.
+pub fn as_declared(row: &Row) -> Score {
+    Score { wrong: row.tally.total(), pixels: row.pixels, unscored: 0 }
+}
+
+/// What a row counts by the convention that was recognised.
+pub fn by_convention(row: &Row) -> Score {
+    let (pixels, unscored) = (row.recognised_pixels, row.unscored);
+    Score { wrong: row.recognised.total(), pixels, unscored }
+}
+
+/// Adds to the count of one kind of thing.
+fn add(counts: &mut Vec<Count>, what: Counted, wrong: u64, pixels: u64) {
+    let at = counts.iter().position(|count| count.what == what).unwrap_or(counts.len());
+    if at == counts.len() {
+        counts.push(Count { what, score: Score::default() });
+    }
+    counts[at].score.wrong += wrong;
+    counts[at].score.pixels += pixels;
 }
 
 impl Scores for Verdict {
@@ -367,9 +382,10 @@ pub fn sentence(row: &Row) -> String {
     for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {
         out += &format!(", {count}");
     }
-    let counts = [(row.refused, "refused"), (row.deaths, "without an answer")];
-    for (n, what) in counts.iter().filter(|(n, _)| *n > 0) {
-        out += &format!(", {n} {what}");
+    for (n, what) in [(row.refused, "refused"), (row.deaths, "without an answer")] {
+        if n > 0 {
+            out += &format!(", {n} {what}");
+        }
     }
     if row.values > 0 {
         out += &format!(", worst value at {:.2e} of the tolerance", row.worst);

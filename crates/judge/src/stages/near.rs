@@ -56,10 +56,15 @@ impl Field for Plane {
     const NAME: &'static str = "the near plane";
 
     fn options() -> Vec<Self> {
-        let signs = (0..27).map(|k| [k / 9, k / 3 % 3, k % 3].map(|digit| f64::from(digit - 1)));
-        let planes = signs.filter(|[z, w, _]| *z != 0.0 || *w != 0.0);
         // z = -w and z = 0 may be the one that is declared, and differ from it where they are not.
-        [Self::Unsigned].into_iter().chain(planes.map(Self::At)).collect()
+        let mut all = vec![Self::Unsigned];
+        for k in 0..27 {
+            let [z, w, one] = [k / 9, k / 3 % 3, k % 3].map(|digit| f64::from(digit - 1));
+            if z != 0.0 || w != 0.0 {
+                all.push(Self::At([z, w, one]));
+            }
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
@@ -238,37 +243,24 @@ impl New {
     /// A number of the new corner of an edge, with that of its place.
     fn of(self, edge: &Edge, k: usize) -> f64 {
         let Edge { kept, lost, t, is_forward } = *edge;
-        let at = |k: usize| kept[k] + (lost[k] - kept[k]) * t;
-        let over_w = || kept[k] / kept[3] + (lost[k] / lost[3] - kept[k] / kept[3]) * t;
+        let at = |k: usize| between(kept[k], lost[k], t);
+        let over_w = between(kept[k] / kept[3], lost[k] / lost[3], t);
         match self {
             Self::Right => at(k),
             Self::Kept => kept[k],
             Self::Lost => lost[k],
-            Self::First => {
-                if is_forward {
-                    kept[k]
-                } else {
-                    lost[k]
-                }
-            }
-            Self::Second => {
-                if is_forward {
-                    lost[k]
-                } else {
-                    kept[k]
-                }
-            }
+            Self::First if is_forward => kept[k],
+            Self::First => lost[k],
+            Self::Second if is_forward => lost[k],
+            Self::Second => kept[k],
             Self::Mean => (kept[k] + lost[k]) / 2.0,
             Self::Perspective => {
                 let (a, b) = ((1.0 - t) / kept[3], t / lost[3]);
                 (a * kept[k] + b * lost[k]) / (a + b)
             }
-            Self::OverW => over_w(),
-            Self::OverWAndBack => over_w() * at(3),
-            Self::TimesWAndBack => {
-                let (a, b) = (kept[k] * kept[3], lost[k] * lost[3]);
-                (a + (b - a) * t) / at(3)
-            }
+            Self::OverW => over_w,
+            Self::OverWAndBack => over_w * at(3),
+            Self::TimesWAndBack => between(kept[k] * kept[3], lost[k] * lost[3], t) / at(3),
             Self::DividedByW => at(k) / at(3),
             Self::TimesW => at(k) * at(3),
             Self::Exchanged => at([1, 0, 2, 3, 4][k]),
@@ -279,6 +271,11 @@ impl New {
             Self::Format(format) => format.of(at(k)),
         }
     }
+}
+
+/// The number at a part of the way from one number to another.
+fn between(from: f64, to: f64, t: f64) -> f64 {
+    from + (to - from) * t
 }
 
 /// What a new corner gets, with its words.
@@ -348,8 +345,11 @@ impl Field for Order {
     const NAME: &'static str = "the corners that are left";
 
     fn options() -> Vec<Self> {
-        let some = (0..3).flat_map(|i| [Self::Lost(i), Self::Uncut(i)]);
-        [Self::AtMostThree, Self::Reversed, Self::Crossed].into_iter().chain(some).collect()
+        let mut all = vec![Self::AtMostThree, Self::Reversed, Self::Crossed];
+        for i in 0..3 {
+            all.extend([Self::Lost(i), Self::Uncut(i)]);
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
@@ -440,6 +440,17 @@ pub(super) struct Edge {
     pub(super) is_forward: bool,
 }
 
+impl Edge {
+    /// The edge between two corners at these distances from the plane, where it is cut.
+    fn cut(from: ClipCorner, to: ClipCorner, a: f64, b: f64) -> Option<Self> {
+        match (a >= 0.0, b >= 0.0) {
+            (true, false) => Some(Self { kept: from, lost: to, t: a / (a - b), is_forward: true }),
+            (false, true) => Some(Self { kept: to, lost: from, t: b / (b - a), is_forward: false }),
+            _ => None,
+        }
+    }
+}
+
 /// The coefficients of a plane that is read off are multiples of this: each is off by half of it, and what is less is 0.
 const STEP: f64 = 1e-6;
 
@@ -481,7 +492,7 @@ impl Cut<'_> {
         };
         let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
         (!has_area(polygon) && !has_area(self.left))
-            || is_round(polygon.len(), self.left.len(), |i, j| near(&polygon[i], &self.left[j]))
+            || is_round(polygon.len(), self.left.len(), &|i, j| near(&polygon[i], &self.left[j]))
     }
 
     /// The corners that are left by the right clipper, each with the one that is given in its place; nothing where there are
@@ -492,38 +503,38 @@ impl Cut<'_> {
         if count < 3 || self.left.len() != count {
             return None;
         }
+        // What is given may begin at any corner. The corners of the triangle have to have their places; of the turns in which they do,
+        // the one is kept with most of the new corners in theirs, and of equal ones the last.
         let bounds = bounds(&self.corners, self.tolerance);
-        let near =
-            |p: &ClipCorner, q: &ClipCorner| (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
-        let is_old = |p: &&ClipCorner| self.corners.iter().any(|corner| corner == *p);
-        let turned = (0..count).map(|turn| [&self.left[turn..], &self.left[..turn]].concat());
-        let fit = |given: &Vec<ClipCorner>| {
-            let both = right.iter().zip(given);
-            both.clone().filter(|(p, _)| is_old(p)).all(|(p, q)| near(p, q))
-        };
-        let matching =
-            |given: &Vec<ClipCorner>| right.iter().zip(given).filter(|(p, q)| near(p, q)).count();
-        turned.filter(fit).max_by_key(matching)
+        let mut best = None;
+        let mut most = 0;
+        for turn in 0..count {
+            let given = [&self.left[turn..], &self.left[..turn]].concat();
+            let (mut matching, mut fits) = (0, true);
+            for (p, q) in right.iter().zip(&given) {
+                let is_near = (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
+                matching += usize::from(is_near);
+                fits &= is_near || !self.corners.contains(p);
+            }
+            if fits && matching >= most {
+                (best, most) = (Some(given), matching);
+            }
+        }
+        best
     }
 
     /// The new corners of the right clipper.
     pub(super) fn new_of_right(&self) -> Vec<NewCorner> {
         let mut all = Vec::new();
         let mut place = 0;
-        let distance = |p: ClipCorner| Plane::Near.distance(p, self.is_zero);
         for number in 0..3 {
             let [from, to] = [number, (number + 1) % 3].map(|i| self.corners[i]);
-            let [a, b] = [from, to].map(distance);
+            let a = Plane::Near.distance(from, self.is_zero);
+            let b = Plane::Near.distance(to, self.is_zero);
+            // A corner that is kept has its own place, before the new one of the edge that begins at it.
             place += usize::from(a >= 0.0);
-            if (a >= 0.0) != (b >= 0.0) {
-                let is_forward = a >= 0.0;
-                let (kept, lost, a, b) =
-                    if is_forward { (from, to, a, b) } else { (to, from, b, a) };
-                all.push(NewCorner {
-                    place,
-                    number,
-                    edge: Edge { kept, lost, t: a / (a - b), is_forward },
-                });
+            if let Some(edge) = Edge::cut(from, to, a, b) {
+                all.push(NewCorner { place, number, edge });
                 place += 1;
             }
         }
@@ -588,35 +599,42 @@ impl NearCut {
             if a >= 0.0 {
                 left.push(from);
             }
-            if (a >= 0.0) == (b >= 0.0) || self.order == Order::Uncut(i) {
+            let Some(right) = Edge::cut(from, to, a, b).filter(|_| self.order != Order::Uncut(i))
+            else {
                 continue;
-            }
-            let is_forward = a >= 0.0;
-            let ((kept, lost), (a, b)) =
-                if is_forward { ((from, to), (a, b)) } else { ((to, from), (b, a)) };
-            let right = Edge { kept, lost, t: a / (a - b), is_forward };
+            };
+            let is_forward = right.is_forward;
             let is_changed = match self.edges {
                 Edges::All => true,
                 Edges::Leaving => is_forward,
                 Edges::Back => !is_forward,
             };
+            // The numbers that are wrong are computed by the wrong part of the edge, the others by the right one.
             let wrong = Edge { t: self.part_of(&right), ..right };
-            left.push([0, 1, 2, 3, 4].map(|k| {
-                match is_changed && self.numbers.0[k] && (is_twice || right.t > 0.0) {
+            let mut corner = [0.0; 5];
+            for (k, number) in corner.iter_mut().enumerate() {
+                *number = match is_changed && self.numbers.0[k] && (is_twice || right.t > 0.0) {
                     true => self.new.of(&wrong, k),
                     false => New::Right.of(&right, k),
-                }
-            }));
+                };
+            }
+            left.push(corner);
         }
         left
     }
 
+    /// The part of an edge at which the new corner is made, counted from the corner that is kept.
     fn part_of(&self, edge: &Edge) -> f64 {
-        let by = |distance: fn(ClipCorner) -> f64| {
-            let [a, b] = [edge.kept, edge.lost].map(distance);
-            a / (a - b)
-        };
-        let of = |t: f64| match self.part {
+        match self.counted {
+            EdgeStart::FromFirst if !edge.is_forward => 1.0 - self.part_at(edge, 1.0 - edge.t),
+            _ => self.part_at(edge, edge.t),
+        }
+    }
+
+    /// What becomes of the right part `t`.
+    fn part_at(&self, edge: &Edge, t: f64) -> f64 {
+        let Edge { kept, lost, .. } = edge;
+        match self.part {
             Part::Right => t,
             Part::Kept(format) => format.of(t),
             Part::Back => 1.0 - t,
@@ -624,13 +642,9 @@ impl NearCut {
             Part::AtMostHalf => t.min(0.5),
             Part::AtLeastHalf => t.max(0.5),
             Part::OfSum => t / (2.0 * t - 1.0),
-            Part::ByZ => by(|p| p[2]),
-            Part::ByW => by(|p| p[3]),
-            Part::Divided => by(|p| p[2] / p[3] + 1.0),
-        };
-        match self.counted {
-            EdgeStart::FromFirst if !edge.is_forward => 1.0 - of(1.0 - edge.t),
-            _ => of(edge.t),
+            Part::ByZ => part_by(kept[2], lost[2]),
+            Part::ByW => part_by(kept[3], lost[3]),
+            Part::Divided => part_by(kept[2] / kept[3] + 1.0, lost[2] / lost[3] + 1.0),
         }
     }
 
@@ -665,14 +679,27 @@ impl NearCut {
 
     /// The fewest numbers of new corners that are wrong, where all others are right.
     fn wrong_numbers(parts: &[&Cut<'_>]) -> Option<Numbers> {
-        let mut sets: Vec<_> =
-            (1..31).map(|set| Numbers([0, 1, 2, 3, 4].map(|k| set >> k & 1 == 1))).collect();
-        sets.sort_by_key(|set| set.0.iter().filter(|is_wrong| **is_wrong).count());
         let right = Self::default();
-        sets.into_iter().find(|set| {
-            parts.iter().all(|cut| cut.is_but_for(&right.polygon(cut, false), 1.0, set.0))
-        })
+        let predicted: Vec<_> = parts.iter().map(|cut| right.polygon(cut, false)).collect();
+        // Sets of one number first, then of two, and so on: a set has a bit for each number, and none has all of them.
+        for count in 1..5 {
+            for set in 1..31_u32 {
+                let numbers = Numbers([0, 1, 2, 3, 4].map(|k| set >> k & 1 == 1));
+                let explains = |(cut, polygon): (&&Cut<'_>, &Vec<ClipCorner>)| {
+                    cut.is_but_for(polygon, 1.0, numbers.0)
+                };
+                if set.count_ones() == count && parts.iter().zip(&predicted).all(explains) {
+                    return Some(numbers);
+                }
+            }
+        }
+        None
     }
+}
+
+/// The part of an edge by the distances of its ends.
+fn part_by(kept: f64, lost: f64) -> f64 {
+    kept / (kept - lost)
 }
 
 impl Stage for NearCut {
