@@ -21,9 +21,8 @@ use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::facts;
 use rasterproof_verify::cases::wide::{has_width, wide_line};
 use rasterproof_verify::cases::{Case, Family, Line, Shape, Triangle};
-use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
+use rasterproof_verify::comparison::{Expectation, Tally, Winding};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -217,8 +216,13 @@ impl Check {
                 (order, "out of order"),
             ],
         };
-        let counts = counts.into_iter().filter(|(n, _)| *n > 0);
-        counts.map(|(n, what)| format!("{n} {what}")).collect()
+        let mut said = Vec::new();
+        for (n, what) in counts {
+            if n > 0 {
+                said.push(format!("{n} {what}"));
+            }
+        }
+        said
     }
 
     /// Whether answers of the same program are compared with each other, and with nothing that is expected.
@@ -299,12 +303,13 @@ impl Check {
             }
             _ => return None,
         };
-        Some(
-            all.into_iter()
-                .filter(|(_, is_declared)| *is_declared)
-                .map(|(check, _)| check)
-                .collect(),
-        )
+        let mut checks = Vec::new();
+        for (check, is_declared) in all {
+            if is_declared {
+                checks.push(check);
+            }
+        }
+        Some(checks)
     }
 
     /// Whether a family has a request for a program that declares this: cases of a design take time to choose.
@@ -379,6 +384,23 @@ impl Check {
         checks
     }
 
+    /// What is asked about one triangle on its own.
+    fn question_of(self, triangle: &Triangle, truth: &Truth) -> Asked {
+        match self {
+            Self::Values => Asked::Values(*triangle),
+            Self::SampleValues => Asked::SampleValues(*triangle),
+            Self::Samples => Asked::Samples(triangle.corners()),
+            Self::Near => Asked::Near(*triangle),
+            Self::Carried => Asked::Carried(*triangle),
+            Self::Wide => Asked::Wide(wide_line(triangle)),
+            Self::Area => Asked::Area(triangle.corners()),
+            // A mesh is wound as the program draws.
+            Self::Watertight => Asked::Coverage(wound(triangle.corners(), truth.drawn)),
+            _ => Asked::Coverage(triangle.corners()),
+        }
+    }
+
+    /// Appends the requests of a case.
     pub fn questions(self, case: &Case, truth: &Truth, out: &mut Vec<Question>) {
         let (width, height) = (case.window.width(), case.window.height());
         let ask = |of| Question { width, height, of };
@@ -392,36 +414,26 @@ impl Check {
                     Winding::Both => [[0, 1, 2], [1, 2, 0], [0, 2, 1]],
                     _ => [[0, 1, 2], [1, 2, 0], [2, 0, 1]],
                 };
-                let ordered = list.iter().flat_map(|t| {
-                    let corners = t.corners();
-                    orders.map(|order| ask(Asked::Coverage(order.map(|i| corners[i]))))
-                });
-                out.extend(ordered);
+                for corners in list.iter().map(Triangle::corners) {
+                    for order in orders {
+                        out.push(ask(Asked::Coverage(order.map(|i| corners[i]))));
+                    }
+                }
             }
             (Shape::Triangles { list, .. }, Self::Outline) => {
                 for corners in list.iter().map(Triangle::corners) {
                     let Some([a, b, c]) = outline::ends(&corners, case.window) else { continue };
                     out.push(ask(Asked::Coverage(wound(corners, truth.drawn))));
-                    out.extend(
-                        [[a, b], [b, c], [c, a]]
-                            .map(|ends| ask(Asked::Line { ends, whole: false })),
-                    );
+                    for ends in [[a, b], [b, c], [c, a]] {
+                        out.push(ask(Asked::Line { ends, whole: false }));
+                    }
                 }
             }
-            (Shape::Triangles { list, .. }, check) => out.extend(list.iter().map(|t| {
-                ask(match check {
-                    Self::Values => Asked::Values(*t),
-                    Self::SampleValues => Asked::SampleValues(*t),
-                    Self::Samples => Asked::Samples(t.corners()),
-                    Self::Near => Asked::Near(*t),
-                    Self::Carried => Asked::Carried(*t),
-                    Self::Wide => Asked::Wide(wide_line(t)),
-                    Self::Area => Asked::Area(t.corners()),
-                    // A mesh is wound as the program draws.
-                    Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
-                    _ => Asked::Coverage(t.corners()),
-                })
-            })),
+            (Shape::Triangles { list, .. }, check) => {
+                for triangle in list {
+                    out.push(ask(check.question_of(triangle, truth)));
+                }
+            }
             (Shape::Lines(lines), check) => {
                 let whole = truth.declared.grid() == 1;
                 for [a, b] in lines.iter().map(|l| l.ends.map(|end| end.pixel)) {
@@ -467,7 +479,9 @@ impl Check {
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
                 judged.shapes = list.len() as u64;
-                answers.chunks(3).for_each(|same| alike(&mut judged, same, case.window));
+                for same in answers.chunks(3) {
+                    alike(&mut judged, same, case.window);
+                }
             }
             (Shape::Triangles { .. }, Self::Outline) => {
                 answers.chunks(4).for_each(|of| outline::compare(&mut judged, of, case.window));
@@ -512,7 +526,9 @@ impl Check {
             }
             (Shape::Lines(lines), Self::Direction) => {
                 judged.shapes = lines.len() as u64;
-                answers.chunks(2).for_each(|both| alike(&mut judged, both, case.window));
+                for both in answers.chunks(2) {
+                    alike(&mut judged, both, case.window);
+                }
             }
             (Shape::Lines(lines), _) => {
                 for (line, answer) in lines.iter().zip(answers) {
@@ -597,24 +613,11 @@ fn one_triangle(
     if !matches!(answer, Answer::Samples(_) | Answer::SampleValues(_) | Answer::Area(_)) {
         judged.pixels += length(&picture.must);
     }
-    let compare_both = |runs: &[Span], judged: &mut CaseJudgement| {
-        let before = judged.finding.tally.total();
-        compare(&mut judged.finding.tally, &mut judged.mark, runs, &picture, window);
-        let wrong = judged.finding.tally.total() - before;
-        let Some(recognised) = &truth.recognised else { return };
-        match recognised.picture(&corners, window) {
-            Some(picture) => {
-                judged.other_pixels += length(&picture.must);
-                compare(&mut judged.other, &mut 0, runs, &picture, window);
-            }
-            None => leave_out(judged, wrong),
-        }
-    };
     match answer {
-        Answer::Coverage(runs) => compare_both(runs, judged),
+        Answer::Coverage(runs) => coverage(judged, &corners, runs, &picture, window, truth),
         Answer::Values(fragments) => {
             let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
-            compare_both(&runs, judged);
+            coverage(judged, &corners, &runs, &picture, window, truth);
             let expected = hits(&picture.must, window).0;
             values(judged, triangle, fragments, &expected, truth);
         }
@@ -631,6 +634,29 @@ fn one_triangle(
     }
 }
 
+/// Compares the pixels of a triangle with those that are expected as declared, and with those by the convention that was
+/// recognised, where there is one.
+fn coverage(
+    judged: &mut CaseJudgement,
+    corners: &Corners,
+    runs: &[Span],
+    declared: &Expectation,
+    window: PixelRect,
+    truth: &Truth,
+) {
+    let before = judged.finding.tally.total();
+    compare(&mut judged.finding.tally, &mut judged.mark, runs, declared, window);
+    let wrong = judged.finding.tally.total() - before;
+    let Some(recognised) = &truth.recognised else { return };
+    match recognised.picture(corners, window) {
+        Some(picture) => {
+            judged.other_pixels += length(&picture.must);
+            compare(&mut judged.other, &mut 0, runs, &picture, window);
+        }
+        None => leave_out(judged, wrong),
+    }
+}
+
 /// Counts the pixels in which answers differ from the first one.
 fn alike(judged: &mut CaseJudgement, answers: &[Answer], window: PixelRect) {
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, window)).collect();
@@ -638,14 +664,19 @@ fn alike(judged: &mut CaseJudgement, answers: &[Answer], window: PixelRect) {
     judged.pixels += first.covered();
     for other in others {
         judged.finding.tally += Tally::between(other, first);
-        if other != first {
-            first.rows().zip(other.rows()).for_each(|((_, a), (_, b))| {
-                a.iter().zip(b).for_each(|(a, b)| mix(&mut judged.mark, u64::from(*a ^ *b)));
-            });
+        if other == first {
+            continue;
+        }
+        // The mark tells one difference from another.
+        for ((_, row), (_, other)) in first.rows().zip(other.rows()) {
+            for (a, b) in row.iter().zip(other) {
+                mix(&mut judged.mark, u64::from(*a ^ *b));
+            }
         }
     }
 }
 
+/// Counts the holes and the doubles of a mesh, under any convention.
 fn watertight(
     judged: &mut CaseJudgement,
     list: &[Triangle],
@@ -790,14 +821,18 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
             let exact = exact_values(triangle, &truth.declared);
-            let pixels =
-                picture.must.iter().flat_map(|run| (run.x0_px..run.x1_px).map(|x| (x, run.y_px)));
-            let fragment = |(x_px, y_px)| {
-                let (depth, [a, b]) = exact.as_ref()?.at(x_px, y_px);
-                let varying = DVec2::new(a.to_f64(), b.to_f64());
-                Some(Fragment { x_px, y_px, depth: depth.to_f64(), varying })
-            };
-            Some(Answer::Values(pixels.filter_map(fragment).collect()))
+            let mut fragments = Vec::new();
+            for run in &picture.must {
+                for x_px in run.x0_px..run.x1_px {
+                    // A triangle without area has no values.
+                    let Some(exact) = &exact else { continue };
+                    let (depth, [a, b]) = exact.at(x_px, run.y_px);
+                    let varying = DVec2::new(a.to_f64(), b.to_f64());
+                    let depth = depth.to_f64();
+                    fragments.push(Fragment { x_px, y_px: run.y_px, depth, varying });
+                }
+            }
+            Some(Answer::Values(fragments))
         }
         Asked::Depth(list) => {
             let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;

@@ -76,6 +76,20 @@ pub struct Exchange {
     pub heard: Answer,
 }
 
+impl Exchange {
+    /// A question with its answer, and what was expected.
+    fn new(check: Check, question: &Question, answer: &Answer, truth: &Truth) -> Self {
+        Self {
+            request: question.text(1),
+            answer: show(answer, 1),
+            other: String::new(),
+            expected: expected(check, question, truth),
+            question: question.clone(),
+            heard: answer.clone(),
+        }
+    }
+}
+
 impl Exchanged {
     /// Whether it shows what is wrong with a property.
     #[must_use]
@@ -97,19 +111,15 @@ pub(super) fn failures(
     truth: &Truth,
     patience: Duration,
 ) -> (Vec<Failure>, Duration) {
-    let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
-    let share = |row: &Row| match row.check {
-        Some(Check::Watertight) => f64::INFINITY,
-        _ => row.share(),
-    };
-    rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let is_known = |f: &Failing| {
-        !options.terms.known.is_empty()
-            && options.terms.known.get(&f.name()) == Some(&f.fingerprint)
-    };
-    let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
-    let of = |name: &str| news.iter().find(|f| f.property == name);
-    let firsts: Vec<&Failing> = rows.into_iter().filter_map(|row| of(row.name)).copied().collect();
+    // The properties that are wrong most come first, and of those that are not known the first failing case.
+    let mut rows: Vec<&Row> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
+    rows.sort_by(|a, b| importance(b).total_cmp(&importance(a)));
+    let mut firsts = Vec::new();
+    for row in rows {
+        let of_row =
+            |failing: &&Failing| failing.property == row.name && !is_known(failing, options);
+        firsts.extend(found.failing.iter().find(of_row));
+    }
     let mut program = Spending { asked: program, spent: Duration::ZERO };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
@@ -136,6 +146,20 @@ pub(super) fn failures(
     }
     shown.sort_by_key(to_read);
     (shown, program.spent)
+}
+
+/// How bad a property is: holes and doubles first, then by the share of wrong cases.
+fn importance(row: &Row) -> f64 {
+    match row.check {
+        Some(Check::Watertight) => f64::INFINITY,
+        _ => row.share(),
+    }
+}
+
+/// Whether the baseline knows a failing case, wrong in the same way.
+fn is_known(failing: &Failing, options: &Options) -> bool {
+    let known = &options.terms.known;
+    !known.is_empty() && known.get(&failing.name()) == Some(&failing.fingerprint)
 }
 
 /// How much there is to read until it is seen what is wrong: whether the pictures do not show it, and how many characters the requests
@@ -177,53 +201,62 @@ impl Subject for Spending<'_> {
 
 /// The first case of each property whose answers change, as it was asked: what was shrunk would answer otherwise again.
 pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Failure> {
-    let one = |changing: &Changing| {
-        let Changing { failing, check, questions, answers } = changing;
-        let family = adapt_case::family(failing.family)?;
-        let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
-        // Of two programs that are compared the one whose answers change is shown.
-        let mut answers = answers.clone();
-        let (mut truth, mut who) = (truth, String::new());
-        if let Some(of_two) = &truth.of_two {
-            let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
-            let is_same = |side: usize| {
-                first[side].iter().zip(&again[side]).all(|(first, again)| first.is_same(again))
-            };
-            let side = usize::from(is_same(0));
-            answers = [&first, &again].map(|sides| sides[side].clone());
-            truth = &of_two[side];
-            who = format!("{}: ", truth.declared.name);
+    let mut failures = Vec::new();
+    for changing in &found.changing {
+        if failures.len() == MOST_SHOWN {
+            break;
         }
-        let [first, again] = &answers;
-        let said = |answers: &[Answer]| {
-            judge(*check, &case, answers, questions.len(), truth).describe(*check)
-        };
-        let what = format!("{who}first {}, then {}", said(first), said(again));
-        let mut picture = pictured(*check, &case, first, truth);
-        if let Some(picture) = &mut picture {
-            picture.other = pictured(*check, &case, again, truth).map(|again| again.drawn);
-        }
-        let exchanges = questions.iter().zip(first.iter().zip(again));
-        let exchanges = exchanges.map(|(question, (first, again))| Exchange {
-            request: question.text(1),
-            answer: show(first, 1),
-            other: show(again, 1),
-            expected: expected(*check, question, truth),
-            question: question.clone(),
-            heard: first.clone(),
-        });
-        let evidence = Exchanged {
-            property: failing.property,
-            also: Vec::new(),
-            check: *check,
-            shrunk: HowFar::Changes,
-            exchanges: exchanges.collect(),
-            picture,
-            changes: true,
-        };
-        Some(Failure::new(failing.family, failing.index, options.seed, what, case, evidence))
+        failures.extend(failure_that_changes(changing, options, truth));
+    }
+    failures
+}
+
+/// A case whose answers change, with the answers of both times.
+fn failure_that_changes(changing: &Changing, options: &Options, truth: &Truth) -> Option<Failure> {
+    let Changing { failing, check, questions, answers } = changing;
+    let check = *check;
+    let family = adapt_case::family(failing.family)?;
+    let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
+    // Of two programs that are compared the one whose answers change is shown.
+    let mut answers = answers.clone();
+    let (mut truth, mut who) = (truth, String::new());
+    if let Some(of_two) = &truth.of_two {
+        let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
+        let side = usize::from(are_same(&first[0], &again[0]));
+        answers = [first[side].clone(), again[side].clone()];
+        truth = &of_two[side];
+        who = format!("{}: ", truth.declared.name);
+    }
+    // What is wrong each time, and both pictures.
+    let [first, again] = &answers;
+    let said =
+        |answers: &[Answer]| judge(check, &case, answers, questions.len(), truth).describe(check);
+    let what = format!("{who}first {}, then {}", said(first), said(again));
+    let mut picture = pictured(check, &case, first, truth);
+    if let Some(picture) = &mut picture {
+        picture.other = pictured(check, &case, again, truth).map(|again| again.drawn);
+    }
+    let mut exchanges = Vec::new();
+    for ((question, first), again) in questions.iter().zip(first).zip(again) {
+        let mut exchange = Exchange::new(check, question, first, truth);
+        exchange.other = show(again, 1);
+        exchanges.push(exchange);
+    }
+    let evidence = Exchanged {
+        property: failing.property,
+        also: Vec::new(),
+        check,
+        shrunk: HowFar::Changes,
+        exchanges,
+        picture,
+        changes: true,
     };
-    found.changing.iter().filter_map(one).take(MOST_SHOWN).collect()
+    Some(Failure::new(failing.family, failing.index, options.seed, what, case, evidence))
+}
+
+/// Whether the same questions got the same answers twice.
+fn are_same(first: &[Answer], again: &[Answer]) -> bool {
+    first.iter().zip(again).all(|(first, again)| first.is_same(again))
 }
 
 /// The answer that was expected, as a line of the protocol; nothing of checks that compare answers with each other.
@@ -329,11 +362,12 @@ impl Search<'_> {
         }
         let case = search.smallest;
         let was_cut = program.spent >= patience;
-        let again = if was_late || is_slow {
-            None
-        } else {
-            Some(AskedCase::of(&mut program, check, &case, truth)).filter(|again| !again.is_late())
-        };
+        // The smallest case is asked once more, for the answers that are shown.
+        let mut again = None;
+        if !was_late && !is_slow {
+            let asked = AskedCase::of(&mut program, check, &case, truth);
+            again = (!asked.is_late()).then_some(asked);
+        }
         let shrunk = match (is_slow, was_cut || again.is_none()) {
             (true, _) => HowFar::TakesLong,
             (_, true) if case == original => HowFar::NotAtAll,
@@ -346,23 +380,20 @@ impl Search<'_> {
             true => judged.describe(check),
             false => "wrong at first, right when asked again".to_owned(),
         };
-        let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
-            request: question.text(1),
-            answer: show(answer, 1),
-            other: match answer {
-                Answer::Two(both) => show(&both[1], 1),
-                _ => String::new(),
-            },
-            expected: expected(check, question, truth),
-            question: question.clone(),
-            heard: answer.clone(),
-        });
+        let mut exchanges = Vec::new();
+        for (question, answer) in questions.iter().zip(&answers) {
+            let mut exchange = Exchange::new(check, question, answer, truth);
+            if let Answer::Two(both) = answer {
+                exchange.other = show(&both[1], 1);
+            }
+            exchanges.push(exchange);
+        }
         let evidence = Exchanged {
             property: failing.property,
             also: Vec::new(),
             check,
             shrunk,
-            exchanges: exchanges.collect(),
+            exchanges,
             picture: pictured(check, &case, &answers, truth),
             changes: false,
         };

@@ -97,30 +97,30 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     let declared = program.declared().clone();
     let mut bench = Bench::new(Timed::new(program, None));
     let open = declared.convention.rule == Rule::Unspecified;
-    let triangles = (scope.triangles && declared.coverage)
-        .then(|| {
-            let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            (ask && !bench.program.is_late).then(|| {
-                bench.limit(scope.patience);
-                let known = known(&declared);
-                let search = async |asker| convention::diagnose(&asker, &known, SEED).await;
-                bench.search(Search::new(search), Bench::triangles)
-            })
-        })
-        .flatten();
-    let lines = (scope.lines && declared.line)
-        .then(|| {
-            let ask = scope.always || !bench.draws_as_declared(&declared, true);
-            let side_px = known(&declared).side_px();
-            let ordered = !declared.line_set;
-            (ask && !bench.program.is_late).then(|| {
-                bench.limit(scope.patience);
-                let search =
-                    async |asker| convention::diagnose_lines(&asker, side_px, ordered, SEED).await;
-                bench.search(Search::new(search), Bench::lines)
-            })
-        })
-        .flatten();
+    // A program that draws as it declares is not questioned, unless that is asked for or its rule leaves ties open.
+    let mut triangles = None;
+    if scope.triangles
+        && declared.coverage
+        && (scope.always || open || !bench.draws_as_declared(&declared, false))
+        && !bench.program.is_late
+    {
+        bench.limit(scope.patience);
+        let known = known(&declared);
+        let search = async |asker| convention::diagnose(&asker, &known, SEED).await;
+        triangles = Some(bench.search(Search::new(search), Bench::triangles));
+    }
+    let mut lines = None;
+    if scope.lines
+        && declared.line
+        && (scope.always || !bench.draws_as_declared(&declared, true))
+        && !bench.program.is_late
+    {
+        bench.limit(scope.patience);
+        let side_px = known(&declared).side_px();
+        let ordered = !declared.line_set;
+        let search = async |asker| convention::diagnose_lines(&asker, side_px, ordered, SEED).await;
+        lines = Some(bench.search(Search::new(search), Bench::lines));
+    }
     if bench.program.is_late {
         let spent = bench.spent(scope.patience);
         return Some(Recognised { spent, ..Recognised::late() });
@@ -234,12 +234,16 @@ impl Expect for Recognition {
 
 fn known(declared: &Declared) -> Declarations {
     let known = Declarations::from(&declared.convention);
-    let measured = [declared.reach, declared.side.map(|side| side / 2)];
+    // The range is as short as the program was seen to need.
+    let mut range_px = declared.range.unwrap_or(known.range_px);
+    if let Some(reach) = declared.reach {
+        range_px = range_px.min(reach);
+    }
+    if let Some(side) = declared.side {
+        range_px = range_px.min(side / 2);
+    }
     Declarations {
-        range_px: measured
-            .into_iter()
-            .flatten()
-            .fold(declared.range.unwrap_or(known.range_px), i32::min),
+        range_px,
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
         ..known
@@ -295,9 +299,10 @@ pub fn mistakes(
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };
-                let programs: Vec<_> = entries()
-                    .map(|(entry, about)| (RefCell::new(Inside::new(&entry)), about))
-                    .collect();
+                let mut programs = Vec::new();
+                for (entry, about) in entries() {
+                    programs.push((RefCell::new(Inside::new(&entry)), about));
+                }
                 let search = stages::mistakes(check, truth, &programs);
                 (of, bench.search(search, |bench, asked| bench.program.ask(asked, MOST_DEATHS)))
             }
@@ -335,33 +340,42 @@ impl Why {
 }
 
 /// The planted faults and the published algorithms, each with what is wrong with it.
-fn entries() -> impl Iterator<Item = (Entry, String)> {
+fn entries() -> Vec<(Entry, String)> {
     // Its panic says what it is, and would be shown.
-    let answers = |mutant: &TriangleMutant| *mutant != TriangleMutant::PanicsOnFlatBottom;
-    let planted = TriangleMutant::ALL.into_iter().filter(answers);
-    let planted = planted.map(|mutant| (mutant.name(), mutant.about()));
-    let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted_tiles = TileMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted = planted.chain(planted_lines).chain(planted_tiles).filter_map(|(name, about)| {
-        Some((engines::find_planted(name)?, format!("draws as the planted fault {name}: {about}")))
-    });
-    let published = engines::SPECIMENS.iter().map(|entry| {
+    let mut planted = Vec::new();
+    for mutant in TriangleMutant::ALL {
+        // Its panic says what it is, and would be shown.
+        if mutant != TriangleMutant::PanicsOnFlatBottom {
+            planted.push((mutant.name(), mutant.about()));
+        }
+    }
+    planted.extend(LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about())));
+    planted.extend(TileMutant::ALL.map(|mutant| (mutant.name(), mutant.about())));
+    let mut all = Vec::new();
+    for (name, about) in planted {
+        if let Some(entry) = engines::find_planted(name) {
+            all.push((entry, format!("draws as the planted fault {name}: {about}")));
+        }
+    }
+    for entry in engines::SPECIMENS {
         let about = entry.about.trim_start_matches("specimen: ");
-        (*entry, format!("draws as the published algorithm {}: {about}", entry.name))
-    });
-    planted.chain(published)
+        let does = format!("draws as the published algorithm {}: {about}", entry.name);
+        all.push((entry, does));
+    }
+    all
 }
 
 /// The same as programs whose answers are known.
 fn programs<'a, Q: 'a, A: 'a>(
     of: impl Fn(&Q, &mut Inside) -> Option<A> + Copy + 'a,
 ) -> Vec<Program<'a, Q, A>> {
-    let program = |(entry, about): (Entry, String)| {
+    let mut all = Vec::new();
+    for (entry, about) in entries() {
         let inside = RefCell::new(Inside::new(&entry));
         let draw = move |question: &Q| of(question, &mut inside.borrow_mut());
-        Program { name: entry.name, about, draw: Box::new(draw) }
-    };
-    entries().map(program).collect()
+        all.push(Program { name: entry.name, about, draw: Box::new(draw) });
+    }
+    all
 }
 
 fn of_triangle(question: &TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
@@ -467,26 +481,38 @@ impl<'a> Bench<'a> {
     fn draws_as_declared(&mut self, declared: &Declared, lines: bool) -> bool {
         let truth = Truth::of(declared);
         let check = if lines { Check::Line } else { Check::Coverage };
-        let families = adapt_case::families(&[]);
-        let is_looked_at = |name| if lines { true } else { LOOK.contains(&name) };
-        families.iter().filter(|f| adapt_case::is_lines(f) == lines && is_looked_at(f.name)).all(
-            |f| {
-                let cases = (0..LOOK_CASES).map(|index| adapt_case::case(f, SEED, index, declared));
-                let cases: Vec<_> = cases.filter(|case| !adapt_case::leaves_window(case)).collect();
-                let mut questions = Vec::new();
-                let mut ends = Vec::new();
-                for case in &cases {
-                    check.questions(case, &truth, &mut questions);
-                    ends.push(questions.len());
+        for family in adapt_case::families(&[]) {
+            let is_looked_at = lines || LOOK.contains(&family.name);
+            if adapt_case::is_lines(family) != lines || !is_looked_at {
+                continue;
+            }
+            // All cases of a family are asked at once; each has some of the questions.
+            let mut cases = Vec::new();
+            for index in 0..LOOK_CASES {
+                let case = adapt_case::case(family, SEED, index, declared);
+                if !adapt_case::leaves_window(&case) {
+                    cases.push(case);
                 }
-                let answers = self.answers(&questions);
-                let starts = std::iter::once(0).chain(ends.iter().copied());
-                answers.len() == questions.len()
-                    && cases.iter().zip(starts).zip(&ends).all(|((case, start), &end)| {
-                        !check.judge(case, &answers[start..end], &truth).is_wrong()
-                    })
-            },
-        )
+            }
+            let mut questions = Vec::new();
+            let mut ends = Vec::new();
+            for case in &cases {
+                check.questions(case, &truth, &mut questions);
+                ends.push(questions.len());
+            }
+            let answers = self.answers(&questions);
+            if answers.len() != questions.len() {
+                return false;
+            }
+            let mut start = 0;
+            for (case, end) in cases.iter().zip(ends) {
+                if check.judge(case, &answers[start..end], &truth).is_wrong() {
+                    return false;
+                }
+                start = end;
+            }
+        }
+        true
     }
 }
 

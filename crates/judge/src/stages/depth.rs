@@ -384,9 +384,21 @@ pub struct Pile<'a> {
 
 /// How fast depth changes along x or y, whichever is faster.
 fn slope(t: &Triangle) -> f64 {
-    let at = |place| sum(weights(&t.corners(), place), depths(t));
-    let from = at([0.0, 0.0]);
-    (at([1.0, 0.0]) - from).abs().max((at([0.0, 1.0]) - from).abs())
+    let from = depth_at(t, [0.0, 0.0]);
+    let along_x = (depth_at(t, [1.0, 0.0]) - from).abs();
+    let along_y = (depth_at(t, [0.0, 1.0]) - from).abs();
+    along_x.max(along_y)
+}
+
+/// The depth of the plane of a triangle at a place, in pixels.
+fn depth_at(t: &Triangle, place: [f64; 2]) -> f64 {
+    sum(weights(&t.corners(), place), depths(t))
+}
+
+fn add_once(states: &mut Vec<DepthState>, state: DepthState) {
+    if !states.contains(&state) {
+        states.push(state);
+    }
 }
 
 impl DepthTest {
@@ -396,7 +408,7 @@ impl DepthTest {
         if !self.whose.holds(layer) {
             return layer.depth;
         }
-        let at = |place| sum(weights(&t.corners(), place), depths(t));
+        let at = |place| depth_at(t, place);
         let depth = match self.place {
             Place::Centre => layer.depth,
             Place::At([dx, dy], _) => at([f64::from(x) + dx, f64::from(y) + dy]),
@@ -447,13 +459,15 @@ impl DepthTest {
     /// The triangles that may be shown, one bit each.
     pub(super) fn shown(&self, pile: &Pile<'_>) -> u128 {
         let Range([least, most]) = self.range;
-        let is_drawn = |layer: &&Layer<'_>| {
+        let mut drawn: Vec<&Layer<'_>> = pile.layers.iter().collect();
+        drawn.retain(|layer| {
             !self.whose.holds(layer) || (layer.depth >= least && layer.depth < most)
-        };
-        let drawn = || pile.layers.iter().filter(is_drawn).take(MOST_LAYERS);
+        });
+        drawn.truncate(MOST_LAYERS);
+        // Rounding leaves open which of two depths is less, so that several triangles may be shown and several depths be kept.
         let mut kept = [[0.0; 2]; MOST_LAYERS];
         let mut states = Vec::new();
-        for (i, layer) in drawn().enumerate() {
+        for (i, layer) in drawn.iter().enumerate() {
             kept[i] = self.compared(layer, pile, false);
             if i == 0 {
                 states.push(DepthState { shown: 0, buffer: 0 });
@@ -462,26 +476,27 @@ impl DepthTest {
             let new = self.compared(layer, pile, true);
             let compare = if self.whose.holds(layer) { self.compare.0 } else { LESS };
             let mut next = Vec::new();
-            let mut add = |may_be: bool, state: DepthState| {
-                if may_be && !next.contains(&state) {
-                    next.push(state);
-                }
-            };
             for DepthState { shown, buffer } in states {
                 let order = orders(new, kept[buffer]);
                 let passed = if self.write == Write::Never { buffer } else { i };
                 let failed = if self.write == Write::Always { i } else { buffer };
-                add(order & compare != 0, DepthState { shown: i, buffer: passed });
-                add(order & !compare != 0, DepthState { shown, buffer: failed });
+                if order & compare != 0 {
+                    add_once(&mut next, DepthState { shown: i, buffer: passed });
+                }
+                if order & !compare != 0 {
+                    add_once(&mut next, DepthState { shown, buffer: failed });
+                }
             }
             states = next;
         }
         if states.is_empty() {
             return 1;
         }
-        let may_be = |i: usize| states.iter().any(|state| state.shown == i);
-        let seen = drawn().enumerate().filter(|(i, _)| may_be(*i));
-        seen.fold(0, |all, (_, layer)| all | 2_u128.checked_shl(layer.number as u32).unwrap_or(0))
+        let mut seen = 0;
+        for DepthState { shown, .. } in states {
+            seen |= 2_u128.checked_shl(drawn[shown].number as u32).unwrap_or(0);
+        }
+        seen
     }
 
     /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.
@@ -491,38 +506,17 @@ impl DepthTest {
             GREATER | 6 => -1.0,
             _ => return Vec::new(),
         };
+        // Each kind of bias of the triangles that are wrong here, and one number for each of some triangles alone.
+        let mut kinds = Vec::new();
+        for of in [BiasOf::Number, BiasOf::New, BiasOf::Slope] {
+            kinds.push((of, self.whose));
+        }
+        for whose in Whose::options() {
+            kinds.push((BiasOf::Triangle, whose));
+        }
         let mut all = Vec::new();
-        let some = Whose::options().into_iter().map(|whose| (BiasOf::Triangle, whose));
-        let kinds = [BiasOf::Number, BiasOf::New, BiasOf::Slope].map(|of| (of, self.whose));
-        for (of, whose) in kinds.into_iter().chain(some) {
-            let (mut least, mut most) = (f64::MIN, f64::MAX);
-            for pile in parts {
-                if least > most {
-                    break;
-                }
-                let Some(shown) = pile.layers.iter().position(|l| l.number + 1 == pile.shown)
-                else {
-                    continue;
-                };
-                // Of more than two, what is compared depends on what went before.
-                if of == BiasOf::New && pile.layers.len() > 2 {
-                    continue;
-                }
-                let key = |i: usize| self.key(&pile.layers[i], pile.spot.at);
-                let times = |i: usize| match whose.holds(&pile.layers[i]) {
-                    true => Self::biased(of, &pile.layers[i], i > 0),
-                    false => 0.0,
-                };
-                for other in (0..pile.layers.len()).filter(|other| *other != shown) {
-                    let room = sign * (key(other) - key(shown));
-                    let by = sign * (times(shown) - times(other));
-                    if by > 0.0 {
-                        most = most.min(room / by);
-                    } else if by < 0.0 {
-                        least = least.max(room / by);
-                    }
-                }
-            }
+        for (of, whose) in kinds {
+            let [least, most] = self.bias_range(parts, of, whose, sign);
             if let Some(by) = between(least, most) {
                 all.push(Self { bias: Bias { by, of }, whose, ..self.clone() });
             }
@@ -530,23 +524,69 @@ impl DepthTest {
         all
     }
 
+    /// The least and the greatest bias with which all is as it is shown; the least is greater where there is none. The sign is -1
+    /// where greater depths are nearer.
+    fn bias_range(&self, parts: &[&Pile<'_>], of: BiasOf, whose: Whose, sign: f64) -> [f64; 2] {
+        let (mut least, mut most) = (f64::MIN, f64::MAX);
+        for pile in parts {
+            if least > most {
+                break;
+            }
+            let Some(shown) = pile.layers.iter().position(|l| l.number + 1 == pile.shown) else {
+                continue;
+            };
+            // Of more than two, what is compared depends on what went before.
+            if of == BiasOf::New && pile.layers.len() > 2 {
+                continue;
+            }
+            let key = |i: usize| self.key(&pile.layers[i], pile.spot.at);
+            let times = |i: usize| match whose.holds(&pile.layers[i]) {
+                true => Self::biased(of, &pile.layers[i], i > 0),
+                false => 0.0,
+            };
+            // What is shown lies before each other triangle: that limits the bias by the room between both.
+            for other in (0..pile.layers.len()).filter(|other| *other != shown) {
+                let room = sign * (key(other) - key(shown));
+                let by = sign * (times(shown) - times(other));
+                if by > 0.0 {
+                    most = most.min(room / by);
+                } else if by < 0.0 {
+                    least = least.max(room / by);
+                }
+            }
+        }
+        [least, most]
+    }
+
     /// The depths beyond which nothing is shown.
     fn with_range(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
-        let (mut seen, mut lost) = (Vec::new(), Vec::new());
+        // The range of depths that are seen, and the depths that should be seen and are not.
+        let (mut least, mut most) = (f64::MAX, f64::MIN);
+        let mut lost = Vec::new();
         for pile in parts {
             let shown = pile.layers.iter().find(|layer| layer.number + 1 == pile.shown);
-            seen.extend(shown.map(|shown| shown.depth));
-            let is_lost = |depth: &f64| shown.is_none_or(|shown| *depth < shown.depth);
-            lost.extend(pile.layers.iter().map(|layer| layer.depth).filter(is_lost));
+            if let Some(shown) = shown {
+                (least, most) = (least.min(shown.depth), most.max(shown.depth));
+            }
+            for layer in &pile.layers {
+                if shown.is_none_or(|shown| layer.depth < shown.depth) {
+                    lost.push(layer.depth);
+                }
+            }
         }
-        let (least, most) =
-            seen.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        // A limit lies between what is seen and the nearest of what is lost on that side.
         let nearer = lost.iter().copied().filter(|v| *v < least).reduce(f64::max);
         let farther = lost.iter().copied().filter(|v| *v > most).reduce(f64::min);
-        let low = nearer.map(|nearer| [values::simplest(nearer, least), f64::MAX]);
-        let high = farther.map(|farther| [f64::MIN, values::simplest(farther, most)]);
-        let ranges = [low, high].into_iter().flatten();
-        ranges.map(|range| Self { range: Range(range), ..self.clone() }).collect()
+        let mut all = Vec::new();
+        if let Some(nearer) = nearer {
+            let range = Range([values::simplest(nearer, least), f64::MAX]);
+            all.push(Self { range, ..self.clone() });
+        }
+        if let Some(farther) = farther {
+            let range = Range([f64::MIN, values::simplest(farther, most)]);
+            all.push(Self { range, ..self.clone() });
+        }
+        all
     }
 }
 
@@ -570,8 +610,14 @@ fn orders(new: [f64; 2], kept: [f64; 2]) -> u8 {
         return EQUAL;
     }
     let is_any = new[0] <= kept[1] && kept[0] <= new[1];
-    let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
-    bit(new[0] < kept[1], LESS) | bit(is_any, EQUAL) | bit(new[1] > kept[0], GREATER)
+    let mut orders = if is_any { EQUAL } else { 0 };
+    if new[0] < kept[1] {
+        orders |= LESS;
+    }
+    if new[1] > kept[0] {
+        orders |= GREATER;
+    }
+    orders
 }
 
 impl Stage for DepthTest {
