@@ -24,6 +24,14 @@ pub struct Baseline {
     known: BTreeMap<String, u64>,
 }
 
+/// A known failure and its fingerprint, of a line `property family#number hex`.
+fn entry(line: &str) -> Option<(String, u64)> {
+    let (case, print) = line.rsplit_once(' ')?;
+    let (_, number) = case.split_once(' ')?;
+    let print = u64::from_str_radix(print, 16).ok()?;
+    number.contains('#').then(|| (case.to_owned(), print))
+}
+
 impl Baseline {
     /// Reads a file; none at all is an empty baseline.
     ///
@@ -58,12 +66,7 @@ impl Baseline {
         }
         let mut known = BTreeMap::new();
         for (line, number) in lines.filter(|(line, _)| !line.is_empty()) {
-            let entry = line.rsplit_once(' ').and_then(|(case, print)| {
-                let is_case = case.split_once(' ')?.1.contains('#');
-                let print = u64::from_str_radix(print, 16).ok()?;
-                is_case.then(|| (case.to_owned(), print))
-            });
-            let (case, print) = entry
+            let (case, print) = entry(line)
                 .ok_or_else(|| format!("line {number}: expected 'property family#number hex'"))?;
             known.insert(case, print);
         }

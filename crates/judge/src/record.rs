@@ -148,7 +148,9 @@ impl Subject for RecordedSubject {
         let mut hash = 0xcbf2_9ce4_8422_2325;
         mix(&mut hash, most_deaths);
         for question in questions {
-            question.text(1).bytes().for_each(|byte| mix(&mut hash, u64::from(byte)));
+            for byte in question.text(1).bytes() {
+                mix(&mut hash, u64::from(byte));
+            }
         }
         if let Some(answers) = self.recorded(questions, hash) {
             return answers;
@@ -157,8 +159,13 @@ impl Subject for RecordedSubject {
         let answers = self.asked.ask(questions, most_deaths);
         let took = start.elapsed();
         let strays = self.asked.strays();
-        let died = strays.iter().map(|what| line(&Answer::Died(what.clone()), 1));
-        let lines: Vec<_> = answers.iter().map(|answer| line(answer, 1)).chain(died).collect();
+        let mut lines = Vec::new();
+        for answer in &answers {
+            lines.push(line(answer, 1));
+        }
+        for what in &strays {
+            lines.push(line(&Answer::Died(what.clone()), 1));
+        }
         self.text += &format!("{hash} {} {}\n", took.as_micros(), lines.len());
         for line in &lines {
             self.text.push_str(&line.replace('\n', " "));

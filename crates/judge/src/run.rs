@@ -214,25 +214,30 @@ pub struct RunFindings {
 
 impl RunFindings {
     fn row(&mut self, name: &'static str, check: Option<Check>) -> &mut Row {
-        let at = self.rows.iter().position(|row| row.name == name).unwrap_or_else(|| {
+        let at = self.rows.iter().position(|row| row.name == name).unwrap_or(self.rows.len());
+        if at == self.rows.len() {
             self.rows.push(Row::new(name, check));
-            self.rows.len() - 1
-        });
+        }
         &mut self.rows[at]
     }
 
     /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
     pub fn unexplained(&self) -> Vec<Check> {
-        let is_explained = |row: &Row| {
-            row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
-        };
-        let is_wrong = |row: &&Row| match row.check {
-            Some(Check::Values) => row.worst > 1.0,
-            Some(Check::SampleValues) => row.wrong_cases > 0,
-            _ => row.tally.total() > 0 && !is_explained(row),
-        };
-        checks_of(self.rows.iter().filter(is_wrong))
+        let mut unexplained = Vec::new();
+        for row in &self.rows {
+            let is_explained =
+                row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0;
+            let is_wrong = match row.check {
+                Some(Check::Values) => row.worst > 1.0,
+                Some(Check::SampleValues) => row.wrong_cases > 0,
+                _ => row.tally.total() > 0 && !is_explained,
+            };
+            if is_wrong {
+                unexplained.push(row);
+            }
+        }
+        checks_of(unexplained.into_iter())
     }
 }
 
@@ -447,21 +452,25 @@ impl JudgedProgram<'_> {
 pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
     // The questions of a case depend on its family and on its number modulo 8.
     const PERIOD: u64 = 8;
-    let of_family = |family: &&Family| {
+    let mut count = 0_u64;
+    for family in asked_families(options, declared) {
         let is_asked = |index: &u64| {
             let case = adapt_case::case(family, options.seed, *index, declared);
             !Check::of(family.name, &case, *index, declared).is_empty()
         };
-        if let Some(index) = options.only {
-            return u64::from(is_asked(&index));
-        }
-        let cases = adapt_case::numbers(options, family.design()).end;
-        let (whole, rest) = (cases / PERIOD, cases % PERIOD);
-        let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
-        whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
-    };
-    let families = asked_families(options, declared);
-    families.iter().map(of_family).fold(0, u64::saturating_add)
+        let of_family = match options.only {
+            Some(index) => u64::from(is_asked(&index)),
+            None => {
+                // What is asked of one period is asked of each; the last one may be cut.
+                let cases = adapt_case::numbers(options, family.design()).end;
+                let (whole, rest) = (cases / PERIOD, cases % PERIOD);
+                let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
+                whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
+            }
+        };
+        count = count.saturating_add(of_family);
+    }
+    count
 }
 
 /// The families that have a request for a program that declares this.
@@ -480,6 +489,7 @@ pub fn run<'a>(
 ) -> RunFindings {
     let start = Instant::now();
     let families = asked_families(options, &truth.declared);
+    // Each pass has its own end: what leaves the window has the last quarter of the time.
     let end = |share: f64| options.time_limit.map(|limit| limit.mul_f64(share));
     let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
     let families = judged.families.len();
@@ -522,6 +532,7 @@ pub fn run<'a>(
         whole.out_of_time |= asker.is_late;
         whole.strays.extend(asker.strays());
     }
+    // Copies found them in any order; as they are asked, they are the same for any number of copies.
     whole.failing.sort_by_key(|f| {
         let family = judged.families.iter().position(|family| family.name == f.family);
         (family, f.index, f.property)

@@ -79,21 +79,30 @@ pub struct ShadedPixel<'a> {
     tolerance: f64,
 }
 
+/// All four samples where something holds, and else none.
+fn all_where(holds: bool) -> u8 {
+    if holds { 0b1111 } else { 0 }
+}
+
+/// A place of a pixel as floats.
+fn float((x, y): Place) -> [f64; 2] {
+    [f64::from(x), f64::from(y)]
+}
+
 impl SampleShading {
+    /// The samples that are drawn.
     fn mask(&self, pixel: &ShadedPixel<'_>) -> u8 {
-        let whole = |is: bool| if is { 0b1111 } else { 0 };
         match self.masks {
             SampleGate::Covered => pixel.right,
             SampleGate::Never => 0,
-            SampleGate::Whole => whole(pixel.right != 0),
-            SampleGate::CentreAlone => pixel.right & whole(pixel.is_centre_covered),
-            SampleGate::ByCentre => whole(pixel.is_centre_covered),
+            SampleGate::Whole => all_where(pixel.right != 0),
+            SampleGate::CentreAlone => pixel.right & all_where(pixel.is_centre_covered),
+            SampleGate::ByCentre => all_where(pixel.is_centre_covered),
         }
     }
 
     /// Where a sample gets its value, in 1/16 px.
     fn place(&self, pixel: &ShadedPixel<'_>, sample: usize) -> [f64; 2] {
-        let float = |(x, y): Place| [f64::from(x), f64::from(y)];
         let covered = pixel.right;
         match self.at {
             At::Declared => float(place(pixel.declared, covered, sample)),
@@ -104,11 +113,16 @@ impl SampleShading {
             At::First => float(SAMPLES[0]),
             At::Last => float(SAMPLES[covered.checked_ilog2().unwrap_or(0) as usize % 4]),
             At::Mean => {
-                let of =
-                    (0..4).filter(|bit| covered >> bit & 1 == 1).map(|bit| float(SAMPLES[bit]));
-                let count = f64::from(covered.count_ones().max(1));
-                let [x, y] = of.fold([0.0; 2], |[x, y], [a, b]| [x + a, y + b]);
-                [x / count, y / count]
+                let (mut sum, mut count) = ([0.0; 2], 0.0_f64);
+                for (bit, place) in SAMPLES.into_iter().enumerate() {
+                    if covered >> bit & 1 == 1 {
+                        let [x, y] = float(place);
+                        sum = [sum[0] + x, sum[1] + y];
+                        count += 1.0;
+                    }
+                }
+                // Without a sample it is the corner, as 0 divided by anything.
+                sum.map(|v| v / count.max(1.0))
             }
         }
     }
@@ -116,15 +130,17 @@ impl SampleShading {
     /// Depth and both attributes at a place of a pixel.
     fn values(&self, pixel: &ShadedPixel<'_>, place: [f64; 2]) -> [f64; 3] {
         let t = pixel.triangle;
-        let px = [0, 1].map(|k| f64::from(pixel.spot.at[k]) + place[k] / 16.0);
+        // The weights of the corners there: each is twice the area of the triangle with the other two, as a share of the whole.
         let corners = t.corners();
-        let points = corners.map(|c| [f64::from(c.x), f64::from(c.y)]);
+        let px = [0, 1].map(|k| f64::from(pixel.spot.at[k]) + place[k] / 16.0);
         let at = px.map(|v| v * f64::from(SUBPIXELS));
+        let ways = corners.map(|c| [f64::from(c.x) - at[0], f64::from(c.y) - at[1]]);
         let area = twice_area(&corners) as f64;
-        let mut weights = [0, 1, 2].map(|i| {
-            let [p, q] = [1, 2].map(|k| points[(i + k) % 3]).map(|p| [p[0] - at[0], p[1] - at[1]]);
-            (p[0] * q[1] - p[1] * q[0]) / area
-        });
+        let mut weights = [0.0; 3];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let (p, q) = (ways[(i + 1) % 3], ways[(i + 2) % 3]);
+            *weight = (p[0] * q[1] - p[1] * q[0]) / area;
+        }
         if self.range == Limit::Weights {
             weights = weights.map(|weight| weight.clamp(0.0, 1.0));
             let sum: f64 = weights.iter().sum();
@@ -217,11 +233,13 @@ impl Stage for SampleShading {
         let mut seen = 0;
         for SampledValues { mask, values } in &part.drawn {
             let found = [values.depth, values.varying.x, values.varying.y];
-            let are_right = (0..4)
-                .filter(|sample| mask >> sample & 1 == 1)
-                .all(|sample| self.has_values(part, sample, found));
-            if seen & mask != 0 || !are_right {
+            if seen & mask != 0 {
                 return false;
+            }
+            for sample in 0..4 {
+                if mask >> sample & 1 == 1 && !self.has_values(part, sample, found) {
+                    return false;
+                }
             }
             seen |= mask;
         }

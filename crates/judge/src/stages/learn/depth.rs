@@ -40,7 +40,10 @@ impl Tiles {
     fn of(piles: &[Pile<'_>]) -> Self {
         let mut tiles = TILES.map(|_| HashMap::new());
         for pile in piles {
-            let covering = pile.layers.iter().fold(0, |bits, layer| bits | bit(layer.number));
+            let mut covering = 0;
+            for layer in &pile.layers {
+                covering |= bit(layer.number);
+            }
             for ((side, _), tiles) in TILES.into_iter().zip(&mut tiles) {
                 *tiles.entry(tile(pile.spot.at, side)).or_insert(0) |= covering;
             }
@@ -78,41 +81,62 @@ pub enum Change {
 }
 
 impl PixelOfList<'_> {
-    /// The layer with the least depth, if there is any.
-    fn nearest<'l>(layers: impl Iterator<Item = &'l Layer<'l>>) -> Option<&'l Layer<'l>> {
-        layers.min_by(|a, b| a.depth.total_cmp(&b.depth))
+    /// The layer with the least depth among some, if there is any; of equal depths the first.
+    fn nearest_of(&self, is_kept: &dyn Fn(&Layer<'_>) -> bool) -> Option<&Layer<'_>> {
+        let mut nearest: Option<&Layer<'_>> = None;
+        for layer in &self.pile.layers {
+            let is_nearer =
+                nearest.is_none_or(|nearest| layer.depth.total_cmp(&nearest.depth).is_lt());
+            if is_kept(layer) && is_nearer {
+                nearest = Some(layer);
+            }
+        }
+        nearest
     }
 
     fn is_shown(&self, layer: &Layer<'_>) -> bool {
         layer.number + 1 == self.pile.shown
     }
 
+    /// The layer that is shown, if it is one of those that cover the pixel.
+    fn shown(&self) -> Option<&Layer<'_>> {
+        self.pile.layers.iter().find(|layer| self.is_shown(layer))
+    }
+
     /// Whether what is shown is the nearest of some layers, or nothing where there are none.
     fn shows_nearest(&self, is_kept: &dyn Fn(&Layer<'_>) -> bool) -> bool {
-        let kept = || self.pile.layers.iter().filter(|layer| is_kept(layer));
-        let Some(nearest) = Self::nearest(kept()) else { return self.pile.shown == 0 };
-        kept().any(|l| self.is_shown(l) && l.depth <= nearest.depth + self.allowance)
+        let Some(nearest) = self.nearest_of(is_kept) else { return self.pile.shown == 0 };
+        let farthest = nearest.depth + self.allowance;
+        self.pile
+            .layers
+            .iter()
+            .any(|layer| self.is_shown(layer) && is_kept(layer) && layer.depth <= farthest)
     }
 
     fn first(&self) -> Option<&Layer<'_>> {
-        Self::nearest(self.pile.layers.iter())
+        self.nearest_of(&|_| true)
     }
 
     fn second(&self) -> Option<&Layer<'_>> {
         let first = self.first()?.number;
-        Self::nearest(self.pile.layers.iter().filter(|layer| layer.number != first))
+        self.nearest_of(&|layer| layer.number != first)
+    }
+
+    fn by_number(&self, number: usize) -> Option<&Layer<'_>> {
+        self.pile.layers.iter().find(|layer| layer.number == number)
     }
 
     /// The triangle that a change shows; without one, that which is shown.
     fn alternative(&self, change: Option<&Change>) -> Option<&Layer<'_>> {
-        let by_number = |number: usize| self.pile.layers.iter().find(|l| l.number == number);
         match change {
-            None => by_number(self.pile.shown.checked_sub(1)?),
+            None => self.by_number(self.pile.shown.checked_sub(1)?),
             Some(Change::Test(test)) => {
-                by_number((test.shown(&self.pile).trailing_zeros() as usize).checked_sub(1)?)
+                // The lowest bit is that of nothing, the next ones those of the triangles.
+                let first = test.shown(&self.pile).trailing_zeros() as usize;
+                self.by_number(first.checked_sub(1)?)
             }
             Some(Change::Without(condition, _)) => {
-                Self::nearest(self.pile.layers.iter().filter(|l| !condition.holds(&self.row_of(l))))
+                self.nearest_of(&|layer| !condition.holds(&self.row_of(layer)))
             }
             Some(Change::Nothing) => None,
             Some(Change::Second) => self.second(),
@@ -150,12 +174,20 @@ impl PixelOfList<'_> {
     ) {
         let Some(l) = layer else { return self.of_no_layer([whose, who, of_whom], out) };
         let [x, y] = self.pile.spot.at;
-        let others = || self.pile.layers.iter().map(|other| other.number);
-        let before = others().filter(|other| *other < l.number).count() as i64;
-        let after = others().filter(|other| *other > l.number).count() as i64;
-        let corners = l.triangle.corners().map(|c| [c.x, c.y]);
-        let least = [0, 1].map(|axis| corners.iter().map(|c| c[axis]).min().unwrap_or(0));
-        let most = [0, 1].map(|axis| corners.iter().map(|c| c[axis]).max().unwrap_or(0));
+        // Its place among the others, in drawing order.
+        let (mut before, mut after) = (0, 0);
+        for other in &self.pile.layers {
+            before += i64::from(other.number < l.number);
+            after += i64::from(other.number > l.number);
+        }
+        // The box around its corners.
+        let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for corner in l.triangle.corners() {
+            for (axis, v) in [corner.x, corner.y].into_iter().enumerate() {
+                least[axis] = least[axis].min(v);
+                most[axis] = most[axis].max(v);
+            }
+        }
         let row = |v: i32| i64::from(v.div_euclid(SUBPIXELS));
         let number = l.number as i64;
         for (v, noun) in [
@@ -247,8 +279,11 @@ impl Learnable for Depths {
         let noise = declared.tolerance.clamp(DepthTest::NOISE[0], DepthTest::NOISE[1]);
         let piles = DepthTest::parts(&asked.question, &asked.answer, declared, noise);
         let tiles = Arc::new(Tiles::of(&piles));
-        let part = |pile| PixelOfList { asked, pile, allowance, tiles: tiles.clone() };
-        piles.into_iter().map(part).collect()
+        let mut parts = Vec::new();
+        for pile in piles {
+            parts.push(PixelOfList { asked, pile, allowance, tiles: Arc::clone(&tiles) });
+        }
+        parts
     }
 
     fn is_right(part: &PixelOfList<'_>) -> bool {
@@ -274,26 +309,24 @@ impl Learnable for Depths {
         let (first, other) = (part.first(), part.alternative(change));
         part.of_layer(first, NEAREST, out);
         part.of_layer(other, SHOWN, out);
-        let both = first.zip(other);
-        let between =
-            |of: &dyn Fn(&Layer<'_>, &Layer<'_>) -> i64| both.map_or(NONE, |(a, b)| of(a, b));
-        out.number(
-            Unit::Count,
-            between(&|a, b| b.number as i64 - a.number as i64),
-            &["the place in the list of the one shown instead less that of the nearest"],
-        );
-        out.number(
-            Unit::Value,
-            between(&|a, b| value(b.depth - a.depth)),
-            &["the depth of the one shown instead less that of the nearest"],
-        );
+        // How far the one shown instead lies from the nearest one; nothing where one of both is missing.
+        let (mut places, mut depths) = (NONE, NONE);
+        if let (Some(first), Some(other)) = (first, other) {
+            places = other.number as i64 - first.number as i64;
+            depths = value(other.depth - first.depth);
+        }
+        let noun = "the place in the list of the one shown instead less that of the nearest";
+        out.number(Unit::Count, places, &[noun]);
+        let noun = "the depth of the one shown instead less that of the nearest";
+        out.number(Unit::Value, depths, &[noun]);
     }
 
     fn changes(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work) -> Vec<Change> {
         let piles: Vec<&Pile<'_>> = wrong.iter().map(|part| &part.pile).collect();
-        let tests = singles::<DepthTest>(&piles).into_iter().map(Change::Test);
-        let left_out = left_out(wrong, right, work);
-        [Change::Nothing, Change::Second].into_iter().chain(left_out).chain(tests).collect()
+        let mut all = vec![Change::Nothing, Change::Second];
+        all.extend(left_out(wrong, right, work));
+        all.extend(singles::<DepthTest>(&piles).into_iter().map(Change::Test));
+        all
     }
 
     fn both(a: &Change, b: &Change) -> Option<Change> {
@@ -314,19 +347,20 @@ impl Learnable for Depths {
 /// Which triangles are left out, where those that should be seen and are not have something in common.
 fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work) -> Option<Change> {
     let mut examples = Examples::default();
+    // Lost is what lies before the triangle that is shown, or any where none is; it should be left out.
     for part in wrong {
-        let shown = part.pile.layers.iter().find(|layer| part.is_shown(layer));
-        let lost =
-            part.pile.layers.iter().filter(|layer| {
-                shown.is_none_or(|shown| layer.depth + part.allowance < shown.depth)
-            });
-        for layer in lost {
-            examples.should(part.row_of(layer), part.asked.number);
+        let shown = part.shown();
+        for layer in &part.pile.layers {
+            if shown.is_none_or(|shown| layer.depth + part.allowance < shown.depth) {
+                examples.should(part.row_of(layer), part.asked.number);
+            }
         }
     }
+    // What is shown is not left out.
     for part in wrong.iter().chain(&spread(right, 2 * wrong.len())) {
-        let shown = part.pile.layers.iter().find(|layer| part.is_shown(layer));
-        shown.into_iter().for_each(|layer| examples.should_not(part.row_of(layer)));
+        if let Some(layer) = part.shown() {
+            examples.should_not(part.row_of(layer));
+        }
     }
     let part = wrong.first()?;
     let mut out =

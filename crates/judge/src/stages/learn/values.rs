@@ -255,6 +255,12 @@ impl Place {
     }
 }
 
+/// The same place in the next pixel along an axis.
+fn next(mut at: [f64; 2], axis: usize) -> [f64; 2] {
+    at[axis] += 1.0;
+    at
+}
+
 fn in_px(subpixels: i32) -> f64 {
     f64::from(subpixels) / f64::from(SUBPIXELS)
 }
@@ -286,11 +292,7 @@ impl ValueOfPixel<'_> {
     fn term(&self, term: Term) -> f64 {
         let corners = self.of.corners[self.which];
         let at = self.place();
-        let slope = |axis: usize| {
-            let mut next = at;
-            next[axis] += 1.0;
-            self.of.values(next)[self.which] - self.right()
-        };
+        let slope = |axis: usize| self.of.values(next(at, axis))[self.which] - self.right();
         match term {
             Term::One => 1.0,
             Term::Right => self.right(),
@@ -418,14 +420,10 @@ impl ValueOfPixel<'_> {
     /// What is added up in a term, without signs.
     fn size(&self, term: Term) -> f64 {
         let at = self.place();
-        let next = |axis: usize| {
-            let mut next = at;
-            next[axis] += 1.0;
-            self.size_at(next) + self.size_at(at)
-        };
+        let of_slope = |axis: usize| self.size_at(next(at, axis)) + self.size_at(at);
         match term {
-            Term::Slope(axis) => next(axis),
-            Term::SlopeFromSide(axis) => next(axis) * f64::from(self.at[axis]),
+            Term::Slope(axis) => of_slope(axis),
+            Term::SlopeFromSide(axis) => of_slope(axis) * f64::from(self.at[axis]),
             Term::At(place) => self.size_at(self.other_place(place)),
             // Within the triangle no weight is below 0, so that it is no more than the largest corner.
             _ => self.term(term).abs().max(self.largest()),
