@@ -39,6 +39,7 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     chosen
 }
 
+/// The family of a name; nothing where none of those that are asked has it.
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
@@ -51,6 +52,7 @@ pub fn numbers(options: &Options, design: Option<&Topic>) -> Range<u64> {
     start..end.saturating_mul(blocks)
 }
 
+/// Whether the cases of a family are thin lines, which have verbs and checks of their own.
 #[must_use]
 pub fn is_lines(family: &Family) -> bool {
     cases::lines::FAMILIES.iter().any(|f| f.name == family.name)

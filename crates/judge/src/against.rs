@@ -93,6 +93,7 @@ impl Pair<'_> {
         all
     }
 
+    /// The names of both sides, by which deaths and complaints are told apart.
     fn names(&self) -> [String; 2] {
         names([self.sides[0].declared(), self.sides[1].declared()])
     }
@@ -109,6 +110,7 @@ pub fn names([first, second]: [&Declared; 2]) -> [String; 2] {
     [first.name.clone(), other]
 }
 
+/// What a program did, with its name before it.
 fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
     Misbehaviour { how: format!("{name}: {}", what.how), ..what }
 }

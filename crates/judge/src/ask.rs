@@ -19,6 +19,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::oracle::formula::Formula;
 use rasterproof_verify::partition::{self, Polygon};
 
+/// A request: what is asked, and the window whose pixels the answer may have. Windows of the protocol begin at the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     pub width: u32,
@@ -26,6 +27,7 @@ pub struct Question {
     pub of: Asked,
 }
 
+/// What a request asks, one variant for each verb of the protocol.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// T: the pixels of a triangle.
@@ -82,6 +84,8 @@ impl Asked {
 /// The letters that answers begin with, of every verb.
 pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKUGBZOE";
 
+/// What came back for a question, one variant for each letter that answers begin with, and two for what is no answer of one
+/// program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// C: runs of covered pixels as they came.
@@ -205,6 +209,7 @@ pub struct Misbehaviour {
 }
 
 impl Breach {
+    /// The misbehaviour of this kind, with how it was seen.
     pub fn by(self, how: impl Into<String>) -> Misbehaviour {
         Misbehaviour { breach: self, how: how.into() }
     }
@@ -236,7 +241,11 @@ impl fmt::Display for Misbehaviour {
     }
 }
 
+/// Somebody who answers questions: a program behind pipes, an engine in memory, or a record of earlier answers. The judge asks all
+/// of
+/// them through this trait and cannot tell them apart.
 pub trait Subject: Send {
+    /// What it says of itself, which decides what it is asked and by which rules it is judged.
     fn declared(&self) -> &Declared;
 
     /// An answer for each question, in order; fewer where that many of them are deaths, or where its time
@@ -428,6 +437,7 @@ fn each<T>(
     Ok(items)
 }
 
+/// A pixel of a thin line: its column and its row.
 fn pixel(words: &mut Words<'_>) -> Option<(i32, i32)> {
     Some((words.int()?, words.int()?))
 }
@@ -437,14 +447,17 @@ fn clip_corner(words: &mut Words<'_>) -> Option<ClipCorner> {
     Some([words.float()?, words.float()?, words.float()?, words.float()?, 0.0])
 }
 
+/// The same with the attribute that A asks for.
 fn carried_corner(words: &mut Words<'_>) -> Option<ClipCorner> {
     Some([words.float()?, words.float()?, words.float()?, words.float()?, words.float()?])
 }
 
+/// A triangle of a polygon, by its three points.
 fn triangle(words: &mut Words<'_>) -> Option<partition::Triangle> {
     Some([point(words)?, point(words)?, point(words)?])
 }
 
+/// A number alone, as formulas give them.
 fn float(words: &mut Words<'_>) -> Option<f64> {
     words.float()
 }
@@ -453,6 +466,7 @@ fn point(words: &mut Words<'_>) -> Option<[f64; 2]> {
     Some([words.float()?, words.float()?])
 }
 
+/// A run: its row, its first column, and the column after its last one.
 fn span(words: &mut Words<'_>) -> Option<Span> {
     Some(Span { y_px: words.int()?, x0_px: words.int()?, x1_px: words.int()? })
 }
@@ -462,12 +476,14 @@ fn marked(words: &mut Words<'_>) -> Option<(Span, u8)> {
     Some((span(words)?, words.int().and_then(|mark| u8::try_from(mark).ok())?))
 }
 
+/// A pixel with depth and both attributes.
 fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
     Some(Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) })
 }
 
+/// A pixel with a mask of samples, and the values that all of these have.
 fn sampled(words: &mut Words<'_>) -> Option<SampledValues> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let mask = words.int().and_then(|mask| u8::try_from(mask).ok())?;
@@ -561,10 +577,12 @@ fn write_marked(letter: char, runs: &[(Span, u8)], items: &mut Vec<String>) -> c
     letter
 }
 
+/// A run in the order of the protocol: the row comes first.
 fn run_of(run: &Span) -> String {
     format!("{} {} {}", run.y_px, run.x0_px, run.x1_px)
 }
 
+/// Depth and both attributes, each as the shortest decimal that reads back as the same number.
 fn values_of(f: &Fragment<DVec2>) -> String {
     format!("{} {} {}", f.depth, f.varying.x, f.varying.y)
 }

@@ -15,6 +15,7 @@ use rasterproof_host::{input, limits};
 use super::run::{Failing, RunFindings};
 use super::verdict::{Outcome, Verdict};
 
+/// The first line of a file. The seed is in it because another seed has other cases under the same names.
 const HEADER: &str = "# rasterproof baseline 1, seed ";
 
 /// Known failures: a fingerprint for each `property family#number`.

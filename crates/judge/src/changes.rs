@@ -146,6 +146,8 @@ struct AskedAgain {
 }
 
 impl AskedAgain {
+    /// Asks the case of a failure again; nothing where the time was up before it was answered, or where it has no such check any
+    /// more.
     fn of(program: &mut dyn Subject, of: &Failing, seed: u64, truth: &Truth) -> Option<Self> {
         let family = adapt_case::family(of.family)?;
         let case = adapt_case::case(family, seed, of.index, &truth.declared);
@@ -193,6 +195,7 @@ fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
     faults
 }
 
+/// A fault is said once, however many rows show it.
 fn add_once(faults: &mut Vec<String>, fault: String) {
     if !faults.contains(&fault) {
         faults.push(fault);
@@ -370,6 +373,7 @@ impl LineSpot<'_> {
     }
 }
 
+/// The corners of a question about coverage; places of triangles are those of such questions alone.
 fn corners(question: &Question) -> Option<&Corners> {
     match &question.of {
         Asked::Coverage(corners) => Some(corners),
@@ -436,6 +440,7 @@ struct PlaceTable {
 }
 
 impl PlaceTable {
+    /// A table without a pixel yet.
     fn new(check: Check) -> Self {
         let (names, all, wrong, wrong_pixels) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { check, names, all, wrong, wrong_pixels }
@@ -489,6 +494,7 @@ impl PlaceTable {
         }
     }
 
+    /// Counts the pixels of a triangle that are drawn, that should be, or that lie where another one like them is drawn.
     fn add_triangle(
         &mut self,
         question: &Question,
@@ -540,6 +546,7 @@ impl PlaceTable {
         }
     }
 
+    /// Counts the pixels of a line that are drawn or should be.
     fn add_line(
         &mut self,
         question: &Question,

@@ -26,6 +26,7 @@ use rasterproof_verify::comparison::{Expectation, Tally, Winding};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
+/// What is judged in the answers to a case. A case may have several checks, and each asks its own questions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Check {
@@ -61,6 +62,7 @@ pub enum Check {
     Outline,
 }
 
+/// By what a program is judged: what it declares, and what it was seen to do.
 pub struct Truth {
     pub declared: Declared,
     /// What it is expected to draw, as declared.
@@ -107,6 +109,7 @@ rasterproof_core::named! {
 }
 
 impl CaseJudgement {
+    /// What is wrong with the answers to a case in words, parts of a sentence that are joined by commas.
     pub fn describe(&self, check: Check) -> String {
         let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
@@ -600,6 +603,7 @@ fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
     if is_other { [a, c, b] } else { [a, b, c] }
 }
 
+/// Judges the answer to a question about one triangle, whatever kind of answer it is: the pixels first, then what is in them.
 fn one_triangle(
     judged: &mut CaseJudgement,
     triangle: &Triangle,
@@ -773,6 +777,7 @@ fn levels(
     }
 }
 
+/// Judges the pixels of a line as declared and, where another convention was recognised, by that one too.
 fn one_line(
     judged: &mut CaseJudgement,
     line: &Line,

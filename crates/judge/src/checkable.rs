@@ -119,6 +119,7 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
     Some(out)
 }
 
+/// A pixel with what is written into it.
 fn pixel(x: i32, y: i32, values: Vec<f64>) -> PlainPixel {
     PlainPixel { x, y, values }
 }

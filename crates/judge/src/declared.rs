@@ -102,12 +102,14 @@ rasterproof_core::named! {
 /// The words for what a tessellator promises.
 const FILL_RULES: [(&str, partition::FillRule); 2] =
     [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
+/// The words for the turn of its triangles.
 const WINDINGS: [(&str, partition::Winding); 4] = [
     ("alike", partition::Winding::Alike),
     ("ccw", partition::Winding::Counterclockwise),
     ("cw", partition::Winding::Clockwise),
     ("any", partition::Winding::Any),
 ];
+/// The words for the numbers in which it computes.
 const COORDINATES: [(&str, partition::Coordinates); 3] = [
     ("f64", partition::Coordinates::F64),
     ("f32", partition::Coordinates::F32),
@@ -238,6 +240,7 @@ fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
     list.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
 }
 
+/// The word of a list that stands for a value; each value has one.
 fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str {
     list.iter().find(|(_, known)| known == value).map_or("", |(word, _)| word)
 }
@@ -336,6 +339,7 @@ impl Declared {
         Ok(())
     }
 
+    /// Sets the field that a word is about; nothing where no field is, or where the value cannot be used.
     fn take(&mut self, key: &str, value: Option<&str>) -> Option<()> {
         match (key, value) {
             ("coverage", None) => self.coverage = true,
@@ -456,6 +460,7 @@ impl Declared {
         self.sample_values && self.has_standard_samples()
     }
 
+    /// Whether samples lie where the protocol has them: the pixel is sampled at its centre by the top-left rule.
     fn has_standard_samples(&self) -> bool {
         self.shape == Shape::Sample && self.convention.is_standard()
     }
@@ -475,6 +480,7 @@ impl Declared {
         }
     }
 
+    /// The words for the kinds of questions that it answers.
     pub fn capabilities(&self) -> Vec<&'static str> {
         let mut all = vec![
             ("coverage", self.coverage),

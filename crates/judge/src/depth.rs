@@ -39,6 +39,7 @@ struct Seen {
     has_to_be: bool,
 }
 
+/// The triangles of a question about depth, with what may be seen of each.
 pub(super) struct Pile {
     layers: Vec<Layer>,
     window: PixelRect,

@@ -13,6 +13,7 @@ use rasterproof_verify::convention::{self, Declarations, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
+/// What is expected of a program: a convention that it declares, or one that it was recognised to follow.
 pub trait Expect: Send + Sync {
     /// The picture in a window at the origin; nothing where nothing is promised.
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation>;

@@ -273,6 +273,7 @@ pub struct AskedCase {
 }
 
 impl AskedCase {
+    /// Asks the questions of a case, and judges the answers.
     fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
@@ -293,6 +294,7 @@ impl AskedCase {
     }
 }
 
+/// The smallest case of a failure. Its words are those of the first time where the time is up before it could be asked again.
 fn failure(
     program: &mut Spending<'_>,
     found: &RunFindings,
@@ -482,11 +484,13 @@ impl Kind {
     }
 }
 
+/// The words of a sentence without its numbers, which differ between cases of the same kind.
 fn words(what: &str) -> Vec<String> {
     let words = what.split(' ').filter(|word| !word.starts_with(|c: char| c.is_ascii_digit()));
     words.map(|word| word.trim_end_matches(',').to_owned()).collect()
 }
 
+/// Whether a point lies on one of the three edges.
 fn is_on_edge([a, b, c]: Corners, at: [i32; 2]) -> bool {
     [[a, b], [b, c], [c, a]].iter().any(|&[from, to]| lies_between(from, to, at))
 }

@@ -61,6 +61,7 @@ impl From<&Entry> for Declared {
     }
 }
 
+/// An engine of the registry that is judged in memory: its answers go through the text of the protocol, as those of a program do.
 pub struct Inside {
     entry: Entry,
     declared: Declared,

@@ -45,6 +45,7 @@ pub struct CaseJudgement {
 }
 
 impl CaseJudgement {
+    /// Whether anything about the case is to be reported: a count, a value beyond its tolerance, or a death.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         let has_no_answer = self.refused > 0 || !self.died.is_empty();
@@ -63,6 +64,7 @@ impl CaseJudgement {
         mark
     }
 
+    /// Counts a refusal; of several, the reason of the first one is kept.
     pub(super) fn refuse(&mut self, reason: &str) {
         if self.refused == 0 {
             self.reason = reason.to_owned();

@@ -27,6 +27,7 @@ pub struct Kind {
     pub mistake: Option<String>,
 }
 
+/// A row of the league: a library, and how its triangles and lines came out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ranked {
     pub name: String,
@@ -49,6 +50,7 @@ pub struct Ranked {
     pub unanswered: [u64; 2],
 }
 
+/// The whole table, with what is needed to make it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct League {
     pub rasterproof: String,
@@ -91,6 +93,7 @@ impl League {
 }
 
 impl Ranked {
+    /// The row of a library, from the verdict on its adapter.
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));

@@ -16,7 +16,9 @@ use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::comparison::pixels::hits;
 use rasterproof_verify::convention::{Count, Quantum};
 
+/// The families whose shapes leave the window: of triangles, and of lines.
 const FAMILIES: [&str; 2] = ["partly-off", "line-clipped"];
+/// Cases of a family that are looked at.
 const CASES: u64 = 48;
 
 /// Whether a corner lies outside the window, once it is on the grid that was found. One on the right or
@@ -29,6 +31,7 @@ pub fn triangle_leaves(corners: &Corners, quantum: Quantum, window: PixelRect) -
     !corners.iter().all(|corner| is_in(corner.x, window.x1) && is_in(corner.y, window.y1))
 }
 
+/// Whether an end of a line lies outside the window.
 pub fn line_leaves(ends: &[PixelPoint; 2], window: PixelRect) -> bool {
     ends.iter().any(|end| !window.contains(end.x, end.y))
 }
@@ -49,6 +52,7 @@ impl Leaving {
         self.is_usual() && self.gross == 0
     }
 
+    /// Whether at least a tenth comes out otherwise: fewer may be ordinary mistakes.
     fn is_usual(&self) -> bool {
         10 * self.otherwise.drawn >= self.otherwise.of && self.otherwise.drawn > 0
     }
@@ -67,6 +71,7 @@ impl Leaving {
     }
 }
 
+/// The window of a question.
 fn window(q: &Question) -> PixelRect {
     PixelRect::window(q.width, q.height)
 }

@@ -13,6 +13,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::values::{Exact, at_crossing};
 
+/// x, y, z, w and the attribute of a corner, exactly.
 type Corner = [Exact; 5];
 
 /// The corners that are left, in the order of the triangle's; the plane is z = -w, or z = 0.

@@ -40,6 +40,7 @@ pub(super) fn difference(
     }
 }
 
+/// Counts numbers that are missing or too many.
 fn count(judged: &mut CaseJudgement, has: usize, of: usize) {
     judged.finding.tally.missing += of.saturating_sub(has) as u64;
     judged.finding.tally.extra += has.saturating_sub(of) as u64;

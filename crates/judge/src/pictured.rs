@@ -18,6 +18,7 @@ use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::oracle::Oracle;
 
+/// Two pictures side by side: what was drawn, and what was expected or what another program drew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
     pub drawn: Coverage,
@@ -96,6 +97,7 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &CaseJudgement)
     if parts.is_empty() { judged.describe(check) } else { parts.join(", ") }
 }
 
+/// The picture of a check, of one program. Each check has its own, since what is compared differs.
 fn picture(
     check: Check,
     case: &Case,
@@ -136,6 +138,7 @@ fn picture(
     }
 }
 
+/// Several pictures as one: hits of the same pixel add up. Nothing where there is none.
 fn sum(pictures: &[Coverage], window: PixelRect) -> Option<Coverage> {
     let mut whole = Coverage::new(window, 0);
     for (y, row) in pictures.iter().flat_map(Coverage::rows) {
@@ -289,6 +292,7 @@ mod tests {
     use crate::declared::Declared;
     use rasterproof_verify::cases::Triangle;
     use rasterproof_verify::cases::near_plane::{ClipCorner, FAMILIES, clip_corners};
+    use rasterproof_verify::oracle::values::Exact;
 
     fn pictures(check: Check, case: &Case, answers: &[Answer]) -> Pictured {
         let truth = Truth::of(&Declared::default());

@@ -8,10 +8,12 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_verify::comparison::pixels::{as_runs, hits};
 
+/// The pixel of a fragment as a run of one. Its column may be the largest number there is.
 pub(super) fn pixel_of(f: &Fragment<DVec2>) -> Span {
     Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
 }
 
+/// How many pixels runs have; a run that ends before it begins counts as if it were turned round.
 pub(super) fn length(runs: &[Span]) -> u64 {
     runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
 }

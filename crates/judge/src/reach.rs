@@ -42,6 +42,9 @@ pub fn side(program: &mut dyn Subject) -> Option<i32> {
     })
 }
 
+/// The length up to which a program answers soon, found by lengths that grow by [`GROWTH`]; nothing where it draws any length in
+/// time,
+/// or is not asked for such shapes.
 fn longest(
     program: &mut dyn Subject,
     is_asked: bool,

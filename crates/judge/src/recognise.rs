@@ -35,6 +35,7 @@ use rasterproof_verify::convention::{
 use rasterproof_verify::judge::AFTER_FAILURE;
 use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
+/// What was found about the convention of a program.
 pub struct Recognised {
     pub said: Said,
     pub triangles: Option<Diagnosis>,
@@ -47,6 +48,7 @@ pub struct Recognised {
     pub is_late: bool,
 }
 
+/// The same in words, for reports.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Said {
     /// What the program does, a sentence or two for triangles and for lines.
@@ -62,6 +64,7 @@ pub struct Said {
     pub is_open: bool,
 }
 
+/// What is looked for, and for how long.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope {
     pub triangles: bool,
@@ -161,6 +164,7 @@ impl Recognised {
     }
 }
 
+/// A sentence as a clause after what it is about: its first letter becomes small.
 fn clause(about: &str, sentence: &str) -> String {
     let mut chars = sentence.chars();
     let first = chars.next().map(|c| c.to_ascii_lowercase());
@@ -232,6 +236,7 @@ impl Expect for Recognition {
     }
 }
 
+/// What the search for a convention may take for granted, since the program declares it or was seen to do it.
 fn known(declared: &Declared) -> Declarations {
     let known = Declarations::from(&declared.convention);
     // The range is as short as the program was seen to need.
@@ -378,20 +383,24 @@ fn programs<'a, Q: 'a, A: 'a>(
     all
 }
 
+/// The picture that a program in memory draws.
 fn of_triangle(question: &TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
     let asked = triangle_question(question);
     program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
 }
 
+/// The pixels of a line that a program in memory draws.
 fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]>> {
     program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
 }
 
+/// A question of the search as the protocol asks it.
 fn triangle_question(q: &TriangleQuestion) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     Question { width, height, of: Asked::Coverage(q.corners) }
 }
 
+/// The same of a line; `whole` is for programs that know whole pixels alone.
 fn line_question(q: &LineQuestion, whole: bool) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     let ends = q.ends.map(|[x, y]| PixelPoint::new(x, y));
@@ -404,12 +413,14 @@ fn as_triangle(question: &Question) -> Option<TriangleQuestion> {
     Some(TriangleQuestion { corners, window: PixelRect::window(question.width, question.height) })
 }
 
+/// The same of lines.
 fn as_line(question: &Question) -> Option<LineQuestion> {
     let Asked::Line { ends, .. } = question.of else { return None };
     let window = PixelRect::window(question.width, question.height);
     Some(LineQuestion { ends: ends.map(|end| [end.x, end.y]), window })
 }
 
+/// The pixels of an answer about a line; nothing of other answers, such as a refusal.
 fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
     match answer {
         Answer::Line(pixels) => Some(pixels.into_iter().map(|(x, y)| [x, y]).collect()),
@@ -439,6 +450,7 @@ impl<'a> Bench<'a> {
         left.map_or(Duration::ZERO, |(patience, left)| patience.saturating_sub(left))
     }
 
+    /// The answers to some questions; nothing more once the program has died too often, or its time is up.
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
         if self.deaths_left == 0 || self.program.is_late {
             return Vec::new();
@@ -465,12 +477,14 @@ impl<'a> Bench<'a> {
         }
     }
 
+    /// The pictures of triangles, for [`Bench::search`].
     fn triangles(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
         answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
     }
 
+    /// The pixels of lines, for [`Bench::search`].
     fn lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();

@@ -87,6 +87,7 @@ pub struct Sides {
 }
 
 impl Sides {
+    /// A case, by which of both programs is right and by whether their answers differ.
     pub(super) fn of(right: [bool; 2], differ: bool) -> Self {
         let one = |is_it: bool| u64::from(is_it);
         Self {
@@ -115,10 +116,12 @@ impl Row {
         self.wrong_cases as f64 / self.cases.max(1) as f64
     }
 
+    /// A property without a case yet.
     fn new(name: &'static str, check: Option<Check>) -> Self {
         Self { name, check, ..Self::default() }
     }
 
+    /// Adds a judged case.
     fn count(&mut self, judged: &CaseJudgement) {
         self.cases += 1;
         self.shapes += judged.shapes;
@@ -144,6 +147,7 @@ impl Row {
     }
 }
 
+/// A failing case: where it is found again, and a fingerprint of what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
     pub property: &'static str,
@@ -154,6 +158,7 @@ pub struct Failing {
 }
 
 impl Failing {
+    /// The failing case of a judgement.
     #[must_use]
     pub fn new(family: &Family, index: u64, check: Check, judged: &CaseJudgement) -> Self {
         let (property, fingerprint) = (check.name(family.name), judged.fingerprint());
@@ -187,6 +192,7 @@ pub struct Changing {
     pub answers: [Vec<Answer>; 2],
 }
 
+/// Everything that was found while all cases were asked.
 #[derive(Clone, Debug, Default)]
 pub struct RunFindings {
     pub rows: Vec<Row>,
@@ -213,6 +219,7 @@ pub struct RunFindings {
 }
 
 impl RunFindings {
+    /// The row of a property, which is made where there is none yet.
     fn row(&mut self, name: &'static str, check: Option<Check>) -> &mut Row {
         let at = self.rows.iter().position(|row| row.name == name).unwrap_or(self.rows.len());
         if at == self.rows.len() {
@@ -274,6 +281,7 @@ struct Job {
 }
 
 impl Job {
+    /// The requests of the job alone.
     fn questions(&self, truth: &Truth) -> Vec<Question> {
         let mut questions = Vec::new();
         self.check.questions(&self.case, truth, &mut questions);
@@ -299,6 +307,8 @@ struct Counts {
 }
 
 impl Counts {
+    /// Whether the program had to be started again so often that nothing more is asked. Hangs count for more, since each is waited
+    /// for.
     fn gave_up(&self) -> bool {
         // One that has never answered is given up sooner.
         let most = match self.found.answered {
@@ -413,6 +423,7 @@ impl JudgedProgram<'_> {
         })
     }
 
+    /// Adds what was found about a job to its row, to the incidents and to the failing cases that are remembered.
     fn note(&self, found: &mut RunFindings, family: &Family, job: &Job, judged: &CaseJudgement) {
         let &Job { index, check, .. } = job;
         let (property, remember) = (check.name(family.name), self.options.terms.remember);

@@ -107,6 +107,7 @@ pub(super) fn compare(
     }
 }
 
+/// Compares the values of one sample with the exact ones of the place where they are computed.
 fn compare_one(
     judged: &mut CaseJudgement,
     triangle: &Triangle,

@@ -23,6 +23,7 @@ pub struct ProgramSteps<'a> {
 }
 
 impl<'a> ProgramSteps<'a> {
+    /// The steps from a case; a smaller one may have no more triangles without an area than this one has.
     pub fn new(check: Check, case: &Case, may_be: &'a dyn Fn(&Case) -> bool) -> Self {
         let most_flat = if has_depth(check) { flat(case) } else { usize::MAX };
         Self { check, most_flat, may_be }
@@ -51,14 +52,17 @@ impl Steps for ProgramSteps<'_> {
     }
 }
 
+/// Whether the check asks for depths, or for z and w, which are numbers to be made simpler.
 fn has_depth(check: Check) -> bool {
     matches!(check, Check::Depth | Check::Near | Check::Carried | Check::Wide)
 }
 
+/// How many triangles have no area.
 fn flat(case: &Case) -> usize {
     triangles(case).iter().filter(|t| twice_area(&t.corners()) == 0).count()
 }
 
+/// The triangles of a case; of lines and formulas there are none.
 fn triangles(case: &Case) -> &[Triangle] {
     if let Shape::Triangles { list, .. } = &case.shape { list } else { &[] }
 }
@@ -178,6 +182,7 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
     found
 }
 
+/// A case of these triangles. Whether they are disjoint does not matter to one that is asked again by the same check.
 fn case_of(window: PixelRect, list: Vec<Triangle>) -> Case {
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
 }

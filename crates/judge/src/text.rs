@@ -38,6 +38,7 @@ pub fn printable(bytes: &[u8], most: usize) -> String {
 pub struct Words<'a>(pub &'a [u8]);
 
 impl<'a> Words<'a> {
+    /// The next word, between white space.
     pub fn word(&mut self) -> Option<&'a [u8]> {
         let start = self.0.iter().position(|b| !b.is_ascii_whitespace())?;
         let rest = &self.0[start..];
@@ -52,10 +53,12 @@ impl<'a> Words<'a> {
         word.parse().ok().filter(|_| !word.starts_with('+'))
     }
 
+    /// The next word as a number, also where it is none or infinite: that is judged, and not refused.
     pub fn float(&mut self) -> Option<f64> {
         number(std::str::from_utf8(self.word()?).ok()?)
     }
 
+    /// Whether no word is left.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.iter().all(u8::is_ascii_whitespace)

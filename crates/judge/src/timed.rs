@@ -29,6 +29,7 @@ pub struct Timed<'a> {
 }
 
 impl<'a> Timed<'a> {
+    /// Somebody who is asked until a time; `None` is no end.
     pub fn new(asked: &'a mut dyn Subject, end: Option<Instant>) -> Self {
         let took = Duration::ZERO;
         Self { asked, end, left: None, batch: 1, answered: 0, took, is_late: false }

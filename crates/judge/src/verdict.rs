@@ -15,6 +15,7 @@ use super::windings::Windings;
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::judge::{self, LeftOut};
 
+/// What came of a property, also in the light of a baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -27,12 +28,14 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Whether nothing is to be done about it: it holds, or its failures are all known.
     #[must_use]
     pub fn is_good(self) -> bool {
         matches!(self, Self::Pass | Self::ExpectedFailure)
     }
 }
 
+/// Something that should hold of a program, and whether it does.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Property {
     pub name: &'static str,
@@ -70,6 +73,7 @@ pub struct Particulars {
     pub asked: Vec<DesignShare>,
 }
 
+/// How many pixels are wrong, of how many that are expected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Score {
     pub wrong: u64,
@@ -163,6 +167,7 @@ pub fn verdict(
     Verdict { options: options.clone(), families: rows, failures, cause, more: of }
 }
 
+/// The properties of a verdict: the protocol first, then whether it draws at all, then a property for each row.
 fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
     let property = |name, about: &str, holds: bool, detail: String| Property {
         name,
@@ -203,6 +208,7 @@ fn keeps_protocol(found: &RunFindings) -> bool {
     found.incidents.is_empty() && found.strays.is_empty() && !found.gave_up
 }
 
+/// How a program kept the protocol, in words: each breach once, and how many answers there were.
 fn manners(found: &RunFindings) -> String {
     let whats = found.incidents.iter().map(|i| &i.what).chain(&found.strays);
     let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
@@ -365,6 +371,7 @@ impl Scores for Verdict {
     }
 }
 
+/// What a row is about: of checks over all families their sentence, else what the family holds.
 fn about(row: &Row) -> String {
     if let Some((_, about)) = CHECKS.iter().find(|(check, _)| row.check == Some(*check)) {
         return (*about).to_owned();
@@ -373,6 +380,7 @@ fn about(row: &Row) -> String {
     family.map_or_else(String::new, |f| format!("as expected: {}", f.about))
 }
 
+/// A row in words: how many cases agree, then whatever is wrong in parts of the sentence.
 pub fn sentence(row: &Row) -> String {
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),

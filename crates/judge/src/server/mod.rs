@@ -29,10 +29,12 @@ use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Vari
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::oracle::formula::Formula;
 
+/// Bytes that are read at once.
 const READ_BYTES: usize = 1 << 16;
 /// Triangles of a request for depth order.
 const MOST_LAYERS: usize = 64;
 
+/// Answers requests until the input ends.
 pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io::Result<()> {
     let mut input = BufReader::with_capacity(READ_BYTES, input);
     let mut line = Vec::new();
@@ -92,6 +94,7 @@ fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<boo
     Ok(true)
 }
 
+/// Why a request has no answer, or an answer no end.
 enum Stop {
     /// `id reason`.
     Refused(String),
@@ -104,6 +107,7 @@ impl From<std::io::Error> for Stop {
     }
 }
 
+/// Writes the answer to a request. The verb decides how many numbers follow, and which part of the engine is asked.
 fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
@@ -184,6 +188,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     Ok(out.write_all(b"\n")?)
 }
 
+/// The numbers of a request; the first that cannot be read is named by its place.
 fn read_numbers(words: &[&str]) -> Result<Vec<f64>, String> {
     let read = |(i, word): (usize, &&str)| {
         number(word).ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
@@ -191,6 +196,7 @@ fn read_numbers(words: &[&str]) -> Result<Vec<f64>, String> {
     words.iter().enumerate().map(read).collect()
 }
 
+/// What the engine says of itself, in the words of the version that is spoken.
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
     let declared = Declared::from(entry);
     match rest {
@@ -236,6 +242,7 @@ fn printable(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(40).collect()
 }
 
+/// The window of a request, from the origin.
 fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     let side = |name: &str, word: &str| {
         word.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE_PX).contains(side)).ok_or_else(|| {
@@ -245,6 +252,7 @@ fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     Ok(PixelRect::window(side("width", width)?, side("height", height)?))
 }
 
+/// Corner `i` of a request, snapped to the lattice.
 fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     let snap = |value: f64, axis: &str| {
         rasterproof_core::grid::snap(value).map_err(named(&format!("{axis}{i}")))
@@ -264,6 +272,7 @@ fn vertex(
         .map_err(|(name, refusal)| named(&format!("{name}{i}"))(refusal))
 }
 
+/// T: the runs of a triangle, as the engine makes them.
 fn cover(engine: impl Rasterize, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
@@ -318,9 +327,11 @@ fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('C', n, runs))
 }
 
+/// Samples are tested in triangles that are moved by up to half a pixel, which has to stay in the domain.
 const NO_PLACE: &str =
     "a corner lies within half a pixel of the domain's end, where samples have no place";
 
+/// S: the runs of pixels with the same samples covered.
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let masks = multisample::masks(&engine, corners, window).ok_or(NO_PLACE)?;
@@ -335,6 +346,7 @@ fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('M', n, runs))
 }
 
+/// D: the runs of pixels that show the same triangle.
 fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let mut list = Vec::new();
     for (number, of_one) in numbers.chunks_exact(9).enumerate() {
@@ -372,6 +384,7 @@ fn near(numbers: &[f64], carries: bool) -> Reply {
     Ok((if carries { 'B' } else { 'G' }, polygon.len(), corners))
 }
 
+/// T of engines that take positions as they are, not snapped.
 fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     for (i, &px) in numbers.iter().enumerate() {
         let axis = if i % 2 == 0 { 'x' } else { 'y' };
@@ -403,6 +416,7 @@ fn pixel(value: f64, name: &str) -> Result<i32, String> {
     }
 }
 
+/// L: the pixels of a line in drawing order.
 fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     let end = |i: usize| -> Result<_, String> {
         let x = pixel(numbers[2 * i], &format!("x{i}"))?;
@@ -417,6 +431,7 @@ fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('P', n, pixels))
 }
 
+/// A triangle with values, and how many fragments it has.
 type Values = (ScreenTriangle<DVec2>, u64);
 
 /// The triangle of an `I` or `X` request.

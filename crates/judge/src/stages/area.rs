@@ -127,6 +127,7 @@ choices! {
 }
 
 impl Tone {
+    /// What becomes of a share between 0 and 1.
     fn of(self, share: f64) -> f64 {
         match self {
             Self::Linear => share,

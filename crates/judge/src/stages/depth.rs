@@ -82,6 +82,7 @@ pub enum Key {
     FromHalf,
 }
 
+/// What repairs a program that sorts whole triangles: no order of these is right where they cross.
 const SORTED: &str = "compare depths at every pixel";
 /// The numbers, with their words and the repair.
 const KEYS: [(Key, &str, &str); 10] = [
@@ -137,6 +138,7 @@ pub struct Bias {
     of: BiasOf,
 }
 
+/// What a bias is added for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum BiasOf {
     #[default]
@@ -239,6 +241,7 @@ impl Field for Store {
     }
 }
 
+/// The bits of the orders that a new number may have against the one that is kept.
 const LESS: u8 = 1;
 const EQUAL: u8 = 2;
 const GREATER: u8 = 4;
@@ -253,6 +256,7 @@ impl Default for Compare {
     }
 }
 
+/// The repairs of comparisons that keep the wrong end, and of programs that compare nothing.
 const TURNED: &str =
     "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth";
 const COMPARED: &str = "compare depths before a pixel is written";
@@ -329,6 +333,7 @@ pub enum Whose {
 }
 
 impl Whose {
+    /// Whether the triangle of a layer is one of those that are treated wrongly.
     fn holds(self, layer: &Layer<'_>) -> bool {
         let [a, b, c] = depths(layer.triangle);
         match self {
@@ -395,6 +400,7 @@ fn depth_at(t: &Triangle, place: [f64; 2]) -> f64 {
     sum(weights(&t.corners(), place), depths(t))
 }
 
+/// States that are the same come to the same, so each is followed once.
 fn add_once(states: &mut Vec<DepthState>, state: DepthState) {
     if !states.contains(&state) {
         states.push(state);

@@ -125,6 +125,7 @@ fn topic(name: &str) -> Option<&'static Topic> {
     TOPICS.iter().find(|topic| topic.name == name)
 }
 
+/// Whether nothing can be judged in place of an answer.
 fn is_missing(answer: &Answer) -> bool {
     matches!(answer, Answer::Refused(_) | Answer::Died(_))
 }
@@ -153,6 +154,7 @@ pub fn mistakes<'a>(
     Search::new(async move |asker| known_or_learned(&asker, check, truth, programs).await)
 }
 
+/// The mistake of those that are known, or what is learned where none of them predicts every answer.
 async fn known_or_learned(
     asker: &StageAsker,
     check: Check,
@@ -232,6 +234,7 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
     }
 }
 
+/// Whether no answer shows anything.
 fn is_blank(all: &[Answered]) -> bool {
     !all.is_empty() && all.iter().flat_map(|a| &a.answers).all(Answer::is_blank)
 }
@@ -243,6 +246,7 @@ struct PartsByCase<'a> {
 }
 
 impl<'a> PartsByCase<'a> {
+    /// The parts of all answers for a check; nothing of checks that have no stage.
     fn new(check: Check, all: &'a [Answered], declared: &Declared, noise: f64) -> Option<Self> {
         let mut parts = stage_of(check)?;
         let mut cases = Vec::new();
@@ -435,6 +439,7 @@ struct ValuedPixel {
 }
 
 impl ValuedPixel {
+    /// What may be said of it, beside its place: which of its values are right.
     fn quantities(&self) -> Vec<Quantity> {
         let mut all = self.spot.quantities();
         let [depth, first, second] = self.is_right;
@@ -444,6 +449,7 @@ impl ValuedPixel {
         all
     }
 
+    /// A pixel, with each of its values looked at alone: the other two are taken to be right.
     fn new(t: &Triangle, f: &Fragment<DVec2>, window: PixelRect, tolerance: f64) -> Self {
         let [right, given] = values::pixel_of(t, f);
         let is_right = [0, 1, 2].map(|i| {

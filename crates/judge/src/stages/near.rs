@@ -43,6 +43,7 @@ pub enum Plane {
 }
 
 impl Plane {
+    /// How far a corner lies before the plane, below 0 behind it. `is_zero` says which plane is declared.
     fn distance(self, [_, _, z, w, _]: ClipCorner, is_zero: bool) -> f64 {
         match self {
             Self::Near => z + if is_zero { 0.0 } else { w },
@@ -157,6 +158,7 @@ impl Field for KeptCorners {
     }
 }
 
+/// What repairs a new corner, whichever of its numbers is wrong.
 const NEW_REPAIR: &str = "a new corner divides the edge as the distances of its ends do, in all of x, y, z, w and attributes";
 
 /// The part of the way from the corner that stays to the one that goes.

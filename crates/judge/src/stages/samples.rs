@@ -178,6 +178,7 @@ pub(super) const POINTS: [((i32, i32), &str); 8] = [
     ((8, 16), "the middle of the lower side"),
 ];
 
+/// What may have to hold of a pixel before its samples are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum If {
     Centre,
@@ -193,6 +194,7 @@ pub enum If {
 }
 
 impl If {
+    /// Whether it holds of a pixel, of whose samples those in the mask are covered.
     fn holds(self, mask: u8, pixel: &Masked<'_>) -> bool {
         match self {
             Self::Centre => pixel.is_centre_covered,
@@ -204,6 +206,7 @@ impl If {
         }
     }
 
+    /// What is said of it, after a pixel.
     fn words(self) -> String {
         match self {
             Self::Centre => "whose centre is covered".to_owned(),
@@ -447,10 +450,12 @@ impl SampleMask {
         mask
     }
 
+    /// The corners of the triangle on the grid.
     fn corners(&self, pixel: &Masked<'_>) -> Corners {
         self.grid.0.snap(pixel.corners)
     }
 
+    /// The rule of a triangle, by its winding.
     fn ties(&self, corners: &Corners) -> &'static Ties {
         &TIES[self.rule.0[usize::from(twice_area(corners) < 0)]]
     }

@@ -164,6 +164,7 @@ pub struct Quantity {
     says: Says,
 }
 
+/// How a quantity is said: as a number with a name, or as what holds where it is 1 and where it is 0.
 #[derive(Clone, Copy)]
 enum Says {
     Number(&'static str),
@@ -171,6 +172,7 @@ enum Says {
 }
 
 impl Quantity {
+    /// A number with its name.
     pub fn number(name: &'static str, value: impl Into<f64>) -> Self {
         Self { value: value.into(), says: Says::Number(name) }
     }
@@ -200,6 +202,7 @@ pub trait AnswerParts<'a> {
     /// What the parts are, in the plural.
     fn whom(&self) -> &'static str;
 
+    /// The value of a program that makes no mistake.
     fn right(&self) -> AnyValue;
 
     /// The right value with one field changed, with what is read off the parts at these places.
@@ -323,6 +326,7 @@ pub fn singles<S: Stage>(parts: &[&S::Part<'_>]) -> Vec<S> {
     all
 }
 
+/// A test of a number, of which the simplest that tells wrong parts from right ones are tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Test {
     Is(f64),
@@ -431,6 +435,7 @@ pub struct Mistake {
 }
 
 impl Mistake {
+    /// A value that is wrong in all places.
     fn everywhere(value: AnyValue) -> Self {
         Self { value, facts: Vec::new() }
     }
@@ -446,6 +451,7 @@ impl Mistake {
         parts.explains(value, place)
     }
 
+    /// What is said of the mistake, with the facts of the places where it is made.
     pub fn says(&self, parts: &dyn AnswerParts<'_>) -> Explanation {
         let facts: Vec<_> = self.facts.iter().filter_map(Fact::words).collect();
         let whereabouts = match facts[..] {

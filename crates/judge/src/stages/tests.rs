@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::search::{Composed as _, Stage, said_of};
+use super::search::{Stage, said_of};
 use super::*;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Span;

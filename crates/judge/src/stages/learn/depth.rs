@@ -19,6 +19,7 @@ use rasterproof_verify::learn::rows::{
 use rasterproof_verify::learn::trial::Work;
 use rasterproof_verify::mistakes::values::depths;
 
+/// Which of several triangles is seen at each pixel.
 pub struct Depths;
 
 /// A pixel with the triangles that cover it, of which the nearest may be shown.
@@ -37,6 +38,7 @@ const TILES: [(i32, &str); 4] = [(4, "4 px"), (8, "8 px"), (16, "16 px"), (32, "
 struct Tiles([HashMap<[i32; 2], u64>; TILES.len()]);
 
 impl Tiles {
+    /// The triangles of each tile, from all pixels of an answer.
     fn of(piles: &[Pile<'_>]) -> Self {
         let mut tiles = TILES.map(|_| HashMap::new());
         for pile in piles {
@@ -66,10 +68,12 @@ fn bit(number: usize) -> u64 {
     1u64.checked_shl(number as u32).unwrap_or(0)
 }
 
+/// The tile of a pixel, by its column and its row of tiles.
 fn tile(at: [i32; 2], side: i32) -> [i32; 2] {
     at.map(|at| at.div_euclid(side))
 }
 
+/// What a program may do in place of showing the nearest triangle.
 #[derive(Clone)]
 pub enum Change {
     Test(DepthTest),
@@ -94,6 +98,7 @@ impl PixelOfList<'_> {
         nearest
     }
 
+    /// Whether a triangle is the one that is shown; `shown` counts from 1, and 0 is none.
     fn is_shown(&self, layer: &Layer<'_>) -> bool {
         layer.number + 1 == self.pile.shown
     }
@@ -113,15 +118,18 @@ impl PixelOfList<'_> {
             .any(|layer| self.is_shown(layer) && is_kept(layer) && layer.depth <= farthest)
     }
 
+    /// The nearest triangle, which is right.
     fn first(&self) -> Option<&Layer<'_>> {
         self.nearest_of(&|_| true)
     }
 
+    /// The nearest one but that.
     fn second(&self) -> Option<&Layer<'_>> {
         let first = self.first()?.number;
         self.nearest_of(&|layer| layer.number != first)
     }
 
+    /// The layer of a triangle, if it covers the pixel.
     fn by_number(&self, number: usize) -> Option<&Layer<'_>> {
         self.pile.layers.iter().find(|layer| layer.number == number)
     }
@@ -248,6 +256,7 @@ impl PixelOfList<'_> {
         out.values[start..].fill(NONE);
     }
 
+    /// How many triangles the question has.
     fn list_length(&self) -> i64 {
         match &self.asked.question.of {
             Asked::Depth(list) => list.len() as i64,

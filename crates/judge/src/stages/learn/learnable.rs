@@ -42,8 +42,10 @@ pub trait Learnable: 'static {
     /// The quantities of a question beyond those of its kind.
     fn of_question(case: &Case, out: &mut Quantities);
 
+    /// The parts of an answer, in an order that is the same for every run.
     fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<Self::Part<'a>>;
 
+    /// Whether a program without a mistake may give this part.
     fn is_right(part: &Self::Part<'_>) -> bool;
 
     /// Whether the answer is the one that a program with this change gives.

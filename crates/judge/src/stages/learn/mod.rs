@@ -71,6 +71,7 @@ const FRESH: [usize; 2] = [180, 150];
 const MOST_FRESH: usize = 3;
 /// Cases beside those nearest to a limit that are made, and those of them that the program gets.
 const NEAR_TRIED: usize = 200;
+/// The program gets the nearest of them.
 const NEAR_ASKED: usize = 16;
 /// Questions for the nearest right case: two thirds make the wrong one smaller.
 const NEAREST_ASKED: usize = 180;
@@ -79,6 +80,7 @@ const MOST_AREA: i32 = 4096;
 /// The questions are the same in every run.
 const SEED: u64 = 11;
 
+/// Learns of one program in one check: what it was asked so far, and what it still may be asked.
 struct Learner<'a> {
     stage: &'static dyn AnyLearnable,
     asker: &'a StageAsker,
@@ -115,6 +117,7 @@ impl<'a> Learner<'a> {
         }
     }
 
+    /// Asks until enough is wrong, explains it, and says how well the explanation predicts new answers.
     async fn learn(mut self) -> Option<Learned> {
         self.ask_first().await?;
         if self.wrong().len() < LEAST_WRONG {
@@ -174,6 +177,7 @@ impl<'a> Learner<'a> {
         }
     }
 
+    /// A number below this one, at random.
     fn any_below(&mut self, count: usize) -> usize {
         self.rng.int(0, count as i64 - 1) as usize
     }
@@ -235,6 +239,7 @@ impl<'a> Learner<'a> {
         }
     }
 
+    /// Asks cases in batches, as long as the program may be asked.
     async fn ask_in_batches(&mut self, mut cases: Vec<Case>) -> Option<()> {
         while !cases.is_empty() && self.left > 0 {
             let rest = cases.split_off(cases.len().min(AT_ONCE));
@@ -324,6 +329,7 @@ impl<'a> Learner<'a> {
         (parts.count() > 0).then(|| !are_all_right(&*parts))
     }
 
+    /// What is said of what was learned: sentences where the chain explains most, and what is known where it is not certain.
     async fn learned(&mut self, trial: Trial, chain: &Chain) -> Learned {
         let mut learned = Learned::default();
         learned.part = self.stage.part_name();

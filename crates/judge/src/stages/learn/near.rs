@@ -12,6 +12,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::learn::rows::{NONE, Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
+/// The polygons that the near plane leaves.
 pub struct Polygons;
 
 /// A polygon, or one number of a new corner of it.
@@ -32,7 +33,9 @@ struct NewNumber {
     given: f64,
 }
 
+/// The corners of the triangle, in words.
 const ORDINALS: [&str; 3] = ["first", "second", "third"];
+/// The numbers of a corner, in words.
 const NUMBERS: [&str; 5] = ["x", "y", "z", "w", "the attribute"];
 
 impl Learnable for Polygons {
@@ -163,6 +166,7 @@ impl Learnable for Polygons {
 
 /// What is computed of a corner, with its name.
 type Combined = (&'static str, fn(ClipCorner) -> f64);
+/// What clippers compute of a corner on the way.
 const COMBINED: [Combined; 4] = [
     ("z + w", |p| p[2] + p[3]),
     ("z / w", |p| p[2] / p[3]),

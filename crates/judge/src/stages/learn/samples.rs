@@ -15,6 +15,7 @@ use rasterproof_verify::cases::facts::{Topic, triangles};
 use rasterproof_verify::learn::rows::{Quantities, TriangleInWindow, Unit};
 use rasterproof_verify::learn::trial::Work;
 
+/// The four samples of each pixel.
 pub struct Samples;
 
 /// A sample of a pixel.

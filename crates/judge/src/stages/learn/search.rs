@@ -80,6 +80,7 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
+    /// Takes all answers apart. The parts keep their places, by which everything else means them.
     pub(super) fn of(
         stage: &'a dyn AnyLearnable,
         answered: &'a [LearnedCase],
@@ -147,6 +148,7 @@ impl<'a> Search<'a> {
         })
     }
 
+    /// The row of a part, with or without what a change makes of it.
     fn row_with(&self, place: usize, change: Option<&AnyChange>) -> Vec<i64> {
         row(&self.answered[self.questions[place]], &*self.parts, place, change)
     }

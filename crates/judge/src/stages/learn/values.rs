@@ -19,6 +19,7 @@ use rasterproof_verify::learn::rows::{NONE, Quantities, TriangleInWindow, Unit, 
 use rasterproof_verify::learn::trial::Work;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, sum, weights};
 
+/// Depth and both attributes of each pixel.
 pub struct Values;
 
 /// A triangle with what is the same in all of its pixels.
@@ -139,6 +140,7 @@ impl fmt::Display for AreaWord {
     }
 }
 
+/// The terms that are tried with every base, those first that say least.
 const TERMS: [Term; 22] = [
     Term::Right,
     Term::One,
@@ -211,6 +213,7 @@ pub enum Base {
     Uncorrected,
 }
 
+/// What a program may do in place of interpolating a value.
 #[derive(Clone)]
 pub enum Change {
     Relation {
@@ -223,14 +226,17 @@ pub enum Change {
     Recipe(Rc<ValueHypothesis>),
 }
 
+/// Which value a part is, as facts have it: what holds, and what does not.
 const IS: [[&str; 2]; 3] = [
     [" is depth", " is not depth"],
     [" is the first attribute", " is not the first attribute"],
     [" is the second attribute", " is not the second attribute"],
 ];
+/// The three values, in words.
 const NAMES: [&str; 3] = ["depth", "the first attribute", "the second attribute"];
 
 impl Place {
+    /// What is said of a place, as the value that is taken there.
     fn words(self) -> String {
         let line = |axis: usize| ["row", "column"][axis];
         let of = match self {
@@ -261,6 +267,7 @@ fn next(mut at: [f64; 2], axis: usize) -> [f64; 2] {
     at
 }
 
+/// A coordinate in subpixels as pixels, exactly.
 fn in_px(subpixels: i32) -> f64 {
     f64::from(subpixels) / f64::from(SUBPIXELS)
 }
@@ -275,20 +282,24 @@ impl TriangleOfValues<'_> {
         [0, 1, 2].map(|k| sum(if k == 0 { linear } else { corrected }, self.corners[k]))
     }
 
+    /// 1 / w at a place, which is linear in the window.
     fn inverse_w(&self, at: [f64; 2]) -> f64 {
         sum(weights(&self.triangle.corners(), at), self.triangle.vertices.map(|v| v.inv_w))
     }
 }
 
 impl ValueOfPixel<'_> {
+    /// The sample of the pixel, in pixels.
     fn place(&self) -> [f64; 2] {
         [0, 1].map(|axis| f64::from(self.at[axis]) + self.of.sample[axis])
     }
 
+    /// The right value of those that this part is one of.
     fn right(&self) -> f64 {
         self.right[self.which]
     }
 
+    /// What a term comes to at the pixel.
     fn term(&self, term: Term) -> f64 {
         let corners = self.of.corners[self.which];
         let at = self.place();
@@ -352,6 +363,7 @@ impl ValueOfPixel<'_> {
         [0, 1].map(|axis| f64::from(at[axis]) + self.of.sample[axis])
     }
 
+    /// The value on the straight line between the exact ones at both ends of a stretch of the row.
     fn straight(&self, Stretch { side, is_in_window, is_cut }: Stretch) -> f64 {
         let [first, last] = self.ends(0);
         let first = if is_in_window { first.max(0) } else { first };
@@ -393,6 +405,7 @@ impl ValueOfPixel<'_> {
         [(least - sample).ceil() as i32, (most - sample).ceil() as i32 - 1]
     }
 
+    /// What a base comes to at the pixel.
     fn base(&self, base: Base) -> f64 {
         match base {
             Base::Nothing => 0.0,
@@ -430,6 +443,7 @@ impl ValueOfPixel<'_> {
         }
     }
 
+    /// The largest magnitude of the value at the corners.
     fn largest(&self) -> f64 {
         self.of.corners[self.which].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()))
     }
@@ -661,6 +675,7 @@ impl Learnable for Values {
     }
 }
 
+/// How the other interpolation is said: depth is linear in the window, and attributes are not.
 const UNCORRECTED: &str =
     "the value interpolated the other way (depth with perspective, attributes without)";
 
