@@ -52,8 +52,11 @@ impl Patience {
 /// The failing cases of a run, why they fail, and what the time was too short for.
 #[derive(Default)]
 pub struct Explained {
+    /// The failing cases that are shown.
     pub failures: Vec<Failure>,
+    /// Why they fail, for each check in which something is wrong.
     pub causes: Vec<Why>,
+    /// What the time was too short for.
     pub left_out: LeftOut,
 }
 

@@ -17,6 +17,7 @@ use super::{Options, Step, finish, for_families, reach};
 
 /// Two programs behind one [`Subject`]: each answer is [`Answer::Two`].
 struct Pair<'a> {
+    /// The two programs, the first of which has the conventions of the pair.
     sides: [&'a mut dyn Subject; 2],
     /// What both can answer, with the conventions of the first.
     declared: Declared,

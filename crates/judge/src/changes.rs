@@ -33,20 +33,26 @@ const LEAST: u64 = 2;
 pub struct JudgementRecord {
     /// What is wrong in a few words each, what is wrong most first.
     pub faults: Vec<String>,
+    /// The cases that fail, to be asked again.
     failing: Vec<Failing>,
     /// The names of the cases that fail, and of all that were judged, as in a baseline.
     wrong: BTreeMap<String, u64>,
+    /// The names of all cases that were judged, whatever came of them.
     judged: HashSet<String>,
 }
 
 /// How a judgement differs from the one before.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
+    /// What was wrong before and is right now.
     pub mended: Vec<String>,
+    /// What was wrong before and still is.
     pub still: Vec<String>,
+    /// What was right before, as far as cases show.
     pub new: Vec<String>,
     /// Cases that failed before and are right now, and those that still fail.
     pub right_now: u64,
+    /// Cases that fail in both.
     pub still_wrong: u64,
     /// Cases that were right before.
     pub wrong_now: u64,
@@ -262,9 +268,11 @@ struct Spot<'a> {
     on_edge: [bool; 4],
     /// The first and last column and row of the window whose samples lie between the corners; they may have no pixel.
     columns: [i32; 2],
+    /// The same of rows.
     rows: [i32; 2],
     /// The first and last column and row with a pixel that is expected.
     drawn_columns: [i32; 2],
+    /// The same of rows.
     drawn_rows: [i32; 2],
     /// The first and last pixel that is expected in its row.
     run: Option<[i32; 2]>,
@@ -275,6 +283,7 @@ struct LineSpot<'a> {
     question: &'a Question,
     ends: [PixelPoint; 2],
     pixel: [i32; 2],
+    /// Whether the pixels come in the order in which they are expected.
     is_in_order: bool,
 }
 
@@ -424,7 +433,9 @@ fn first_at_or_after(coordinate: i32, sample: i32) -> i64 {
 
 /// Which pixels of a triangle must and may be drawn, and which were.
 struct TrianglePictures {
+    /// The pixels that have to be drawn.
     must: Coverage,
+    /// Those, and the pixels of which nothing is promised.
     may: Coverage,
     drawn: Coverage,
 }
@@ -433,9 +444,13 @@ struct TrianglePictures {
 /// be drawn and those that should not are told apart: each place is there for both, one half of all behind the other.
 struct PlaceTable {
     check: Check,
+    /// The name of each place, twice: first for pixels that should be drawn, then for the others.
     names: Vec<&'static str>,
+    /// How many pixels lie at each place.
     all: Vec<u64>,
+    /// How many of them are wrong.
     wrong: Vec<u64>,
+    /// The places of each wrong pixel, a bit for each.
     wrong_pixels: Vec<u64>,
 }
 

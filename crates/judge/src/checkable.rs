@@ -17,6 +17,7 @@ use rasterproof_verify::oracle::Oracle;
 pub struct PlainPixel {
     pub x: i32,
     pub y: i32,
+    /// A mask, the number of a triangle, a level, or depth and two attributes; nothing of plain pixels.
     pub values: Vec<f64>,
 }
 
@@ -29,6 +30,7 @@ pub struct Checkable {
     pub either: Vec<[i32; 2]>,
     /// How far each value may be off; nothing may where this is empty.
     pub bounds: Vec<f64>,
+    /// Whether the pixels have to come in this order.
     pub in_order: bool,
     /// Whether it counts how often a pixel is drawn.
     pub counts_hits: bool,

@@ -17,8 +17,11 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.
 struct Layer {
+    /// The pixels that the triangle covers by every reading of the convention.
     must: Coverage,
+    /// Those, and the pixels of which nothing is promised.
     may: Coverage,
+    /// Its exact depths; nothing of a triangle without area.
     depths: Option<ExactTriangle<2>>,
 }
 
@@ -43,6 +46,7 @@ struct Seen {
 pub(super) struct Pile {
     layers: Vec<Layer>,
     window: PixelRect,
+    /// How much farther than the nearest a triangle may lie that is seen.
     allowance: f64,
 }
 

@@ -25,11 +25,14 @@ pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
 /// What was asked and answered in a failing case.
 #[derive(Clone, Debug)]
 pub struct Exchanged {
+    /// The property whose failing case it is.
     pub property: &'static str,
     /// The other properties whose smallest case shows the same.
     pub also: Vec<&'static str>,
     pub check: Check,
+    /// How small the case could be made.
     pub shrunk: HowFar,
+    /// The requests of the smallest case, in the order in which they were sent.
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
@@ -62,7 +65,9 @@ impl HowFar {
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Exchange {
+    /// As it was sent, with the id 1.
     pub request: String,
+    /// As it came, cut where it gets long.
     pub answer: String,
     /// What the other of two compared programs answered, or the same program the second time; or nothing.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -179,6 +184,7 @@ fn to_read(failure: &Failure) -> (bool, u64) {
 /// that answers at once nothing is left out on a busy machine.
 struct Spending<'a> {
     asked: &'a mut dyn Subject,
+    /// What the answers took so far.
     spent: Duration,
 }
 
@@ -269,6 +275,7 @@ fn expected(check: Check, question: &Question, truth: &Truth) -> String {
 pub struct AskedCase {
     pub questions: Vec<Question>,
     pub answers: Vec<Answer>,
+    /// What was found in the answers.
     pub judged: CaseJudgement,
 }
 
@@ -424,6 +431,7 @@ struct Kind {
     check: Check,
     /// What is wrong, without the numbers.
     words: Vec<String>,
+    /// The wrong pixels of the picture, in the order of rows.
     pixels: Vec<Pixel>,
     /// Whether the sample of the first of these lies exactly on an edge.
     on_edge: bool,
@@ -436,6 +444,7 @@ struct Kind {
 struct Pixel {
     x: usize,
     y: usize,
+    /// The character that pictures in text show there.
     mark: char,
 }
 

@@ -13,6 +13,7 @@ use rasterproof_verify::comparison::{Finding, Tally};
 pub struct CaseJudgement {
     /// Wrong pixels, of a mesh its holes and doubles; and errors of values as fractions of the tolerance.
     pub finding: Finding,
+    /// Triangles or lines that were compared.
     pub shapes: u64,
     /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
@@ -28,6 +29,7 @@ pub struct CaseJudgement {
     pub unscored_wrong: u64,
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
+    /// Why the first refused request was refused.
     pub reason: String,
     /// The first run of the answers that ends before it begins; its pixels count as pixels outside the window.
     pub backward: Option<Span>,
@@ -35,6 +37,7 @@ pub struct CaseJudgement {
     pub steps_off: f64,
     /// Where the value is whose error is the largest.
     pub worst_at: Option<(i32, i32)>,
+    /// Requests that were answered, refused ones among them.
     pub answered: u64,
     /// What happened instead of answers, with the number of the question.
     pub died: Vec<(usize, Misbehaviour)>,

@@ -10,7 +10,9 @@ use super::verdict::{self, Score, Scores as _, Shapes, Verdict};
 pub struct Adapter {
     pub name: String,
     pub library: String,
+    /// The function of the library that draws.
     pub call: String,
+    /// The program that speaks the protocol for the library, with its arguments.
     pub command: Vec<String>,
 }
 
@@ -37,6 +39,7 @@ pub struct Ranked {
     /// The day it was judged, year-month-day.
     pub date: String,
     pub call: String,
+    /// The words of its HELLO.
     pub declares: String,
     pub triangles: Option<Kind>,
     pub lines: Option<Kind>,
@@ -53,6 +56,7 @@ pub struct Ranked {
 /// The whole table, with what is needed to make it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct League {
+    /// The version that judged.
     pub rasterproof: String,
     pub seed: u64,
     pub cases: u64,

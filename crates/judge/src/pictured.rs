@@ -21,6 +21,7 @@ use rasterproof_verify::oracle::Oracle;
 /// Two pictures side by side: what was drawn, and what was expected or what another program drew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
+    /// What was drawn, by hits.
     pub drawn: Coverage,
     /// What the second of two compared programs drew.
     pub other: Option<Coverage>,

@@ -37,6 +37,7 @@ use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
 /// What was found about the convention of a program.
 pub struct Recognised {
+    /// What is said of both.
     pub said: Said,
     pub triangles: Option<Diagnosis>,
     pub lines: Option<LineDiagnosis>,
@@ -431,6 +432,7 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 /// The program as the questions want it; asked no more once it has died too often.
 struct Bench<'a> {
     program: Timed<'a>,
+    /// How often it may still die before it is asked no more.
     deaths_left: u64,
 }
 

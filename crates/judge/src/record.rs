@@ -29,11 +29,16 @@ struct Exchange {
 /// Somebody who is asked only what the record does not hold.
 pub struct RecordedSubject {
     asked: Box<dyn Subject>,
+    /// What the record still holds, in the order in which it will be asked.
     known: VecDeque<Exchange>,
+    /// The record as it will be saved.
     text: String,
+    /// How long the last answers took when they were recorded.
     took: Option<Duration>,
+    /// What went wrong without a single question at fault, until somebody asks for it.
     strays: Vec<Misbehaviour>,
     save: Save,
+    /// When the record was last saved.
     saved: Instant,
     save_every: Duration,
 }

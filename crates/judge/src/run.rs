@@ -41,14 +41,17 @@ const BEFORE: u64 = 256;
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Row {
+    /// The name of the family, or of the check where it is over all families.
     pub name: &'static str,
     /// The check that its cases were judged by; none of polygons, and of a family that was given up before the first case.
     #[serde(skip)]
     pub check: Option<Check>,
     pub cases: u64,
+    /// Triangles, lines or corners that were compared.
     pub shapes: u64,
     /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
+    /// Cases in which anything is wrong.
     pub wrong_cases: u64,
     /// Wrong pixels as declared.
     pub tally: Tally,
@@ -60,7 +63,9 @@ pub struct Row {
     pub unscored: u64,
     /// Their pixels that are wrong as declared.
     pub unscored_wrong: u64,
+    /// Requests that the program refused.
     pub refused: u64,
+    /// Values that were compared.
     pub values: u64,
     /// Those of them that are beyond the tolerance.
     pub wrong_values: u64,
@@ -68,6 +73,7 @@ pub struct Row {
     pub worst: f64,
     /// Times the program had to be started again.
     pub deaths: u64,
+    /// Whether the family was given up before its last case.
     pub stopped: bool,
     /// Who is right, where two programs are compared and the wrong cases are those that differ.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -79,6 +85,7 @@ pub struct Row {
 pub struct Sides {
     pub first: u64,
     pub second: u64,
+    /// Both are wrong, each in its own way.
     pub neither: u64,
     /// What may be drawn either way, or is declared differently.
     pub both: u64,
@@ -150,8 +157,10 @@ impl Row {
 /// A failing case: where it is found again, and a fingerprint of what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
+    /// The name of its row.
     pub property: &'static str,
     pub family: &'static str,
+    /// Its number in the family, from which the seed makes it again.
     pub index: u64,
     /// Changes when what is wrong changes.
     pub fingerprint: u64,
@@ -179,6 +188,7 @@ pub struct Incident {
     pub family: &'static str,
     pub index: u64,
     pub what: Misbehaviour,
+    /// The line that was sent.
     pub request: String,
 }
 
@@ -195,7 +205,9 @@ pub struct Changing {
 /// Everything that was found while all cases were asked.
 #[derive(Clone, Debug, Default)]
 pub struct RunFindings {
+    /// A row for each property.
     pub rows: Vec<Row>,
+    /// The failing cases that are remembered, in the order of the families.
     pub failing: Vec<Failing>,
     /// The first case of each property whose answers changed.
     pub changing: Vec<Changing>,
@@ -205,15 +217,19 @@ pub struct RunFindings {
     pub judged: Vec<(&'static str, &'static str, u64)>,
     /// Whether more failed than are remembered.
     pub forgot: bool,
+    /// What came instead of answers, the first of it.
     pub incidents: Vec<Incident>,
     /// What went wrong without a single request at fault.
     pub strays: Vec<Misbehaviour>,
+    /// Requests that were answered.
     pub answered: u64,
     /// Cases of which all was answered, and those that there are.
     pub cases: u64,
+    /// All cases that there are.
     pub of_cases: u64,
     /// Whether the time was up before all cases were judged.
     pub out_of_time: bool,
+    /// Whether the program had to be started again too often.
     pub gave_up: bool,
     pub seconds: f64,
 }
@@ -264,6 +280,7 @@ const PASSES: usize = 2;
 
 /// A program that is judged, and by what.
 struct JudgedProgram<'a> {
+    /// The families that have a request for it.
     families: Vec<&'static Family>,
     options: &'a Options,
     truth: &'a Truth,
@@ -273,6 +290,7 @@ struct JudgedProgram<'a> {
 
 /// A case and one of its checks.
 struct Job {
+    /// The number of the case in its family.
     index: u64,
     check: Check,
     case: Arc<Case>,

@@ -23,6 +23,7 @@ pub struct Timed<'a> {
     batch: usize,
     /// Answers so far, and how long they took.
     answered: u32,
+    /// How long the last answers took.
     took: Duration,
     /// Whether something was not asked, or not answered, because the time was up.
     pub is_late: bool,

@@ -19,7 +19,9 @@ use rasterproof_verify::judge::{self, LeftOut};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
+    /// It holds.
     Pass,
+    /// It does not hold, and no baseline says so.
     Fail,
     /// It does not hold, as the baseline says.
     ExpectedFailure,
@@ -39,8 +41,10 @@ impl Outcome {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Property {
     pub name: &'static str,
+    /// What should hold, as a clause.
     pub about: String,
     pub outcome: Outcome,
+    /// What was counted, in words.
     pub detail: String,
 }
 
@@ -53,6 +57,7 @@ pub struct Particulars {
     pub declared: Declared,
     /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
     pub against: Option<Declared>,
+    /// Which windings were seen to be drawn.
     pub windings: Windings,
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
@@ -68,6 +73,7 @@ pub struct Particulars {
     pub complaints: Complaints,
     /// What was not done, because the time was up.
     pub left_out: LeftOut,
+    /// What holds and what does not, the protocol first.
     pub properties: Vec<Property>,
     /// How much of all that could be asked the designs asked.
     pub asked: Vec<DesignShare>,
@@ -76,7 +82,9 @@ pub struct Particulars {
 /// How many pixels are wrong, of how many that are expected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Score {
+    /// Pixels that are missing, too many, drawn twice or out of order.
     pub wrong: u64,
+    /// Pixels that were expected.
     pub pixels: u64,
     /// Triangles and lines of which the convention says nothing.
     pub unscored: u64,

@@ -182,9 +182,11 @@ choices! {
 pub struct AreaPixel<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
+    /// The level that was answered, 0 where there was none.
     pub(super) drawn: u8,
     /// How much of it the triangle covers, exactly: 0 where the winding is not drawn.
     pub(super) share: f64,
+    /// The level of a pixel that is covered whole.
     levels: f64,
     /// How many steps the level may be off.
     tolerance: f64,

@@ -36,6 +36,7 @@ pub enum Place {
     At([f64; 2], &'static str),
     /// So far from the first pixel of a block of so many.
     Block(i32, f64),
+    /// In the first pixel of the row, for all of it.
     FirstOfRow,
 }
 
@@ -72,13 +73,21 @@ impl Field for Place {
 pub enum Key {
     #[default]
     Depth,
+    /// The depth with its other sign, as an area with a wrong sign makes it.
     Negated,
+    /// The same number for the whole triangle: the mean depth of its corners.
     Mean,
+    /// That of its nearest corner.
     Nearest,
+    /// That of the corner between both others.
     Middle,
+    /// That of its farthest corner.
     Farthest,
+    /// That of a corner by its place in the request.
     Corner(usize),
+    /// The weighted sum before it is divided by the area.
     TimesArea,
+    /// How far the depth lies from 1/2.
     FromHalf,
 }
 
@@ -134,7 +143,9 @@ impl Field for Key {
 /// A number that is added to the depth, once for each of something.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bias {
+    /// The number that is read off, in units of depth.
     by: f64,
+    /// What it is added for.
     of: BiasOf,
 }
 
@@ -147,6 +158,7 @@ enum BiasOf {
     Number,
     /// Only while it is compared with what is there.
     New,
+    /// For each unit by which depth changes to the next pixel.
     Slope,
 }
 
@@ -293,7 +305,9 @@ impl Field for Compare {
 pub enum Write {
     #[default]
     WhenShown,
+    /// The depth of the first triangle stays.
     Never,
+    /// Also where the test fails.
     Always,
 }
 
@@ -364,17 +378,21 @@ const MOST_LAYERS: usize = 64;
 /// What may be shown, and the layer whose depth may be kept meanwhile.
 #[derive(Clone, Copy, PartialEq)]
 struct DepthState {
+    /// The place of the triangle among those that are drawn at the pixel.
     shown: usize,
+    /// The place of the triangle whose depth the buffer holds.
     buffer: usize,
 }
 
 /// A triangle at a pixel.
 pub struct Layer<'a> {
+    /// The place of the triangle in the list, from 0.
     pub(super) number: usize,
     /// The depth of the triangle at the sample of the pixel.
     pub(super) depth: f64,
     /// The first pixel of its row, and the one after the last.
     pub(super) first: i32,
+    /// The column after the last pixel of its row.
     pub(super) end: i32,
     pub(super) triangle: &'a Triangle,
 }
@@ -383,7 +401,9 @@ pub struct Layer<'a> {
 pub struct Pile<'a> {
     pub(super) spot: Spot,
     pub(super) layers: Vec<Layer<'a>>,
+    /// The number of the triangle that is shown and one, or 0 where none is.
     pub(super) shown: usize,
+    /// How far rounding may move a depth, as a share of it.
     noise: f64,
 }
 

@@ -242,6 +242,7 @@ fn is_blank(all: &[Answered]) -> bool {
 /// The parts of all answers, and which of them are those of each case.
 struct PartsByCase<'a> {
     parts: Box<dyn AnswerParts<'a> + 'a>,
+    /// The places of the parts of each case.
     cases: Vec<Range<usize>>,
 }
 
@@ -435,6 +436,7 @@ fn of_values(
 /// A pixel with the values that are right in it: depth and both attributes.
 struct ValuedPixel {
     spot: Spot,
+    /// Depth and both attributes.
     is_right: [bool; 3],
 }
 

@@ -37,6 +37,7 @@ pub enum Plane {
     /// The one that is declared.
     #[default]
     Near,
+    /// Any plane, by its three coefficients.
     At([f64; 3]),
     /// z = -|w|.
     Unsigned,
@@ -111,16 +112,16 @@ impl Field for Plane {
 pub enum KeptCorners {
     #[default]
     Clipped,
+    /// Nothing is cut, and nothing dropped.
     All,
+    /// Every triangle is dropped.
     Nothing,
     /// What has no corner behind.
     Whole,
     /// What has a corner before.
     Seen,
     /// Corners behind are moved onto the plane; what lies wholly behind is left out, or not.
-    Clamped {
-        is_culled: bool,
-    },
+    Clamped { is_culled: bool },
 }
 
 /// What becomes of triangles, with its words and the repair.
@@ -166,10 +167,15 @@ const NEW_REPAIR: &str = "a new corner divides the edge as the distances of its 
 pub enum Part {
     #[default]
     Right,
+    /// The right part in fewer bits.
     Kept(Format),
+    /// Counted from the other end.
     Back,
+    /// The square of the right part, which is smaller.
     Squared,
+    /// The right part, or 1/2 where it is more.
     AtMostHalf,
+    /// The right part, or 1/2 where it is less.
     AtLeastHalf,
     /// Of the sum of the distances.
     OfSum,
@@ -222,22 +228,39 @@ choices! {
 pub enum New {
     #[default]
     Right,
+    /// The number of the corner that stays.
     Kept,
+    /// The number of the corner that is cut off.
     Lost,
+    /// That of the first end of the edge, whichever stays.
     First,
+    /// That of the second end.
     Second,
+    /// Halfway between both ends, wherever the plane cuts the edge.
     Mean,
+    /// As pixels interpolate attributes, which is right after the division by w alone.
     Perspective,
+    /// Divided by w at both ends, interpolated, and left like that.
     OverW,
+    /// The same, multiplied by the w of the new corner.
     OverWAndBack,
+    /// Multiplied by w at both ends, and divided by the w of the new corner.
     TimesWAndBack,
+    /// The right number divided by the w of the new corner.
     DividedByW,
+    /// The right number times the w of the new corner.
     TimesW,
+    /// x and y exchanged.
     Exchanged,
+    /// Always the same number.
     Is(f64),
+    /// The right number without its sign.
     Unsigned,
+    /// The right number, raised to a least one.
     AtLeast(f64),
+    /// The right number, clamped to 0 to 1.
     InUnit,
+    /// The right number in fewer bits.
     Format(Format),
 }
 
@@ -334,8 +357,11 @@ impl Field for New {
 pub enum Order {
     #[default]
     Right,
+    /// The corners go round the other way.
     Reversed,
+    /// Two corners of a quadrilateral are exchanged.
     Crossed,
+    /// What comes after the third corner is dropped.
     AtMostThree,
     /// A quadrilateral loses a corner.
     Lost(usize),
@@ -416,7 +442,9 @@ impl Field for Numbers {
 pub enum Edges {
     #[default]
     All,
+    /// Those whose second end is cut off.
     Leaving,
+    /// Those whose first end is cut off.
     Back,
 }
 
@@ -459,9 +487,13 @@ const STEP: f64 = 1e-6;
 /// A triangle and what was left of it.
 #[derive(Clone)]
 pub struct Cut<'a> {
+    /// The corners as they were asked.
     pub(super) corners: [ClipCorner; 3],
+    /// The polygon that was answered.
     pub(super) left: &'a [ClipCorner],
+    /// Whether the declared plane is z = 0.
     is_zero: bool,
+    /// How far a number may be off, as a share of the largest one asked.
     tolerance: f64,
 }
 
@@ -469,6 +501,7 @@ pub struct Cut<'a> {
 pub(super) struct NewCorner {
     /// Its place in what is left, by the right clipper.
     pub(super) place: usize,
+    /// The number of the edge, from the corner of the same number to the next one.
     pub(super) number: usize,
     pub(super) edge: Edge,
 }

@@ -75,7 +75,9 @@ pub struct ShadedPixel<'a> {
     /// The samples that are covered, as a mask.
     pub(super) right: u8,
     pub(super) is_centre_covered: bool,
+    /// Where values belong by what the program declares.
     declared: ValuePlace,
+    /// How far a value may be off, as a share of the largest one at the corners.
     tolerance: f64,
 }
 

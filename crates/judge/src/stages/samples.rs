@@ -181,16 +181,14 @@ pub(super) const POINTS: [((i32, i32), &str); 8] = [
 /// What may have to hold of a pixel before its samples are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum If {
+    /// The centre is covered, by whatever rule the samples follow.
     Centre,
     /// The point of this number in [`POINTS`] is covered, wherever the samples lie.
     Point(usize),
     /// So many samples at least are covered.
     Covered(u32),
     /// The centre lies within these sides of the box around the corners, or also on them.
-    Box {
-        sides: u8,
-        is_open: bool,
-    },
+    Box { sides: u8, is_open: bool },
 }
 
 impl If {
@@ -362,7 +360,9 @@ impl Field for Only {
 pub struct Masked<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
+    /// The samples that were answered.
     pub(super) drawn: u8,
+    /// The samples that are covered.
     pub(super) right: u8,
     pub(super) is_centre_covered: bool,
 }

@@ -76,9 +76,11 @@ fn tile(at: [i32; 2], side: i32) -> [i32; 2] {
 /// What a program may do in place of showing the nearest triangle.
 #[derive(Clone)]
 pub enum Change {
+    /// Another test of depth.
     Test(DepthTest),
     /// Triangles of which a condition holds are left out; the words say which.
     Without(Condition, String),
+    /// No triangle is shown.
     Nothing,
     /// The second nearest triangle is shown, or nothing where there is one alone.
     Second,

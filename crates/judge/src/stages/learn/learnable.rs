@@ -18,6 +18,7 @@ use crate::declared::Declared;
 
 /// A question that the program was given, with its answer and what is computed of both.
 pub struct LearnedCase {
+    /// Its place among the cases of the learner, by which examples are told apart.
     pub(super) number: usize,
     pub(super) case: Case,
     pub(super) question: Question,
@@ -95,6 +96,7 @@ pub(super) trait AnyParts<'a> {
     /// spread.
     fn add_some(&mut self, asked: &'a LearnedCase, declared: &Declared, most: [usize; 2]);
 
+    /// See [`Learnable::is_right`].
     fn is_right(&self, place: usize) -> bool;
 
     fn explains(&self, change: &AnyChange, place: usize) -> bool;

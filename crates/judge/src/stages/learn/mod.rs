@@ -92,7 +92,9 @@ struct Learner<'a> {
     /// How many cases of families were asked.
     number: u64,
     answered: Vec<LearnedCase>,
+    /// Whether any part of each answer is wrong.
     is_wrong: Vec<bool>,
+    /// How much the searches may still do.
     work: Work,
 }
 

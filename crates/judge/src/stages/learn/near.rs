@@ -23,13 +23,16 @@ pub struct PartOfPolygon<'a> {
 
 /// A number of a new corner.
 struct NewNumber {
+    /// The place of the corner in the right polygon.
     place: usize,
+    /// The number of the edge that the corner divides.
     of_edge: usize,
     edge: Edge,
     /// Of x, y, z, w and the attribute.
     which: usize,
     /// The right polygon.
     polygon: Rc<[ClipCorner]>,
+    /// The number that was answered.
     given: f64,
 }
 

@@ -21,6 +21,7 @@ pub struct Samples;
 /// A sample of a pixel.
 pub struct Sample<'a> {
     pixel: Rc<Masked<'a>>,
+    /// The number of the sample, and of its bit in masks.
     bit: u8,
     triangle: Rc<TriangleInWindow>,
 }

@@ -70,11 +70,15 @@ pub(super) struct Search<'a> {
     parts: Box<dyn AnyParts<'a> + 'a>,
     /// The question of each part, by its number.
     questions: Vec<usize>,
+    /// Whether each part is right.
     is_right: Vec<bool>,
     /// Whether an answer has right parts alone.
     is_whole_right: Vec<bool>,
+    /// What is computed once of each change.
     looked: RefCell<Vec<Rc<Looked>>>,
+    /// What the quantities of a row are called.
     names: Vocabulary,
+    /// How many of these are the quantities of the question; those of the part come after them.
     of_question: usize,
     work: &'a Work,
 }

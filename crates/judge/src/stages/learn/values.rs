@@ -37,35 +37,50 @@ struct TriangleOfValues<'a> {
 /// A value of a pixel.
 pub struct ValueOfPixel<'a> {
     of: Rc<TriangleOfValues<'a>>,
+    /// The column and the row.
     at: [i32; 2],
     /// 0 is depth, 1 and 2 are the attributes.
     which: usize,
+    /// The value that was answered.
     given: f64,
+    /// All three right values, since one may be given in place of another.
     right: [f64; 3],
+    /// How far the value may be off.
     allowed: f64,
 }
 
 /// What a program has at hand in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Term {
+    /// A number alone.
     One,
+    /// The exact value of the pixel.
     Right,
     /// Another one of the three values.
     Other(usize),
     /// Depth corrected for perspective; an attribute that is not.
     Uncorrected,
+    /// The value of a corner by its place in the request.
     Corner(usize),
+    /// The least value of the corners.
     Least,
+    /// The greatest value of the corners.
     Most,
+    /// The mean of the values of the corners.
     Mean,
     /// How the value changes to the next pixel along x or y.
     Slope(usize),
     /// The same for each pixel from the left side of the window, or from the top.
     SlopeFromSide(usize),
+    /// w at the pixel.
     W,
+    /// 1 / w at the pixel.
     InverseW,
+    /// The right value times w.
     TimesW,
+    /// The right value divided by w.
     OverW,
+    /// The right value times itself.
     Squared,
     /// The place of the sample, in pixels.
     Place(usize),
@@ -104,6 +119,7 @@ const STEPS: [([[f64; 2]; 2], &str); 7] = [
 /// Pixels of a row between two exact values, between which values are straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
+    /// How many pixels it has.
     side: i32,
     /// Whether it is counted from the first pixel in the window, else from that of the whole row.
     is_in_window: bool,
@@ -114,7 +130,9 @@ pub struct Stretch {
 /// A word in which twice the area wraps around.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaWord {
+    /// How many bits the word has.
     bits: u32,
+    /// Whether the greatest bit is a sign.
     is_signed: bool,
     /// Whether the fraction is cut first: square pixels instead of square subpixels.
     is_whole: bool,
@@ -206,23 +224,24 @@ const ROUNDING: f64 = 24.0 * f64::EPSILON / 2.0;
 /// What a term is added to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Base {
+    /// The term is the whole value.
     Nothing,
+    /// The right value.
     Right,
     /// The right value with its other sign.
     Negated,
+    /// The value interpolated the other way: see [`Term::Uncorrected`].
     Uncorrected,
 }
 
 /// What a program may do in place of interpolating a value.
 #[derive(Clone)]
 pub enum Change {
-    Relation {
-        base: Base,
-        by: f64,
-        term: Term,
-    },
+    /// The base, and a number times the term.
+    Relation { base: Base, by: f64, term: Term },
     /// No number: not finite.
     NoNumber,
+    /// One of the mistakes of the course.
     Recipe(Rc<ValueHypothesis>),
 }
 
