@@ -89,10 +89,12 @@ pub fn explain(
     if !checks.is_empty() {
         progress(Step::Cause);
     }
+    // Causes get what the smaller cases have left of the time.
     let mut asked = patience.limit(program, spent);
     let (causes, was_cut) =
         recognise::mistakes(&mut asked, &checks, truth, recognised, &failing(&failures));
     let mut left_out = left_out(found, options);
+    // Whatever was cut is said, so that nobody takes silence for a result.
     left_out.convention = recognised.is_some_and(|found| found.is_late);
     left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     left_out.cause = was_cut;

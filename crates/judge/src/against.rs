@@ -31,6 +31,7 @@ impl Subject for Pair<'_> {
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let names = self.names();
         let [first, second] = &mut self.sides;
+        // The second program is asked only what the first one answered, and both share the deaths that are allowed.
         let answers = first.ask(questions, most_deaths);
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         let others =
@@ -130,6 +131,7 @@ pub fn compare(
     progress(Step::Rule);
     let [first, second] = pairs.first_mut().expect("somebody to be asked");
     let mut both = [first.declared().clone(), second.declared().clone()];
+    // How far each one draws is measured before anything is compared.
     for (side, declared) in [first, second].into_iter().zip(&mut both) {
         let asked = &mut Timed::new(&mut **side, end);
         (declared.reach, declared.side) = (reach::reach(asked), reach::side(asked));
@@ -137,6 +139,7 @@ pub fn compare(
     // Each keeps its own conventions, and is asked what both can answer.
     let [one, other] = &both;
     let asked = [one.clone().within(one).within(other), other.clone().within(one).within(other)];
+    // What both are asked is the same; by what each is judged is its own.
     let mut truth = Truth::of(&asked[0]);
     truth.of_two = Some(Box::new(asked.each_ref().map(Truth::of)));
     let mut pairs: Vec<Pair<'_>> = pairs
@@ -150,8 +153,10 @@ pub fn compare(
     let mut askers: Vec<&mut dyn Subject> =
         pairs.iter_mut().map(|pair| pair as &mut dyn Subject).collect();
     let judged = |cases| progress(Step::Judged(cases));
+    // The cases, in which a difference of both counts as wrong.
     let mut found = run::run(&mut askers, &for_families(options, start), &truth, &judged);
     progress(Step::Smaller);
+    // Then the smallest cases that show a difference, and why one of both is wrong there.
     let pair = &mut pairs[0];
     let Explained { failures, causes, left_out } = match found.changing.is_empty() {
         true => explain(pair, &found, options, &truth, end, progress),
@@ -182,12 +187,14 @@ fn explain(
     end: Option<Instant>,
     progress: &(dyn Fn(Step) + Sync),
 ) -> Explained {
+    // First the cases are made smaller, with both programs asked at once.
     let patience = Patience::of(options, end, None);
     let (failures, mut spent) = after::smaller(pair, found, options, truth, patience);
     progress(Step::Cause);
     let mut left_out = after::left_out(found, options);
     left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     let names = pair.names();
+    // Then each side alone is asked for the cause of the rows in which it is wrong.
     let is_wrong: [fn(&Sides) -> bool; 2] =
         [|s| s.second + s.neither > 0, |s| s.first + s.neither > 0];
     let mut causes = Vec::new();

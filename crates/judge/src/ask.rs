@@ -392,11 +392,14 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
+        // Runs that are drawn often have a letter of their own.
         let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_) | Asked::Wide(_));
         if letter != self.of.letters()[1] && !has_hits {
             return Err("its letter does not belong to the request");
         }
+        // The count comes first, and what follows has to be as much.
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
+        // Each kind of question has its own kind of item.
         let answer = match self.of {
             Asked::Coverage(_) | Asked::Wide(_) if has_hits => {
                 let mut runs = Vec::new();
@@ -427,6 +430,7 @@ fn each<T>(
     words: &mut Words<'_>,
     item: fn(&mut Words<'_>) -> Option<T>,
 ) -> Result<Vec<T>, &'static str> {
+    // A count says how much room is made, but no more than the words that are there could fill.
     let mut items = Vec::with_capacity(n.min(words.0.len() / 4 + 1));
     for _ in 0..n {
         if words.is_empty() {

@@ -53,6 +53,7 @@ impl Baseline {
     /// The line that cannot be read, or another seed.
     pub fn parse(text: &str, seed: u64) -> Result<Self, String> {
         let mut lines = text.lines().zip(1..);
+        // The header says of which seed the numbers of the cases are.
         let of = lines.next().and_then(|(line, _)| line.strip_prefix(HEADER)?.parse::<u64>().ok());
         match of {
             None => {
@@ -65,6 +66,7 @@ impl Baseline {
             }
             Some(_) => {}
         }
+        // Then a line for each known failure; empty lines are allowed, since people edit such files.
         let mut known = BTreeMap::new();
         for (line, number) in lines.filter(|(line, _)| !line.is_empty()) {
             let (case, print) = entry(line)
@@ -86,12 +88,14 @@ impl Baseline {
         verdict.more.known = verdict.more.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
         let judged = judged_cases(&verdict.more.found);
+        // Each property is judged by its own cases: new failures, and known ones that do not fail any more.
         for property in &mut verdict.more.properties {
             let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
             let all: Vec<&String> = failing.keys().filter(of_it).collect();
             let new = all.iter().filter(|c| self.known.get(**c) != failing.get(**c)).count();
             let stale = self.known.keys().filter(of_it);
             let stale = stale.filter(|c| judged.contains(*c) && !failing.contains_key(*c)).count();
+            // A new failure decides before all, then a stale one.
             property.outcome = match (new, stale, property.outcome) {
                 (1.., _, _) => Outcome::Fail,
                 (0, 1.., _) => Outcome::UnexpectedPass,
@@ -116,6 +120,7 @@ impl Baseline {
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
         }
         let judged = judged_cases(&verdict.more.found);
+        // What was known of cases that were not judged now stays known.
         let mut all: BTreeMap<_, _> =
             self.known.iter().filter(|(case, _)| !judged.contains(*case)).collect();
         let failing = failing(verdict);

@@ -87,6 +87,7 @@ impl JudgementRecord {
     #[must_use]
     pub fn since(&self, before: &Self) -> Changes {
         let mut out = Changes::default();
+        // First the cases: those that were wrong before, then those that are wrong now.
         for case in before.wrong.keys() {
             if self.wrong.contains_key(case) {
                 out.still_wrong += 1;
@@ -98,11 +99,13 @@ impl JudgementRecord {
             let was_right = before.judged.contains(case) && !before.wrong.contains_key(case);
             out.wrong_now += u64::from(was_right);
         }
+        // Then the words. A fault is new only where a case shows it, since its words may have changed with another fault.
         for fault in &self.faults {
             let is_new = out.wrong_now > 0 && !before.faults.contains(fault);
             let list = if is_new { &mut out.new } else { &mut out.still };
             list.push(fault.clone());
         }
+        // In the same way, a fault is gone only where a case is right that was not.
         if out.right_now > 0 {
             let is_gone = |fault: &&String| !self.faults.contains(*fault);
             out.mended = before.faults.iter().filter(is_gone).cloned().collect();
@@ -119,6 +122,7 @@ struct OfProperty<'a> {
 
 /// Some of these, as many of each property as of the others.
 fn spread(all: &[Failing], most: usize) -> Vec<&Failing> {
+    // The cases of each property, in their order.
     let mut properties: Vec<OfProperty<'_>> = Vec::new();
     for failing in all {
         match properties.iter_mut().find(|of| of.name == failing.property) {
@@ -155,6 +159,7 @@ impl AskedAgain {
     /// Asks the case of a failure again; nothing where the time was up before it was answered, or where it has no such check any
     /// more.
     fn of(program: &mut dyn Subject, of: &Failing, seed: u64, truth: &Truth) -> Option<Self> {
+        // The case is made again from the seed, so that only its name has to be kept.
         let family = adapt_case::family(of.family)?;
         let case = adapt_case::case(family, seed, of.index, &truth.declared);
         let checks = Check::of_truth(family.name, &case, of.index, truth);
@@ -295,6 +300,7 @@ impl Spot<'_> {
     fn places(&self) -> Vec<Place> {
         let [left, right, top, bottom] = self.on_edge;
         let [x, y] = self.pixel;
+        // Of questions that are not about coverage, no place of a triangle holds.
         let area = corners(self.question).map_or(0, twice_area);
         let is_triangle = corners(self.question).is_some();
         let run = self.run;
@@ -573,6 +579,7 @@ impl PlaceTable {
         let (mut is, mut should) = (drawn.to_vec(), expected.to_vec());
         is.sort_unstable();
         should.sort_unstable();
+        // Both lists are sorted, so that a pixel is found by halves.
         let is_drawn = |pixel: &(i32, i32)| is.binary_search(pixel).is_ok();
         let is_in_order = is_set || is != should || drawn == expected;
         // A pixel beside the right one says the same as the one that is missing.
@@ -593,6 +600,7 @@ impl PlaceTable {
     fn named(mut self) -> Vec<String> {
         let mut named = Vec::new();
         while !self.wrong_pixels.is_empty() {
+            // The place that explains most of the wrong pixels that are left, if nearly all of its own pixels are wrong.
             let mut best = None;
             for place in 0..self.names.len() {
                 let count =
@@ -603,6 +611,7 @@ impl PlaceTable {
                     best = Some((count, place));
                 }
             }
+            // What it explains needs no other place.
             let Some((_, place)) = best else { break };
             self.wrong_pixels.retain(|pixel| pixel >> place & 1 == 0);
             if !named.iter().any(|name| name == self.names[place]) {

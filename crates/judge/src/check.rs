@@ -152,6 +152,7 @@ impl Check {
     #[must_use]
     pub fn describe(self, tally: &Tally, of_two: bool) -> Vec<String> {
         let Tally { missing, extra, twice, order } = *tally;
+        // Each check has its own words for what is missing, too many, twice or out of order.
         let counts = match self {
             _ if of_two => vec![
                 (missing, "only in the second answer"),
@@ -349,6 +350,7 @@ impl Check {
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
             Shape::Lines(_) | Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
             Shape::Triangles { list, disjoint } => {
+                // Which checks a case gets depends on its number: of most of them a share of all cases is enough.
                 let is_perspective = family.starts_with("w-");
                 if declared.attributes && (is_perspective || index % 8 == 3) {
                     checks.push(Self::Values);
@@ -456,6 +458,7 @@ impl Check {
     /// What happened instead of answers, where some of them are missing.
     #[must_use]
     pub fn judge_deaths(answers: &[Answer]) -> CaseJudgement {
+        // A run that ends before it begins is a finding even where the rest of the case is not judged.
         let backward = answers.iter().find_map(Answer::backward_run);
         let mut judged =
             CaseJudgement { mark: 0xcbf2_9ce4_8422_2325, backward, ..CaseJudgement::default() };
@@ -552,6 +555,7 @@ impl Check {
 
 /// How the answers of two programs differ, and whether each is right.
 fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> CaseJudgement {
+    // Each program is judged by its own declaration first.
     let sides = difference::sides(answers);
     let [first, second] = [0, 1].map(|at| check.judge(case, &sides[at], &of_two[at]));
     // What died is the same on both sides.
@@ -565,6 +569,7 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
         mark: first.mark ^ second.mark.rotate_left(1),
         ..CaseJudgement::default()
     };
+    // Then both are compared, answer by answer.
     let declared = &of_two[0].declared;
     for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
         if first.is_same(second) {
@@ -612,6 +617,7 @@ fn one_triangle(
     truth: &Truth,
 ) {
     let corners = triangle.corners();
+    // Where nothing is promised, nothing is judged.
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     judged.shapes += 1;
     if !matches!(answer, Answer::Samples(_) | Answer::SampleValues(_) | Answer::Area(_)) {
@@ -704,6 +710,7 @@ fn values(
     truth: &Truth,
 ) {
     let Some(exact) = exact_values(triangle, &truth.declared) else { return };
+    // Values are compared in some pixels only, since exact ones take long.
     let bounds = value_bounds(triangle, truth.declared.tolerance);
     for f in few(fragments) {
         if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
@@ -756,8 +763,10 @@ fn levels(
 ) {
     let declared = &truth.declared;
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+    // Hits are counted apart from levels: a pixel that is drawn twice is wrong whatever its level.
     let (hit, outside) = hits(&all, window);
     judged.finding.tally.extra += outside;
+    // Of each pixel the last level that was drawn.
     let actual = painted(runs, window, 0, |here, level| *here = level);
     for (y, row) in actual.rows() {
         for ((x, &level), &hits) in (window.x0..).zip(row).zip(hit.row(y)) {
@@ -786,10 +795,12 @@ fn one_line(
     truth: &Truth,
 ) {
     let Answer::Line(pixels) = answer else { return };
+    // Only the pixels of the ends are asked; depth and values of lines are not judged.
     let ends = line.ends.map(|end| end.pixel);
     let Some(expected) = truth.expect.line(&ends, window) else { return };
     judged.shapes += 1;
     judged.pixels += expected.len() as u64;
+    // A program may declare that it gives the pixels of a line in no order.
     let in_order = !truth.declared.line_set;
     let before = judged.finding.tally.total();
     sequence(&mut judged.finding.tally, &mut judged.mark, pixels, &expected, window, in_order);

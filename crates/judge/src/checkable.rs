@@ -41,6 +41,7 @@ pub struct Checkable {
 pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
     let window = PixelRect::window(question.width, question.height);
     let declared = &truth.declared;
+    // Each kind of question fills in what its answers have: pixels, values, or both.
     let mut out = Checkable { counts_hits: !declared.mask, ..Checkable::default() };
     match &question.of {
         Asked::Coverage(corners) => {
@@ -62,9 +63,11 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
         }
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
+            // Values are expected in every pixel that has to be drawn.
             let exact = exact_values(triangle, declared)?;
             out.either = may_be(&picture.must, picture.may.as_deref(), window);
             out.expected = plain(&picture.must);
+            // The largest of each value, for the rounding of what is written.
             let mut largest = [0.0; 3];
             for pixel in &mut out.expected {
                 let (depth, [a, b]) = exact.at(pixel.x, pixel.y);
@@ -81,6 +84,7 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             }
         }
         Asked::Samples(corners) => {
+            // A winding that is not drawn has no samples.
             let drawn = declared.convention.draws(twice_area(corners));
             let masks = multisample::masks(&Oracle, *corners, window).filter(|_| drawn)?;
             for (y, row) in masks.rows() {
@@ -90,6 +94,7 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             }
         }
         Asked::Depth(list) => {
+            // Where several triangles may be seen, either is right, so that such a pixel is open.
             let pile = Pile::new(list, window, &*truth.expect, declared)?;
             let SurePixels { seen, open } = pile.sure();
             out.either = open;

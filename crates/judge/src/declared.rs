@@ -300,6 +300,7 @@ impl Declared {
     /// Reads `HELLO 1 name word...` or `HELLO 2 name word...`; nothing for any other line.
     #[must_use]
     pub fn parse(line: &str) -> Option<Self> {
+        // HELLO, the version and the name come first; every other word is a declaration.
         let mut words = line.split_ascii_whitespace();
         let version = match (words.next(), words.next()) {
             (Some("HELLO"), Some("1")) => 1,
@@ -341,6 +342,7 @@ impl Declared {
 
     /// Sets the field that a word is about; nothing where no field is, or where the value cannot be used.
     fn take(&mut self, key: &str, value: Option<&str>) -> Option<()> {
+        // A word with a value and one without are told apart, so that a value too many is not ignored.
         match (key, value) {
             ("coverage", None) => self.coverage = true,
             ("line", None) => self.line = true,
@@ -408,6 +410,7 @@ impl Declared {
     #[must_use]
     pub fn within(self, other: &Self) -> Self {
         let least = |a: Option<i32>, b: Option<i32>| a.into_iter().chain(b).min();
+        // Of two limits the smaller one holds for both.
         let window = match (self.window, other.window) {
             (Some([w, h]), Some([x, y])) => Some([w.min(x), h.min(y)]),
             (a, b) => a.or(b),
@@ -511,6 +514,7 @@ impl fmt::Display for Declared {
     /// The words after the name, as HELLO 2 has them.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.capabilities().join(" "))?;
+        // A tessellator has words of its own, and none of a rasterizer.
         if self.partition {
             let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate, .. } =
                 &self.tessellation;

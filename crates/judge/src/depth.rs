@@ -153,6 +153,7 @@ impl Pile {
     pub fn compare(&self, judged: &mut CaseJudgement, runs: &[(Span, u8)]) {
         judged.shapes += self.layers.len() as u64;
         let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+        // A pixel outside of the window shows a triangle where there is nothing to see.
         let (counts, outside) = hits(&all, self.window);
         judged.finding.tally.extra += outside;
         for (y, row) in counts.rows() {
@@ -163,6 +164,7 @@ impl Pile {
                 judged.finding.tally.missing += u64::from(count == 0 && must);
                 judged.finding.tally.extra += u64::from(count > 0 && seen.is_empty());
                 let shown = shown(runs, self.window.x0 + x as i32, y);
+                // Wrong is also a triangle that covers the pixel and lies behind another one.
                 let is_behind = !seen.is_empty() && shown.is_some_and(|t| !seen.contains(&t));
                 judged.finding.tally.order += u64::from(is_behind);
                 if count > 1 || is_behind || (count == 0) == (must || seen.is_empty()) {

@@ -38,6 +38,7 @@ pub(super) fn difference(
     declared: &Declared,
 ) {
     match (first, second) {
+        // What both refuse is no difference, and what one refuses is.
         (Answer::Refused(_), Answer::Refused(_)) => return,
         (Answer::Refused(why), _) | (_, Answer::Refused(why)) => {
             judged.refuse(&format!("by one of both: {why}"));
@@ -60,6 +61,7 @@ pub(super) fn difference(
     let [Some((first_hits, first_outside)), Some((second_hits, second_outside))] = both else {
         return;
     };
+    // Pixels outside of the window are counted, not compared one by one.
     judged.finding.tally.extra += first_outside.saturating_sub(second_outside);
     judged.finding.tally.missing += second_outside.saturating_sub(first_outside);
     pixels(judged, &first_hits, &second_hits, declared.mask);

@@ -140,6 +140,7 @@ pub(super) fn failures(
         let Some(failure) = failure(&mut program, found, failing, share, options, truth) else {
             continue;
         };
+        // A case that shows what another one shows already is named beside it and not shown.
         let kind = Kind::of(&failure, truth.declared.convention.sample);
         match kinds.iter().position(|known| *known == kind) {
             Some(at) => shown[at].evidence.also.push(failing.property),
@@ -149,6 +150,7 @@ pub(super) fn failures(
             }
         }
     }
+    // The one that is read fastest comes first.
     shown.sort_by_key(to_read);
     (shown, program.spent)
 }
@@ -315,6 +317,7 @@ fn failure(
     let check = Check::of_truth(family.name, &case, failing.index, truth)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;
+    // A case within the window stays within it: programs that do not clip would crash on a smaller one, which is another fault.
     let leaves = adapt_case::leaves_window(&case);
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = AskedCase::of(program, check, &case, truth);
@@ -356,10 +359,12 @@ impl Search<'_> {
             (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
         let mut kept = first;
+        // A smaller case is put where the program draws, as the original was.
         let put = |case: &Case| adapt_case::put(case.clone(), &truth.declared);
         let is_asked = |case: &Case| {
             adapt_case::holds(case, &truth.declared) && may_be(case) && check.fits(&put(case))
         };
+        // The search goes on from each smaller case that is still wrong, until the time for it is over.
         let steps = ProgramSteps::new(check, &original, &is_asked);
         let mut search = SmallerSearch::new(original.clone(), &steps);
         while was_wrong && !is_slow && program.spent < patience {
@@ -377,6 +382,7 @@ impl Search<'_> {
             let asked = AskedCase::of(&mut program, check, &case, truth);
             again = (!asked.is_late()).then_some(asked);
         }
+        // What is said of how far it got.
         let shrunk = match (is_slow, was_cut || again.is_none()) {
             (true, _) => HowFar::TakesLong,
             (_, true) if case == original => HowFar::NotAtAll,
@@ -459,6 +465,7 @@ impl Kind {
             on_edge: false,
             requests: Vec::new(),
         };
+        // The wrong pixels, as they stand in the picture that is shown.
         if let Some(picture) = &evidence.picture {
             let target = picture.other.as_ref().unwrap_or(&picture.expected);
             for (y, (drawn, target)) in picture.drawn.rows().zip(target.rows()).enumerate() {
@@ -473,6 +480,7 @@ impl Kind {
             kind.requests = evidence.exchanges.iter().map(|e| e.request.clone()).collect();
             return kind;
         };
+        // A pixel whose sample lies exactly on an edge is wrong for another reason than one beside it.
         if let (Check::Coverage | Check::Values, Shape::Triangles { list, .. }) =
             (kind.check, &failure.case.shape)
         {
@@ -483,6 +491,7 @@ impl Kind {
             kind.on_edge =
                 list.iter().map(Triangle::corners).any(|corners| is_on_edge(corners, at));
         }
+        // The place in the window does not matter, so that pixels are counted from their own corner.
         let left = kind.pixels.iter().map(|pixel| pixel.x).min().unwrap_or(0);
         let top = kind.pixels.iter().map(|pixel| pixel.y).min().unwrap_or(0);
         for pixel in &mut kind.pixels {

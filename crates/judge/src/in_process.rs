@@ -16,6 +16,7 @@ const OWN_TOLERANCE: f64 = 32.0 * (f64::EPSILON / 2.0);
 impl From<&Entry> for Declared {
     /// What an engine of the registry says of itself. A specimen promises nothing.
     fn from(entry: &Entry) -> Self {
+        // A specimen, an engine and a variant of an engine each answer other questions.
         let triangle = match entry.specimen {
             Some(Specimen::Triangle(specimen)) => Some(specimen),
             _ => None,

@@ -102,6 +102,7 @@ impl Ranked {
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));
         let changed = |check| row(check).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
+        // What was not answered, over all rows.
         let (mut refused, mut deaths) = (0, 0);
         for row in &verdict.families {
             refused += row.refused;

@@ -85,6 +85,7 @@ pub fn questions(declared: &Declared, lines: bool, quantum: Quantum) -> Vec<Ques
     for index in 0..CASES {
         check.questions(&adapt_case::case(family, 1, index, declared), &truth, &mut questions);
     }
+    // A corner may come to lie within the window on the grid that was found.
     questions.retain(|q| match &q.of {
         Asked::Coverage(corners) => triangle_leaves(corners, quantum, window(q)),
         Asked::Line { ends, .. } => line_leaves(ends, window(q)),

@@ -83,6 +83,7 @@ pub(super) fn compare(
     answer: &[ClipCorner],
     declared: &Declared,
 ) {
+    // A corner that is named several times is one.
     let mut exact = polygon(triangle, declared.near_is_zero);
     exact.dedup();
     if exact.len() > 1 && exact.first() == exact.last() {

@@ -37,6 +37,7 @@ pub struct Pictured {
 pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
     let mut questions = Vec::new();
     check.questions(case, truth, &mut questions);
+    // Of two programs, the picture of each is made on its own, and one stands where the expected one would.
     let mut picture = match &truth.of_two {
         Some(of_two) => {
             let [first, second] = difference::sides(answers);
@@ -47,6 +48,7 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
         }
         None => picture(check, case, (&questions, answers), truth)?,
     };
+    // Where both pictures are the same, words have to say what is wrong.
     let beside = picture.other.as_ref().unwrap_or(&picture.expected);
     if picture.drawn == *beside {
         let what = if answers.len() < questions.len() {
@@ -172,6 +174,7 @@ fn samples(
     window: PixelRect,
     truth: &Truth,
 ) -> Pictured {
+    // Both pictures are of a window that is as much finer as a pixel has cells.
     let finer = PixelRect {
         x0: window.x0 * FINER,
         y0: window.y0 * FINER,
@@ -185,6 +188,7 @@ fn samples(
         moved.push(corners.map(|corner| {
             SubpixelPoint::new(corner.x.saturating_mul(FINER), corner.y.saturating_mul(FINER))
         }));
+        // What is expected is exact, by the winding that is drawn.
         let is_drawn = truth.declared.convention.draws(twice_area(corners));
         let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
         for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
@@ -228,6 +232,7 @@ fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Optio
         (x0, x1) = (x0.min(x), x1.max(x));
         (y0, y1) = (y0.min(y), y1.max(y));
     }
+    // The size of a cell depends on the triangle, since clip space has no pixels.
     let longer = (x1 - x0).max(y1 - y0);
     // The largest power of two of which it spans so many; corners stay on the lattice.
     let mut cell = 256.0;
@@ -279,6 +284,7 @@ const FARTHEST: f64 = (1 << 28) as f64;
 fn fan(corners: &[[f64; 2]], cell: f64, window: PixelRect) -> Coverage {
     let mut picture = Coverage::new(window, 0);
     let corners = on_cells(corners, cell).unwrap_or_default();
+    // Each triangle of the fan has the first corner and two neighbours.
     let Some((first, rest)) = corners.split_first() else { return picture };
     for pair in rest.windows(2) {
         let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);

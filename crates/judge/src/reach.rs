@@ -54,6 +54,7 @@ fn longest(
     if !is_asked {
         return None;
     }
+    // Nothing is asked beyond what it declares.
     let most = program.declared().range.map_or(most, |range| range.saturating_mul(2).min(most));
     let mut time = |steps: i32| {
         let questions = question(steps).into_iter();
@@ -65,6 +66,7 @@ fn longest(
         let are_drawn = answers.len() == questions.len() && answers.iter().all(is_drawn);
         are_drawn.then(|| program.took().unwrap_or_else(|| start.elapsed()))
     };
+    // The shortest length tells how long any answer takes.
     let usual = time(2)?;
     let mut steps = FIRST;
     while steps <= most {
@@ -72,6 +74,7 @@ fn longest(
             // It was refused, or did not end in time.
             return (steps > FIRST).then_some(steps / GROWTH);
         };
+        // Where the length begins to cost time, the cost of each step gives the length that may be asked.
         let more = taken.saturating_sub(usual);
         if more > SHORT && taken > 2 * usual {
             let each_s = more.as_secs_f64() / f64::from(steps);

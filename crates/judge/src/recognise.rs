@@ -132,11 +132,13 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     if triangles.is_none() && lines.is_none() {
         return None;
     }
+    // Something is explained where a hypothesis was found for triangles or for lines.
     let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
         || lines.as_ref().is_some_and(|l| l.confidence != Confidence::Unexplained);
     let mut sentences = Vec::new();
     sentences.extend(triangles.as_ref().map(|t| clause("Triangles", &t.sentence())));
     sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
+    // What is not a rule with a name is said sample by sample, and what can be declared is offered as words.
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
     let is_open = triangles.as_ref().is_some_and(|t| !t.compass.is_decided());
@@ -190,6 +192,7 @@ impl Recognition {
         sentences: &mut [String],
     ) {
         let certain = Some(Confidence::Certain);
+        // What leaves the window says something only where all within it is explained.
         let is_certain = [
             self.triangles.as_ref().map(|t| t.confidence) == certain,
             self.lines.as_ref().map(|l| l.confidence) == certain,
@@ -198,6 +201,7 @@ impl Recognition {
             if !is_certain[usize::from(lines)] {
                 continue;
             }
+            // Shapes that leave the window are asked, and compared with what the convention says of them.
             let questions = leaving::questions(declared, lines, self.quantum());
             let found = leaving::otherwise(&questions, &bench.answers(&questions), self);
             let Some(said) = found.sentence(what) else { continue };
@@ -269,6 +273,7 @@ pub fn mistakes(
     let known = known(&truth.declared);
     let (mut all, mut was_cut) = (Vec::new(), false);
     for (&check, to_do) in checks.iter().zip((1..=checks.len() as u32).rev()) {
+        // The time that is left is shared among the checks that are still to do.
         let share = program.rest().map(|rest| rest / to_do);
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
@@ -554,6 +559,7 @@ fn words(declared: &Declared, found: &Diagnosis) -> String {
     let Some(found) = found.declaration(&declared.convention) else { return String::new() };
     let grid =
         [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);
+    // Only the words that differ from what is declared already.
     let (declared, [x, y]) = (&declared.convention, found.sample);
     let mut out = String::new();
     if grid < 1 << declared.subpixel_bits {

@@ -58,6 +58,7 @@ impl RecordedSubject {
         save_every: Duration,
         save: Save,
     ) -> Result<Self, &'static str> {
+        // A record of other options, or of another program, would answer questions that are not asked.
         let begin = format!("{MAGIC} {of}\n");
         let mut text = if text.is_empty() { begin.clone() } else { text };
         if !text.starts_with(MAGIC) {
@@ -150,6 +151,7 @@ impl Subject for RecordedSubject {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        // The questions are told apart by a hash, together with the deaths that are allowed.
         let mut hash = 0xcbf2_9ce4_8422_2325;
         mix(&mut hash, most_deaths);
         for question in questions {
@@ -171,6 +173,7 @@ impl Subject for RecordedSubject {
         for what in &strays {
             lines.push(line(&Answer::Died(what.clone()), 1));
         }
+        // An exchange is a line with its numbers, then a line for each answer.
         self.text += &format!("{hash} {} {}\n", took.as_micros(), lines.len());
         for line in &lines {
             self.text.push_str(&line.replace('\n', " "));
@@ -178,6 +181,7 @@ impl Subject for RecordedSubject {
         }
         self.strays.extend(strays);
         self.took = Some(took);
+        // The record is saved now and then, not after each answer: it is written as a whole.
         if self.saved.elapsed() >= self.save_every {
             (self.save)(&self.text);
             self.saved = Instant::now();

@@ -345,6 +345,7 @@ impl JudgeKind for JudgedProgram<'_> {
     fn jobs(&self, place: Place, index: u64, jobs: &mut Vec<Job>) {
         let (family, truth) = (self.families[place.family], self.truth);
         let case = adapt_case::case(family, self.options.seed, index, &truth.declared);
+        // Each pass has its own cases.
         if adapt_case::leaves_window(&case) != (place.pass > 0) {
             return;
         }
@@ -367,6 +368,7 @@ impl JudgeKind for JudgedProgram<'_> {
         deaths[place.family][place.pass] += judged.died.len() as u64;
         *hangs += judged.died.iter().filter(|(_, what)| what.is_slow()).count() as u64;
         self.note(found, family, &job, judged);
+        // A program that does not repeat itself is found by asking wrong cases again, some of each property.
         let wrong = found.row(job.check.name(family.name), Some(job.check)).wrong_cases;
         let is_asked_again =
             judged.is_wrong() && judged.died.is_empty() && wrong <= MOST_ASKED_AGAIN;
@@ -415,6 +417,7 @@ impl JudgedProgram<'_> {
         let (most_deaths, is_again) = (batch.most_deaths, batch.is_again());
         batch.ask(self, |jobs| {
             let mut questions = Vec::new();
+            // The questions of all jobs are sent at once; where those of each end is remembered.
             let mut ends = Vec::new();
             for job in jobs {
                 job.check.questions(&job.case, self.truth, &mut questions);
@@ -450,6 +453,7 @@ impl JudgedProgram<'_> {
         if remember {
             found.judged.push((property, family.name, index));
         }
+        // What came instead of answers, with the request that it came to.
         for (at, what) in &judged.died {
             if found.incidents.len() < MOST_INCIDENTS {
                 let asked = job.questions(self.truth);
@@ -459,6 +463,7 @@ impl JudgedProgram<'_> {
             }
         }
         if judged.is_wrong() {
+            // The first failing cases of a property are remembered, and all of them for a baseline.
             let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
             if !remember && of_it >= KEPT {
                 return;
@@ -522,10 +527,12 @@ pub fn run<'a>(
     let end = |share: f64| options.time_limit.map(|limit| limit.mul_f64(share));
     let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
     let families = judged.families.len();
+    // All copies get batches of the same size, so that what is found does not depend on which one answers.
     let at_once = askers.iter().map(|asker| asker.cases_at_once()).min().unwrap_or(1);
     let numbers =
         judged.families.iter().map(|of| adapt_case::numbers(options, of.design())).collect();
     let plan = Plan::of(options, PASSES, numbers, [at_once, at_once]);
+    // Nothing was found yet.
     let counts = Counts {
         found: RunFindings::default(),
         changing: Vec::new(),
@@ -551,8 +558,10 @@ pub fn run<'a>(
         asker.end = judged.ends[batch.place.pass].map(|end| start + end);
         judged.ask(&mut *asker, batch)
     };
+    // The driver gives batches to copies and counts what comes back in their order.
     let driver = Driver { now: &|| start.elapsed(), workers: &workers, ask: &ask, progress };
     let done = driver.drive(&judged, Judge::new(plan, counts));
+    // What is left is to gather what the copies found, and to say what was not done.
     let (is_late, gave_up) = (done.is_late, done.tally.gave_up());
     let Counts { found: mut whole, changing, deaths, .. } = done.tally;
     whole.out_of_time = is_late;

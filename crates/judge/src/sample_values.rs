@@ -88,6 +88,7 @@ pub(super) fn compare(
     declared: &Declared,
 ) {
     let mut exact: Vec<(Place, Option<ExactTriangle<2>>)> = Vec::new();
+    // Exact values take long, so that some pixels are compared, and each place of a sample is computed once.
     let compared: Vec<&SampledValues> = few(drawn).collect();
     for SampledValues { mask, values } in compared {
         let Some(covered) = covered.get(values.x_px, values.y_px) else { continue };

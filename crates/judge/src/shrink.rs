@@ -87,6 +87,7 @@ fn size(case: &Case) -> (usize, u32, u64, u64) {
             sum += number.unsigned_abs();
         }
     }
+    // A smaller window is the last thing that counts.
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
     (list.len(), bits, sum, window)
 }
@@ -204,6 +205,7 @@ fn simpler_formulas(case: &Case) -> Vec<Case> {
     let mut found = Vec::new();
     for (i, &number) in numbers.iter().enumerate() {
         for simpler in simpler_number(number) {
+            // One number is simpler, all others stay.
             let mut with = numbers.clone();
             with[i] = simpler;
             found.push(with);

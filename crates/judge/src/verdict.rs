@@ -189,6 +189,7 @@ fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
         keeps_protocol(&of.found),
         manners(&of.found),
     )];
+    // Whether it draws at all comes before all that it draws wrongly.
     if of.windings.is_known() {
         let w = &of.windings;
         let counts = format!(
@@ -256,6 +257,7 @@ pub trait Scores {
     #[must_use]
     fn judged_nothing(&self) -> Option<String> {
         let Verdict { families, options, more, .. } = self.verdict();
+        // A program that draws nothing agrees with everything where nothing is expected.
         let expects = more.windings.is_known() || families.iter().any(|r| r.pixels > 0);
         let is_blank = self.agrees() && !expects;
         let is_empty = families.is_empty();
@@ -282,6 +284,7 @@ pub trait Scores {
     /// How many shapes were judged, such as '12 triangles and 3 lines'. Triangles and lines are named even where there are none, but
     /// where something else was judged.
     fn judged_shapes(&self) -> String {
+        // Triangles and lines are named where nothing else was judged, also where there are none.
         let counts = Shapes::ALL.map(|kind| (kind, self.shapes(kind)));
         let is_usual = |kind: Shapes| matches!(kind, Shapes::Triangles | Shapes::Lines);
         let has_others = counts.iter().any(|(kind, count)| *count > 0 && !is_usual(*kind));
@@ -390,11 +393,13 @@ fn about(row: &Row) -> String {
 
 /// A row in words: how many cases agree, then whatever is wrong in parts of the sentence.
 pub fn sentence(row: &Row) -> String {
+    // How many cases are wrong, of how many.
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),
         n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
         n => format!("wrong in {n} of {} cases", row.cases),
     };
+    // Then what is wrong with them, in the words of the check.
     for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {
         out += &format!(", {count}");
     }

@@ -77,6 +77,7 @@ pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
             questions.push(Question { width, height, of: Asked::Coverage(corners) });
         }
     }
+    // Each answer counts for the winding of its triangle.
     for (question, answer) in questions.iter().zip(program.ask(&questions, super::run::MOST_DEATHS))
     {
         let Asked::Coverage(corners) = &question.of else { continue };

@@ -46,6 +46,7 @@ pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io:
         if !read_line(&mut input, &mut line)? {
             return Ok(());
         }
+        // A request that cannot be read is answered, and the engine goes on.
         let request = match std::str::from_utf8(&line) {
             _ if line.len() as u64 > limits::REQUEST_BYTES => {
                 Err(format!("- a request has at most {REQUEST_BYTES} bytes"))
@@ -109,6 +110,7 @@ impl From<std::io::Error> for Stop {
 
 /// Writes the answer to a request. The verb decides how many numbers follow, and which part of the engine is asked.
 fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+    // The first word is the verb, the second the id, which every answer repeats.
     let words: Vec<&str> = text.split_whitespace().collect();
     let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
     if verb == "HELLO" {
@@ -125,6 +127,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         }
         return Ok(writeln!(out)?);
     }
+    // Whether the engine has such a request, and how many numbers it takes.
     let (speaks, count) = match verb {
         "T" => (declared.coverage, 6),
         "S" => (declared.samples4, 6),
@@ -165,6 +168,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         _ => window(rest[1], rest[2]).map_err(refused)?,
     };
     let numbers = read_numbers(&rest[first..]).map_err(refused)?;
+    // The part of the engine that answers the verb.
     let reply = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
         ("T", Some(engine), ..) => cover(engine, window, &numbers),
         ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
@@ -182,6 +186,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         }
         _ => published::answer(entry, verb, window, &numbers),
     };
+    // An answer is written when all of it is there, since its count comes first.
     let (letter, n, runs) = reply.map_err(refused)?;
     write!(out, "{letter} {id} {n}")?;
     out.write_all(&runs)?;
@@ -225,6 +230,7 @@ fn formula(declared: &Declared, rest: &[&str]) -> Result<Vec<f64>, String> {
     if !declared.formulas {
         return Err("unsupported".to_owned());
     }
+    // A formula is asked by its name, then come its numbers.
     let [_, name, words @ ..] = rest else {
         return Err("Q takes an id, a name and numbers".to_owned());
     };
@@ -357,6 +363,7 @@ fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
         };
         list.push(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] });
     }
+    // The triangles go through the depth buffer of the pipeline.
     let seen = pipeline::seen(engine, &list, window)?;
     let mut runs = Vec::new();
     for (span, number) in &seen {
@@ -402,6 +409,7 @@ fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply
 
 /// The pixel that holds a position, after snapping to the lattice: the floor.
 fn pixel(value: f64, name: &str) -> Result<i32, String> {
+    // A position is snapped first, as those of triangles are, so that both agree on the pixel.
     let scale = f64::from(SUBPIXELS);
     let floor = ((value * scale).round_ties_even() / scale).floor();
     if value.is_nan() {

@@ -59,6 +59,7 @@ pub(crate) fn seen(
         };
         pixels += covered;
     }
+    // A depth buffer that holds only the pixels that are drawn, in the order of rows.
     let mut buffer: BTreeMap<(i32, i32), (f64, u8)> = BTreeMap::new();
     for (number, triangle) in (0..).zip(list) {
         engine.fragments(triangle, window, |f| {

@@ -94,6 +94,7 @@ fn values(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply
         let position_px = point(&numbers[6 * i..], i)?.into();
         Ok(RealVertex { position_px, depth, w, varying: DVec2::new(a, b) })
     };
+    // The pixels are counted first, so that a request that has too many costs no memory.
     let triangle: RealTriangle = [vertex(0)?, vertex(1)?, vertex(2)?];
     let mut pixels = 0;
     specimen

@@ -195,6 +195,7 @@ pub struct AreaPixel<'a> {
 impl AreaDrawn {
     /// The level that is drawn, not rounded, and how far it may be off.
     fn level(&self, pixel: &AreaPixel<'_>) -> [f64; 2] {
+        // The share as it is sampled, then as it is changed, in steps of a level.
         let share = match (self.corners == CornerGrid::default(), self.sampling) {
             (true, Sampling::Exact) => pixel.share,
             _ => self.sampling.share(&self.corners.0.snap(pixel.corners), pixel.spot.at),
@@ -234,6 +235,7 @@ impl Stage for AreaDrawn {
         };
         let window = PixelRect::window(question.width, question.height);
         let is_clockwise = twice_area(corners) > 0;
+        // Every pixel of the window has a level, 0 where nothing was drawn.
         let (levels, tolerance) = (declared.levels.into(), declared.steps_off());
         let mut parts = Vec::new();
         for (y, row) in painted(runs, window, 0, |here, level| *here = level).rows() {

@@ -430,6 +430,7 @@ fn add_once(states: &mut Vec<DepthState>, state: DepthState) {
 impl DepthTest {
     /// The number that is compared, before it is brought to a format.
     fn key(&self, layer: &Layer<'_>, [x, y]: [i32; 2]) -> f64 {
+        // A triangle that is treated rightly is compared by its depth.
         let t = layer.triangle;
         if !self.whose.holds(layer) {
             return layer.depth;
@@ -441,6 +442,7 @@ impl DepthTest {
             Place::Block(side, by) => at([x, y].map(|v| f64::from(v / side * side) + by)),
             Place::FirstOfRow => at([f64::from(layer.first) + 0.5, f64::from(y) + 0.5]),
         };
+        // What is compared for a whole triangle is taken from its corners.
         let [a, b, c] = depths(t);
         let (least, most) = (a.min(b).min(c), a.max(b).max(c));
         match self.key {
@@ -468,11 +470,13 @@ impl DepthTest {
 
     /// The least and the greatest number that may be compared, as far as rounding goes.
     fn compared(&self, layer: &Layer<'_>, pile: &Pile<'_>, is_new: bool) -> [f64; 2] {
+        // The number, with a bias where there is one.
         let mut key = self.key(layer, pile.spot.at);
         let is_changed = self.whose.holds(layer);
         if is_changed && self.bias.by != 0.0 {
             key += self.bias.by * Self::biased(self.bias.of, layer, is_new);
         }
+        // As far as rounding goes, in the format in which it is kept.
         let noise = pile.noise * key.abs().max(1.0);
         let [a, b] = [key - noise, key + noise].map(|v| match is_changed {
             true => self.store.0.of(self.wrap.0.of(v)),
@@ -527,6 +531,7 @@ impl DepthTest {
 
     /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.
     fn with_bias(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
+        // A bias says something only where less, or greater, is nearer.
         let sign = match self.compare.0 {
             LESS | 3 => 1.0,
             GREATER | 6 => -1.0,
@@ -663,6 +668,7 @@ impl Stage for DepthTest {
             return Vec::new();
         };
         let window = PixelRect::window(question.width, question.height);
+        // A number for each triangle from 1 on, so that 0 is nothing.
         let numbers: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
         let mut piles = Vec::new();
         for (y, row) in masks_of(&numbers, window).rows() {
@@ -672,6 +678,7 @@ impl Stage for DepthTest {
                 piles.push(Pile { spot, layers: Vec::new(), shown, noise });
             }
         }
+        // Then the triangles that cover each pixel, in drawing order.
         let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
         let place = |x: i32, y: i32| {
             (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize
@@ -699,6 +706,7 @@ impl Stage for DepthTest {
                 }
             }
         }
+        // A pixel has the winding of its nearest triangle.
         for pile in &mut piles {
             let nearest = pile.layers.iter().min_by(|a, b| a.depth.total_cmp(&b.depth));
             pile.spot.is_clockwise = nearest.is_some_and(|l| twice_area(&l.triangle.corners()) > 0);

@@ -165,6 +165,7 @@ async fn known_or_learned(
     if families(check).is_empty() {
         return None;
     }
+    // What is known is tried first, by cases of the families.
     let mut all = answered(asker, check, families(check), truth).await;
     // Piles of many triangles are those of the design alone.
     if check == Check::Depth {
@@ -174,6 +175,7 @@ async fn known_or_learned(
     if found.as_ref().is_some_and(Mistakes::is_known) {
         return found;
     }
+    // Then the learner asks questions of its own.
     let learned = learn::learn(asker, check, truth).await;
     // None of the answers so far may be wrong where others are.
     let found = found.or_else(|| {
@@ -333,6 +335,7 @@ fn concluded<'a>(
     declared: &Declared,
     programs: &'a [(RefCell<Inside>, String)],
 ) -> Option<Mistakes> {
+    // The planted faults and the published algorithms are hypotheses, too: each answers the same questions.
     let tolerance = declared.tolerance;
     for (known, about) in programs {
         let says = Explanation::of_program(known.borrow().name(), about.clone());
@@ -342,6 +345,7 @@ fn concluded<'a>(
         }));
     }
     let mut found = of_answers(hypotheses, is_wrong)?;
+    // A cause that misses an answer leads on at most, since something else must be wrong.
     let misses = |cause: &Explanation| {
         cause.wrong.drawn < cause.wrong.of || cause.right.drawn < cause.right.of
     };
@@ -391,6 +395,7 @@ fn are_near(
     predict: &dyn Fn((i32, i32)) -> Option<[f64; 3]>,
     tolerance: f64,
 ) -> bool {
+    // A value may be off by the tolerance, as a share of the largest one of its kind.
     let v = &triangle.vertices;
     let sizes = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
     let allowed = |predicted: [f64; 3]| {
@@ -453,6 +458,7 @@ impl ValuedPixel {
 
     /// A pixel, with each of its values looked at alone: the other two are taken to be right.
     fn new(t: &Triangle, f: &Fragment<DVec2>, window: PixelRect, tolerance: f64) -> Self {
+        // Each value is looked at in a pixel whose other values are right.
         let [right, given] = values::pixel_of(t, f);
         let is_right = [0, 1, 2].map(|i| {
             let mut others = right;

@@ -81,9 +81,11 @@ impl Field for Plane {
             }
             Self::At(plane) => plane,
         };
+        // The plane is said by z, or by w where z has no part in it.
         let (of, by) = if z == 0.0 { ("w", w) } else { ("z", z) };
         let sign = if by > 0.0 { ">=" } else { "<=" };
         let rest = |v: f64| (-v / by * 1e6).round() / 1e6 + 0.0;
+        // What it is compared with: a multiple of w and a number.
         let times_w = match rest(w) {
             _ if z == 0.0 => None,
             0.0 => None,
@@ -96,6 +98,7 @@ impl Field for Plane {
             (Some(w), 0.0) => w,
             (Some(w), c) => format!("{w} {} {}", if c < 0.0 { "-" } else { "+" }, c.abs()),
         };
+        // The planes that people take by mistake have names.
         let known = match *self {
             Self::At([1.0, 0.0, 0.0]) => ", as Direct3D and Vulkan have it",
             Self::At([1.0, 1.0, 0.0]) => ", as OpenGL has it",
@@ -382,6 +385,7 @@ impl Field for Order {
 
     fn says(&self) -> Option<(String, &'static str)> {
         let names = ["first", "second", "third", "first"];
+        // What repairs a lost corner.
         let quadrilateral = "a triangle that is cut can have four corners";
         Some(match *self {
             Self::Right => return None,
@@ -520,6 +524,7 @@ impl Cut<'_> {
     /// The same, where some numbers may be anything.
     fn is_but_for(&self, polygon: &[ClipCorner], times: f64, free: [bool; 5]) -> bool {
         let tolerance = times * self.tolerance;
+        // A number may be off by its bound, and by its own size times the tolerance.
         let bounds = bounds(&self.corners, tolerance);
         let near = |p: &ClipCorner, q: &ClipCorner| {
             // Wrong numbers may be larger than those of the corners.
@@ -592,6 +597,7 @@ impl NearCut {
     /// What is left; a corner in the plane may be given once more as a new one with the numbers of that, or not.
     pub(super) fn polygon(&self, cut: &Cut<'_>, is_twice: bool) -> Vec<ClipCorner> {
         let by_w = |[x, y, z, w, a]: ClipCorner| [x / w, y / w, z / w, 1.0, a];
+        // What is clipped, and by which distances.
         let corners = match self.divided {
             Divided::Before => cut.corners.map(by_w),
             _ => cut.corners,
@@ -609,6 +615,7 @@ impl NearCut {
             KeptCorners::All | KeptCorners::Whole | KeptCorners::Seen => corners.to_vec(),
             KeptCorners::Clamped { .. } => corners.map(clamped).to_vec(),
         };
+        // Then the order of the corners that are left.
         let is_quadrilateral = left.len() > 3;
         match self.order {
             Order::Reversed => left.reverse(),
@@ -619,6 +626,7 @@ impl NearCut {
             }
             _ => {}
         }
+        // And the division, where it comes too early for the stage after the clipper.
         if self.divided == Divided::After {
             left = left.into_iter().map(by_w).collect();
         }
@@ -687,9 +695,11 @@ impl NearCut {
     fn with_plane(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
         let new: Vec<_> = parts.iter().flat_map(|cut| cut.new_corners()).collect();
         let Some(first) = new.first() else { return Vec::new() };
+        // The plane goes through the first new corner and the one that lies farthest from it.
         let away = |p: &ClipCorner| (p[2] - first[2]).abs() + (p[3] - first[3]).abs();
         let far = new.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(far) = far.filter(|far| away(far) > 0.0) else { return Vec::new() };
+        // Its coefficients, the larger one of z and w 1 or less, each rounded to a multiple of the step.
         let (z, w) = (first[3] - far[3], far[2] - first[2]);
         let size = z.abs().max(w.abs());
         let [z, w] = [z, w].map(|v| if v.abs() < STEP * size { 0.0 } else { v / size });
@@ -776,6 +786,7 @@ impl Stage for NearCut {
     }
 
     fn solved(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
+        // Planes are read off as all else is here, and wrong numbers where all else is right.
         let mut all = self.with_plane(parts);
         let numbers = if *self == Self::default() { Self::wrong_numbers(parts) } else { None };
         if let Some(numbers) = numbers {
@@ -796,6 +807,7 @@ impl Stage for NearCut {
 
     fn filled(&self, does: &str) -> String {
         let names = ["x", "y", "z", "w", "attributes"];
+        // The numbers that are wrong, as a list in words.
         let some: Vec<_> = (0..5).filter(|k| self.numbers.0[*k]).map(|k| names[k]).collect();
         let numbers = match some[..] {
             [_, _, _, _, _] => "all numbers".to_owned(),

@@ -148,6 +148,7 @@ impl SampleShading {
             let sum: f64 = weights.iter().sum();
             weights = weights.map(|weight| weight / sum);
         }
+        // An attribute is a sum of value / w over a sum of 1 / w.
         let over_w =
             t.vertices.map(|v| if self.correction == Correction::Linear { 1.0 } else { v.inv_w });
         let divisor: f64 = (0..3).map(|i| weights[i] * over_w[i]).sum();
@@ -173,6 +174,7 @@ impl SampleShading {
 
     /// Whether a sample has these values.
     fn has_values(&self, pixel: &ShadedPixel<'_>, sample: usize, found: [f64; 3]) -> bool {
+        // Where a value is extrapolated, more of an error is allowed.
         let at = self.place(pixel, sample);
         let [x, y] = at.map(|v| v.round() as i32);
         let right = self.values(pixel, at);
@@ -201,10 +203,12 @@ impl Stage for SampleShading {
         };
         let window = PixelRect::window(question.width, question.height);
         let corners = triangle.corners();
+        // What is covered exactly, by samples and by centres.
         let Some(right) = masks(&Oracle, corners, window) else { return Vec::new() };
         let Some(centres) = masks_at(&Oracle, corners, window, &[CENTRE]) else {
             return Vec::new();
         };
+        // What was answered of each pixel: samples with the same values come together.
         let mut drawn: BTreeMap<[i32; 2], Vec<&SampledValues>> = BTreeMap::new();
         for one in list.iter().filter(|one| window.contains(one.values.x_px, one.values.y_px)) {
             drawn.entry([one.values.x_px, one.values.y_px]).or_default().push(one);
@@ -232,6 +236,7 @@ impl Stage for SampleShading {
     }
 
     fn explains(&self, part: &ShadedPixel<'_>) -> bool {
+        // No sample may come twice, and those that come have to be those of the mask.
         let mut seen = 0;
         for SampledValues { mask, values } in &part.drawn {
             let found = [values.depth, values.varying.x, values.varying.y];

@@ -412,6 +412,7 @@ pub(super) fn facing(direction: [i64; 2]) -> usize {
 fn covers(corners: &Corners, pixel: [i32; 2], (x, y): (i32, i32), ties: &Ties) -> bool {
     let at = [(pixel[0], x), (pixel[1], y)]
         .map(|(v, part)| i64::from(v) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16)));
+    // In exact integers: a sample lies inside where it is on the inner side of each edge, or on one that the rule draws.
     let turn = i64::from(twice_area(corners).signum() as i8);
     for i in 0..3 {
         let [a, b] = [corners[i], corners[(i + 1) % 3]].map(|c| [i64::from(c.x), i64::from(c.y)]);
@@ -462,6 +463,8 @@ impl SampleMask {
 
     /// The mask that is drawn.
     pub(super) fn mask(&self, pixel: &Masked<'_>) -> u8 {
+        // The gate decides by what is covered; the table changes whatever is left, and a single wrong sample leaves the others
+        // right.
         let covered = self.covered(pixel);
         let mask = match self.gate {
             Gate::None => covered,
@@ -513,6 +516,7 @@ impl SampleMask {
 
     /// The mask that is drawn for each one, where there is such a table; as it is where none was seen.
     fn with_table(&self, parts: &[&Masked<'_>]) -> Option<Self> {
+        // Each mask must be drawn in one way wherever it comes.
         let mut table: [Option<u8>; 16] = [None; 16];
         for pixel in parts {
             let mask = usize::from(self.mask(pixel));
@@ -588,6 +592,7 @@ impl Stage for SampleMask {
     }
 
     fn solved(&self, parts: &[&Masked<'_>]) -> Vec<Self> {
+        // Places are read off masks as they are covered, so that neither a gate nor a table may lie between.
         let is_open = self.gate == Gate::None
             && self.table == Table::default()
             && self.only == Only::default();

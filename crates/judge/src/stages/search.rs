@@ -304,6 +304,7 @@ impl<'a, S: Stage> AnswerParts<'a> for PartsOf<'a, S> {
 
 /// What is said of a value, and `whereabouts` after it.
 pub fn said_of<S: Stage>(value: &S, whereabouts: &str) -> Explanation {
+    // Each wrong field says what it does, and the repairs of several are one list.
     let said = value.said();
     let does: Vec<_> = said.iter().map(|said| said.does.as_str()).collect();
     let mut repairs: Vec<_> = said.iter().map(|said| said.repair).collect();
@@ -352,6 +353,7 @@ impl Test {
         for v in inside {
             (least, most) = (least.min(*v), most.max(*v));
         }
+        // Equality, then the rest of a division by a small power of two, as in odd rows.
         let mut all = vec![Self::Is(least)];
         for by in [2.0, 4.0, 8.0, 16.0] {
             all.push(Self::Rest(by, least.rem_euclid(by)));
@@ -387,6 +389,7 @@ impl Fact {
 
     /// How it is said; nothing where it says nothing.
     fn words(&self) -> Option<String> {
+        // What holds or does not is said by its words alone; a number needs its name and the test.
         let name = match (self.says, self.test) {
             (Says::Whether([yes, no]), Test::Is(v)) => {
                 let said = if v == 1.0 { yes } else { no };
@@ -546,6 +549,7 @@ pub fn search(
 
 /// Neighbours are alike, so that some from everywhere come first.
 fn mixed(all: &[usize]) -> Vec<usize> {
+    // Steps of a large prime, modulo the count, go through all of them in an order that looks random.
     let mut order: Vec<usize> = (0..all.len()).collect();
     order.sort_by_key(|i| i * 7919 % all.len());
     order.into_iter().map(|i| all[i]).collect()
@@ -581,6 +585,7 @@ fn in_places(
 /// The fact that holds of all rows inside and of the fewest outside, if it holds of some of these less than all.
 fn telling(inside: &[Row], outside: &[Row]) -> Option<Fact> {
     let mut best = None;
+    // A fact that holds of all rows outside tells nothing.
     let mut fewest = outside.len();
     for (number, Quantity { says, .. }) in inside.first()?.iter().enumerate() {
         let others = column(outside, number);
@@ -606,6 +611,7 @@ pub struct Spot {
 impl Spot {
     /// The quantities of a pixel of a triangle.
     pub fn quantities(&self) -> Vec<Quantity> {
+        // The winding comes before the place.
         let turn = Quantity::whether(
             self.is_clockwise,
             "of clockwise triangles",

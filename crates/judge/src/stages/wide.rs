@@ -182,6 +182,7 @@ impl WidePixel<'_> {
 impl WideDrawn {
     /// Whether the pixel is drawn, where each edge owns its samples as this says.
     fn covers(&self, pixel: &WidePixel<'_>, owns: &dyn Fn([i64; 2]) -> bool) -> bool {
+        // The ends and the width as the program takes them.
         let [a, b] = pixel.line.ends;
         let [a, b, _] = self.ends.0.snap(&[a, b, b]);
         let width = self.thickness.of(pixel.line.width);
@@ -239,6 +240,7 @@ impl WideDrawn {
         if by == [0.0; 2] {
             return false;
         }
+        // The four corners, each half the width from an end, on the lattice.
         let half = self.across(by, form, line.width.into());
         let step = f64::from((2 * self.corners.0).max(1));
         // From the first end; the lattice is that of the window.
@@ -254,6 +256,7 @@ impl WideDrawn {
             i128::from(p[0]) * i128::from(q[1]) - i128::from(p[1]) * i128::from(q[0])
         };
         let minus = |p: [i64; 2], q: [i64; 2]| [p[0] - q[0], p[1] - q[1]];
+        // The sample lies inside where it is on the inner side of all four sides.
         let has_area = product(minus(corners[1], corners[0]), minus(corners[3], corners[0])) > 0;
         has_area
             && (0..4).all(|i| {
@@ -301,6 +304,7 @@ impl Stage for WideDrawn {
             return Vec::new();
         };
         let window = PixelRect::window(question.width, question.height);
+        // Every pixel of the window, as far as any mistake might draw it.
         let (convention, form) = (declared.convention, declared.wide);
         let mut parts = Vec::new();
         for (y, row) in hits(runs, window).0.rows() {
@@ -326,6 +330,7 @@ impl Stage for WideDrawn {
     }
 
     fn explains(&self, part: &WidePixel<'_>) -> bool {
+        // On the border a pixel may be drawn or not, unless a rule says which.
         let [must, may] = self.draws(part);
         let times = if self.gate == LineGate::Twice { 2 } else { 1 };
         if part.hits > 0 { may && part.hits == times } else { !must }

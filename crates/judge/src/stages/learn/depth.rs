@@ -55,6 +55,7 @@ impl Tiles {
 
     /// The place of a triangle, from 1, among those that cover a pixel of the tile of a pixel, for each of [`TILES`].
     fn places(&self, at: [i32; 2], number: usize) -> [i64; TILES.len()] {
+        // The bits of all triangles that come before this one.
         let before = bit(number).wrapping_sub(1);
         std::array::from_fn(|of| {
             let covering = self.0[of].get(&tile(at, TILES[of].0)).copied().unwrap_or(0);
@@ -155,6 +156,7 @@ impl PixelOfList<'_> {
 
     /// The quantities of the question and of one of the triangles.
     fn row_of(&self, layer: &Layer<'_>) -> Vec<i64> {
+        // The quantities of the question come first, then the pixel, then the triangle.
         let mut out = Quantities::after(self.asked.facts.clone());
         self.of_place(&mut out);
         self.of_layer(Some(layer), IT, &mut out);
@@ -199,6 +201,7 @@ impl PixelOfList<'_> {
             }
         }
         let row = |v: i32| i64::from(v.div_euclid(SUBPIXELS));
+        // Where it stands in the list, in its row and in its box.
         let number = l.number as i64;
         for (v, noun) in [
             (number + 1, "place in the list (from 1)"),
@@ -223,6 +226,7 @@ impl PixelOfList<'_> {
         for ((_, side), place) in TILES.into_iter().zip(self.tiles.places([x, y], l.number)) {
             out.number(Unit::Count, place, &[whose, noun, side, of_whom]);
         }
+        // Its size, its winding, and whether it is flat or leaves the window.
         let area = twice_area(&l.triangle.corners());
         out.number(Unit::Subpixels, (most[0] - least[0]).into(), &[whose, "width", of_whom]);
         out.number(Unit::Subpixels, (most[1] - least[1]).into(), &[whose, "height", of_whom]);
@@ -237,6 +241,7 @@ impl PixelOfList<'_> {
         ] {
             out.holds(holds, who, [yes, no]);
         }
+        // Its depths, at the pixel and at its corners.
         let (near, far) = (a.min(b).min(c), a.max(b).max(c));
         for (v, noun) in [
             (l.depth, "depth at the pixel"),
@@ -285,6 +290,7 @@ impl Learnable for Depths {
 
     fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<PixelOfList<'a>> {
         let Asked::Depth(list) = &asked.question.of else { return Vec::new() };
+        // How much farther a triangle may lie that is shown: twice the tolerance, since both depths may be off.
         let largest = list.iter().flat_map(depths).fold(0.0, |m: f64, v| m.max(v.abs()));
         let allowance = (2.0 * declared.tolerance + 16.0 * f64::EPSILON) * largest;
         let noise = declared.tolerance.clamp(DepthTest::NOISE[0], DepthTest::NOISE[1]);
@@ -357,6 +363,7 @@ impl Learnable for Depths {
 
 /// Which triangles are left out, where those that should be seen and are not have something in common.
 fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work) -> Option<Change> {
+    // A condition that holds of the lost triangles and of no shown one says which are left out.
     let mut examples = Examples::default();
     // Lost is what lies before the triangle that is shown, or any where none is; it should be left out.
     for part in wrong {
@@ -373,6 +380,7 @@ fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>], work: &Work)
             examples.should_not(part.row_of(layer));
         }
     }
+    // The names of the quantities are those of any triangle.
     let part = wrong.first()?;
     let mut out =
         of_case(&LearnableOf::<Depths>(PhantomData), &part.asked.case, &Declared::default(), true);

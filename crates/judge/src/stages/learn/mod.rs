@@ -121,6 +121,7 @@ impl<'a> Learner<'a> {
 
     /// Asks until enough is wrong, explains it, and says how well the explanation predicts new answers.
     async fn learn(mut self) -> Option<Learned> {
+        // Too few wrong answers tell nothing.
         self.ask_first().await?;
         if self.wrong().len() < LEAST_WRONG {
             return None;
@@ -148,6 +149,7 @@ impl<'a> Learner<'a> {
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
                 break;
             }
+            // Two thirds are independent, and one third lies beside wrong ones, where most is to be learned.
             let cases = (0..AT_ONCE).map(|i| self.case(&wrong, i % 3 == 2)).collect();
             self.ask(cases).await?;
         }
@@ -157,6 +159,7 @@ impl<'a> Learner<'a> {
     /// A case of a family or at random, or one beside one of some answered ones.
     fn case(&mut self, given: &[usize], is_beside: bool) -> Case {
         if is_beside && !given.is_empty() {
+            // Facts of a wrong case, mixed with those of another one: so one fact after another is changed.
             let one = given[self.any_below(given.len())];
             let other = self.any_below(self.answered.len());
             let [one, other] = [one, other].map(|i| &self.answered[i].case);
@@ -186,6 +189,7 @@ impl<'a> Learner<'a> {
 
     /// Where the program draws, in a window that is not large: each of its pixels is looked at.
     fn put(&self, mut case: Case) -> Case {
+        // Every pixel of a case is looked at, so that a large window is made lower.
         let window = &mut case.window;
         window.y1 = window.y1.min((MOST_AREA / window.x1.max(1)).max(1));
         adapt_case::put(case, &self.truth.declared)
@@ -269,9 +273,11 @@ impl<'a> Learner<'a> {
     /// Of many cases beside those that are nearest to a limit so far, the nearest ones.
     fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<Case> {
         let distance = |facts: &[i64]| facts[quantity].saturating_sub(limit).saturating_abs();
+        // The cases that lie nearest to the limit so far, on either side.
         let mut nearest_so_far: Vec<usize> = (0..self.answered.len()).collect();
         nearest_so_far.sort_by_key(|&i| distance(&self.answered[i].facts));
         nearest_so_far.truncate(30);
+        // Beside these, new cases are made, of which the nearest ones are worth a question.
         let make = || {
             let case = self.case(&nearest_so_far, true);
             let case = self.singles(case).into_iter().next()?;
@@ -333,10 +339,12 @@ impl<'a> Learner<'a> {
 
     /// What is said of what was learned: sentences where the chain explains most, and what is known where it is not certain.
     async fn learned(&mut self, trial: Trial, chain: &Chain) -> Learned {
+        // Certain is only what predicted every part of enough new answers.
         let mut learned = Learned::default();
         learned.part = self.stage.part_name();
         learned.is_certain = trial.missed() == 0 && trial.is_enough();
         let nearest = if learned.is_certain { None } else { self.nearest_right().await };
+        // The sentences need a search over all answers, also those that came last.
         let work = Work::default();
         let search = Search::of(self.stage, &self.answered, &self.truth.declared, &work);
         if trial.explains() {
@@ -415,12 +423,14 @@ const CORNER_CHANGES: [fn(&mut ScreenVertex<DVec2>, i32); 6] = [
 /// Cases that differ from one in one number, or lack one triangle.
 fn beside(case: &Case) -> Vec<Case> {
     let list = case.triangles();
+    // A triangle fewer, where there are several.
     let mut lists: Vec<Vec<Triangle>> = Vec::new();
     if list.len() > 1 {
         for i in 0..list.len() {
             lists.push([&list[..i], &list[i + 1..]].concat());
         }
     }
+    // Then each number of each corner, a step up and a step down.
     for triangle in 0..list.len() {
         for corner in 0..3 {
             for sign in [-1, 1] {

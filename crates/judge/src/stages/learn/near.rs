@@ -49,6 +49,7 @@ impl Learnable for Polygons {
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(triangle) = case.triangles().first() else { return };
+        // Each number of each corner, and what clippers compute of them.
         let corners = clip_corners(triangle);
         for (corner, ordinal) in corners.iter().zip(ORDINALS) {
             for (number, name) in corner.iter().zip(NUMBERS) {
@@ -62,6 +63,7 @@ impl Learnable for Polygons {
                 );
             }
         }
+        // Then how many corners are cut off, and the range of what decides it.
         let behind = corners.map(|corner| corner[2] + corner[3] < 0.0);
         let count = behind.iter().filter(|is| **is).count() as i64;
         out.number(Unit::Count, count, &["the number of corners behind z = -w"]);
@@ -80,6 +82,7 @@ impl Learnable for Polygons {
         let Some(cut) = NearCut::parts(&asked.question, &asked.answer, declared, 0.0).pop() else {
             return Vec::new();
         };
+        // Where the polygon has the right corners, each number of a new one is a part.
         let mut parts = Vec::new();
         let aligned = cut.aligned();
         if let Some(given) = &aligned {
@@ -111,6 +114,7 @@ impl Learnable for Polygons {
 
     fn explains(change: &NearCut, part: &PartOfPolygon<'_>) -> bool {
         let Some(new) = &part.new else { return change.explains(&part.cut) };
+        // The change must leave the same corners, so that the number has its place.
         let predicted = change.polygon(&part.cut, true);
         // Another polygon has no such corner.
         let is_aligned = predicted.len() == new.polygon.len()
@@ -122,12 +126,14 @@ impl Learnable for Polygons {
     }
 
     fn of_part(part: &PartOfPolygon<'_>, _: Option<&NearCut>, out: &mut Quantities) {
+        // Which number is compared; of a whole polygon none is.
         let new = part.new.as_ref();
         out.flag(new.is_some(), &["it is a new corner"], "it is a whole polygon");
         let which = new.map_or(5, |new| new.which);
         for (k, name) in NUMBERS.iter().enumerate() {
             out.holds(which == k, name, [" is compared", " is not compared"]);
         }
+        // The edge that the corner divides, and both of its ends.
         let of_edge = out.values.len();
         let edge = new.map(|new| &new.edge);
         let number = new.map_or(0, |new| new.of_edge as i64 + 1);

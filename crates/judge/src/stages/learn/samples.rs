@@ -40,6 +40,7 @@ impl Learnable for Samples {
 
     fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<Sample<'a>> {
         let Asked::Samples(corners) = &asked.question.of else { return Vec::new() };
+        // The pixels of the answer, shared by the four samples of each.
         let pixels: Vec<Rc<Masked<'a>>> =
             SampleMask::parts(&asked.question, &asked.answer, declared, 0.0)
                 .into_iter()
@@ -47,6 +48,7 @@ impl Learnable for Samples {
                 .collect();
         let window = PixelRect::window(asked.question.width, asked.question.height);
         let covered = pixels.iter().filter(|pixel| pixel.right > 0).map(|pixel| pixel.spot.at);
+        // The triangle is the same for all of them.
         let triangle = Rc::new(TriangleInWindow::new(corners, window, &mut { covered }));
         let of = |pixel: &Rc<Masked<'a>>| {
             [0, 1, 2, 3].map(|bit| Sample {
@@ -67,6 +69,7 @@ impl Learnable for Samples {
     }
 
     fn of_part(part: &Sample<'_>, _: Option<&SampleMask>, out: &mut Quantities) {
+        // The pixel, then its samples, then points beside the sample that a program may test in its place.
         part.triangle.of_pixel(part.pixel.spot.at, out);
         let Masked { right, is_centre_covered, .. } = *part.pixel;
         let has = |bit: u8| right >> bit & 1 == 1;
@@ -98,6 +101,7 @@ impl Learnable for Samples {
         ] {
             out.holds(part.pixel.has_point(at), name, [" is covered", " is not covered"]);
         }
+        // How near the sample lies to an edge: rounding matters there.
         let (inside, is_on) = part.pixel.inside(part.bit);
         out.flag(
             is_on,

@@ -211,6 +211,7 @@ impl<'a> Search<'a> {
 
     /// With the step before the others that explains most of what they do not.
     fn with_step(&self, chain: &Chain) -> Option<ScoredChain> {
+        // What the chain predicts already must stay as it is; the new step is for the rest.
         let predicted = self.predicted(chain);
         let (mut held, mut left) = (Vec::new(), Vec::new());
         for (place, is_predicted) in predicted.into_iter().enumerate() {
@@ -219,6 +220,7 @@ impl<'a> Search<'a> {
         if left.is_empty() {
             return None;
         }
+        // Each change gets the conditions that suit it, and the best chain of all is kept.
         let mut best: Option<ScoredChain> = None;
         for change in self.ranked(&spread(&left, RANKED_BY), &spread(&held, 4 * RANKED_BY)) {
             let Some(when) = self.when(&change, &left, &held) else { continue };
@@ -263,6 +265,7 @@ impl<'a> Search<'a> {
     /// Changes by how many wrong parts they explain; those that explain hardly any are left out.
     fn rank(&self, changes: Vec<AnyChange>, wrong: &[usize]) -> Vec<RankedChange> {
         let mut ranked = Vec::new();
+        // A look at a few parts leaves most changes aside before they cost anything.
         let few = spread(wrong, FEW);
         self.work.spend(changes.len() * few.len() * PART);
         for change in changes {
@@ -286,6 +289,7 @@ impl<'a> Search<'a> {
     /// anything.
     fn when(&self, change: &AnyChange, left: &[usize], held: &[usize]) -> Option<Vec<Condition>> {
         let looked = self.looked(change);
+        // Where the change would help, and where it would break what is right now.
         let mut yes = left.to_vec();
         yes.retain(|place| looked.explained[*place]);
         let mut no = held.to_vec();
@@ -300,6 +304,7 @@ impl<'a> Search<'a> {
         for place in spread(&yes, LEARNED_FROM[0]) {
             examples.should(self.row(&looked, place).to_vec(), self.questions[place]);
         }
+        // Conditions are learned from some of both, and then tried on many more.
         let mut some = spread(&no, LEARNED_FROM[1]);
         for round in 0..CORRECTIONS {
             for place in some {
@@ -329,6 +334,7 @@ impl<'a> Search<'a> {
     /// Leaves out a step, a condition or a fact wherever the score does not become worse.
     fn pruned(&self, mut best: ScoredChain) -> Chain {
         loop {
+            // Of all chains that say one thing less, the one that predicts most.
             let mut found: Option<ScoredChain> = None;
             for chain in shorter(&best.chain) {
                 let score = self.score(&chain);
@@ -348,6 +354,7 @@ impl<'a> Search<'a> {
     pub(super) fn sentences(&self, chain: &Chain) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
         for GuardedChange { when, change } in chain {
+            // A step without conditions is done everywhere, or wherever the steps before it are not.
             let words: Vec<_> = when.iter().map(|all| all.words(&self.names)).collect();
             let place = match words[..] {
                 [] => String::new(),
@@ -367,6 +374,7 @@ impl<'a> Search<'a> {
     /// When answers are wrong, by the quantities of their questions.
     fn known_of_questions(&self) -> Option<String> {
         let mut examples = Examples::default();
+        // An answer is one example here, whatever the number of its parts.
         for (number, asked) in self.answered.iter().enumerate() {
             match self.is_whole_right[number] {
                 true => examples.should_not(asked.facts.clone()),

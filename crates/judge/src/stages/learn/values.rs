@@ -141,6 +141,7 @@ pub struct AreaWord {
 impl AreaWord {
     /// By what the weights grow; nothing finite where the word is 0.
     fn growth(self, corners: &Corners) -> f64 {
+        // The area in the unit of the word, cut to its bits and read as the word would be.
         let fraction = if self.is_whole { 2 * SUBPIXELS.trailing_zeros() } else { 0 };
         let area = twice_area(corners);
         let wrapped = (area >> fraction).rem_euclid(1 << self.bits);
@@ -294,6 +295,7 @@ fn in_px(subpixels: i32) -> f64 {
 impl TriangleOfValues<'_> {
     /// Values at a place, in pixels.
     fn values(&self, at: [f64; 2]) -> [f64; 3] {
+        // Depth is linear in the window; attributes are linear in space, so that they are divided by w and back.
         let linear = weights(&self.triangle.corners(), at);
         let parts = [0, 1, 2].map(|i| linear[i] * self.triangle.vertices[i].inv_w);
         let whole: f64 = parts.iter().sum();
@@ -358,6 +360,7 @@ impl ValueOfPixel<'_> {
 
     /// The sample of another pixel, in pixels.
     fn other_place(&self, place: Place) -> [f64; 2] {
+        // Most of these places are the sample of another pixel.
         let mut at = self.at;
         match place {
             Place::Uncut(axis) => at[axis] += self.ends(axis)[0].min(0),
@@ -384,6 +387,7 @@ impl ValueOfPixel<'_> {
 
     /// The value on the straight line between the exact ones at both ends of a stretch of the row.
     fn straight(&self, Stretch { side, is_in_window, is_cut }: Stretch) -> f64 {
+        // The stretch that the pixel lies in, counted from the first pixel of the row.
         let [first, last] = self.ends(0);
         let first = if is_in_window { first.max(0) } else { first };
         let last = if is_in_window { last.min(self.of.window[0] - 1) } else { last };
@@ -396,6 +400,7 @@ impl ValueOfPixel<'_> {
             let place = [f64::from(x) + self.of.sample[0], self.place()[1]];
             self.of.values(place)[self.which]
         };
+        // Between its two ends the value is straight.
         let share = f64::from(self.at[0] - start) / f64::from(end - start);
         value(start) * (1.0 - share) + value(end) * share
     }
@@ -404,6 +409,7 @@ impl ValueOfPixel<'_> {
     /// or not, as far as doubles tell.
     fn ends(&self, axis: usize) -> [i32; 2] {
         let corners = self.of.triangle.corners().map(|c| [c.x, c.y].map(in_px));
+        // The line through the samples of the row crosses two edges, or passes a corner.
         let height = self.place()[1 - axis];
         let (mut least, mut most) = (f64::MAX, f64::MIN);
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
@@ -437,6 +443,7 @@ impl ValueOfPixel<'_> {
     /// What is added up in a value of the triangle at a place, without signs.
     fn size_at(&self, at: [f64; 2]) -> f64 {
         let linear = weights(&self.of.triangle.corners(), at);
+        // The weights by which the corners count, as shares of their sum.
         let inverse = self.of.triangle.vertices.map(|v| v.inv_w);
         let parts = match self.which {
             0 => linear,
@@ -470,6 +477,7 @@ impl ValueOfPixel<'_> {
     /// Whether a predicted value is the given one, where so much is added up in it: predictions are rounded too, but what is as
     /// near to the right value explains nothing.
     fn is(&self, predicted: f64, size: f64) -> bool {
+        // A prediction that is hardly nearer to the answer than the right value is no explanation.
         let off = (self.given - predicted).abs();
         let allowed = self.allowed.max(ROUNDING * size);
         off <= allowed || (off <= 10.0 * allowed && 2.0 * off <= (self.given - self.right()).abs())
@@ -488,12 +496,14 @@ impl Learnable for Values {
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(t) = case.triangles().first() else { return };
         TriangleInWindow::new(&t.corners(), case.window, &mut std::iter::empty()).of_question(out);
+        // How far w differs decides how much perspective there is.
         let w = t.vertices.map(|v| 1.0 / v.inv_w);
         let (least, most) = w.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
         out.number(Unit::Value, value(most / least), &["the largest w over the smallest"]);
         out.number(Unit::Value, value(least), &["the smallest w"]);
         out.number(Unit::Value, value(most), &["the largest w"]);
         const ORDINALS: [&str; 3] = ["first", "second", "third"];
+        // Each number of each corner, and how it differs from that of the next corner.
         let corners = t.vertices.map(|v| [1.0 / v.inv_w, v.depth, v.varying.x, v.varying.y]);
         let names = ["w", NAMES[0], NAMES[1], NAMES[2]];
         for (k, name) in names.into_iter().enumerate() {
@@ -519,6 +529,7 @@ impl Learnable for Values {
         };
         let window = PixelRect::window(asked.question.width, asked.question.height);
         let is_in = |x: i32, y: i32| window.contains(x, y);
+        // The quantities of pixels are those of the pixels that were drawn, right or not.
         let mut covered = fragments.iter().map(|f| [f.x_px, f.y_px]).filter(|[x, y]| is_in(*x, *y));
         let facts = TriangleInWindow::new(&triangle.corners(), window, &mut covered);
         let v = &triangle.vertices;
@@ -532,6 +543,7 @@ impl Learnable for Values {
             window: [window.x1, window.y1],
             facts,
         });
+        // Of large triangles some pixels, evenly spread; each gives three parts.
         let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
         let mut parts = Vec::new();
         for f in fragments.iter().step_by(step).filter(|f| is_in(f.x_px, f.y_px)) {
@@ -576,6 +588,7 @@ impl Learnable for Values {
         for (k, is) in IS.into_iter().enumerate() {
             out.holds(part.which == k, "the value", is);
         }
+        // The right value and what it is computed from.
         let real = |term: Term| value(part.term(term));
         out.number(Unit::Value, real(Term::Right), &["the right value"]);
         out.number(Unit::Value, value(part.right().abs()), &["the right value without sign"]);
@@ -597,6 +610,7 @@ impl Learnable for Values {
                 &["its change to the next pixel along ", name],
             );
         }
+        // Where in the triangle the pixel lies: its weights, the largest and the smallest of them.
         let weights = weights(&part.of.triangle.corners(), part.place());
         let (mut most, mut least) = (0, f64::MAX);
         for (i, weight) in weights.into_iter().enumerate() {
@@ -618,6 +632,7 @@ impl Learnable for Values {
     }
 
     fn changes(wrong: &[&ValueOfPixel<'_>], _: &[&ValueOfPixel<'_>], _: &Work) -> Vec<Change> {
+        // Every term with every base, each with the numbers that are read off the wrong values.
         let mut all = vec![Change::NoNumber];
         for base in [Base::Nothing, Base::Right, Base::Uncorrected, Base::Negated] {
             for term in TERMS {
@@ -627,6 +642,7 @@ impl Learnable for Values {
         for term in replacements() {
             all.extend(related(Base::Nothing, term, wrong));
         }
+        // The recipes of the course sample at the centres of pixels.
         let is_centred = wrong.first().is_some_and(|part| {
             part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
         });
@@ -643,6 +659,7 @@ impl Learnable for Values {
             Change::Recipe(recipe) => return recipe.says.does.clone(),
             Change::Relation { base, by, term } => (*base, *by, *term),
         };
+        // The term in words; a number alone has none.
         let word = match term {
             Term::One => String::new(),
             Term::Right => "the right value".to_owned(),
@@ -677,6 +694,7 @@ impl Learnable for Values {
                 format!("the right value as if twice the area was kept in {word}")
             }
         };
+        // The number before it, unless it is 1, and then what both are added to.
         let size = by.abs();
         let product = match (word.is_empty(), size == 1.0) {
             (true, _) => format!("{size}"),
@@ -707,6 +725,7 @@ const TELLING: f64 = 0.02;
 /// The numbers with which most of some wrong values are such a term, added to something. Each value allows a range of numbers,
 /// and a number is one that lies in most of the ranges.
 fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
+    // The numbers that each value allows.
     let mut ranges: Vec<[f64; 2]> = Vec::new();
     for part in wrong {
         let (of, start) = (part.term(term), part.given - part.base(base));
@@ -719,6 +738,7 @@ fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
         }
     }
     let mut found = Vec::new();
+    // The number that most values allow, then the one that most of the others do.
     while found.len() < MOST_NUMBERS && ranges.len() >= LEAST_VALUES {
         let (count, range) = densest(&ranges);
         if count < LEAST_VALUES || 10 * count < ranges.len() {
@@ -736,6 +756,7 @@ fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
 
 /// The part of a line that most ranges share, and how many do.
 fn densest(ranges: &[[f64; 2]]) -> (usize, [f64; 2]) {
+    // Along the line, a range is open from its first end to its second.
     let mut ends: Vec<(f64, bool)> = Vec::new();
     for [low, high] in ranges {
         ends.extend([(*low, false), (*high, true)]);
