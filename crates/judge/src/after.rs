@@ -24,6 +24,7 @@ impl Patience {
     /// What a time limit leaves until `end`; without one, what the convention that was looked for before has left.
     #[must_use]
     pub fn of(options: &Options, end: Option<Instant>, convention: Option<&Recognised>) -> Self {
+        // Looking for the convention came first and took its part.
         let spent = convention.map_or(Duration::ZERO, |found| found.spent);
         let answers = match end {
             Some(end) => end.saturating_duration_since(Instant::now()),

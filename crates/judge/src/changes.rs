@@ -222,6 +222,7 @@ fn wrong_places(
 ) -> Vec<String> {
     let found = &verdict.more.found;
     let truth = Truth::of(program.declared());
+    // The rows whose cases are judged by this check.
     let is_of_check =
         |name: &str| rows.iter().any(|row| row.check == Some(check) && row.name == name);
     let mut wrong = found.failing.clone();
@@ -235,6 +236,7 @@ fn wrong_places(
             right.push(case);
         }
     }
+    // Wrong and right cases count alike: a place is named where nearly all of its pixels are wrong.
     let mut table = PlaceTable::new(check);
     for case in spread(&wrong, ASKED_AGAIN).into_iter().chain(spread(&right, ASKED_AGAIN)) {
         let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
@@ -339,6 +341,7 @@ impl LineSpot<'_> {
         let [x, y] = self.pixel;
         let [first, last] = self.ends;
         let [dx, dy] = self.side();
+        // A tie is computed once, since three places ask for it.
         let is_tie = self.is_tie();
         vec![
             ("the first pixel of lines", [x, y] == [first.x, first.y]),
@@ -381,6 +384,7 @@ impl LineSpot<'_> {
     fn is_tie(&self) -> bool {
         let [dx, dy] = self.side();
         let start = [self.ends[0].x, self.ends[0].y];
+        // Along the longer side the line goes a pixel at each step; a tie is where the other coordinate is halfway.
         let along = usize::from(dy.abs() > dx.abs());
         let (longer, shorter) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
         let steps = (i64::from(self.pixel[along]) - i64::from(start[along])).abs();

@@ -440,6 +440,7 @@ impl Check {
                 }
             }
             (Shape::Lines(lines), check) => {
+                // A program that knows whole pixels alone gets these, and not their centres.
                 let whole = truth.declared.grid() == 1;
                 for [a, b] in lines.iter().map(|l| l.ends.map(|end| end.pixel)) {
                     out.push(ask(Asked::Line { ends: [a, b], whole }));
@@ -485,17 +486,20 @@ impl Check {
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
                 judged.shapes = list.len() as u64;
+                // Three requests for each triangle, with its vertices in another order each time.
                 for same in answers.chunks(3) {
                     alike(&mut judged, same, case.window);
                 }
             }
             (Shape::Triangles { .. }, Self::Outline) => {
+                // Four requests for each triangle: its fill, then its three sides.
                 answers.chunks(4).for_each(|of| outline::compare(&mut judged, of, case.window));
             }
             (Shape::Triangles { list, .. }, Self::Watertight) => {
                 watertight(&mut judged, list, answers, case.window);
             }
             (Shape::Triangles { list, .. }, Self::Depth) => {
+                // The whole case is one request, and has one picture.
                 let pile = Pile::new(list, case.window, &*truth.expect, &truth.declared);
                 if let (Some(pile), Some(Answer::Seen(runs))) = (pile, answers.first()) {
                     pile.compare(&mut judged, runs);
@@ -506,6 +510,7 @@ impl Check {
                 let mut questions = Vec::new();
                 self.questions(case, truth, &mut questions);
                 for (question, answer) in questions.iter().zip(answers) {
+                    // The triangle is the one that was asked, with or without its attribute.
                     let asked = near_plane::asked(&question.of);
                     if let (Some(triangle), Some(corners)) = (asked, answer.polygon()) {
                         near_plane::compare(&mut judged, &triangle, corners, &truth.declared);
@@ -514,6 +519,7 @@ impl Check {
             }
             (Shape::Triangles { list, .. }, Self::Wide) => {
                 for (triangle, answer) in list.iter().zip(answers) {
+                    // Each line on its own, as triangles are.
                     let picture = truth.expect.wide(&wide_line(triangle), case.window);
                     let (Some(picture), Answer::Coverage(runs)) = (picture, answer) else {
                         continue;
@@ -532,6 +538,7 @@ impl Check {
             }
             (Shape::Lines(lines), Self::Direction) => {
                 judged.shapes = lines.len() as u64;
+                // Two requests for each line, from one end and from the other.
                 for both in answers.chunks(2) {
                     alike(&mut judged, both, case.window);
                 }
@@ -543,6 +550,7 @@ impl Check {
             }
             (Shape::Numbers { formula, numbers }, _) => {
                 let exact = formula.of(numbers);
+                // A formula has one request, with all its numbers.
                 if let (Some(exact), Some(Answer::Numbers(given))) = (exact, answers.first()) {
                     numbers::compare(&mut judged, given, &exact, truth.declared.tolerance);
                 }
@@ -575,6 +583,7 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
         if first.is_same(second) {
             continue;
         }
+        // Bounds of values depend on the triangle that was asked.
         let triangle = match &case.shape {
             Shape::Triangles { list, .. } => list.get(at),
             _ => None,
@@ -626,6 +635,7 @@ fn one_triangle(
     match answer {
         Answer::Coverage(runs) => coverage(judged, &corners, runs, &picture, window, truth),
         Answer::Values(fragments) => {
+            // Fragments are pixels first, and their values count where a pixel is expected.
             let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
             coverage(judged, &corners, &runs, &picture, window, truth);
             let expected = hits(&picture.must, window).0;
@@ -635,6 +645,7 @@ fn one_triangle(
             samples(judged, &corners, runs, window, truth);
         }
         Answer::SampleValues(list) => {
+            // Masks first, then the values of the samples that are covered.
             let runs: Vec<_> = list.iter().map(|s| (pixel_of(&s.values), s.mask)).collect();
             let Some(covered) = samples(judged, &corners, &runs, window, truth) else { return };
             sample_values::compare(judged, triangle, list, &covered, &truth.declared);
@@ -858,6 +869,7 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             let corners = near_plane::polygon(triangle, truth.declared.near_is_zero);
             let floats =
                 corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64)).collect();
+            // The exact polygon, with or without its attributes.
             let carries = matches!(question.of, Asked::Carried(_));
             Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
         }
@@ -867,6 +879,7 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
                 for x in window.x0..window.x1 {
                     let share = truth.declared.share(corners, [x, y]);
                     let level = share * f64::from(truth.declared.levels);
+                    // A level of 0 is not drawn.
                     if level.round() > 0.0 {
                         push(&mut runs, x, y, level.round() as u8);
                     }

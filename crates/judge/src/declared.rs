@@ -373,6 +373,7 @@ impl Declared {
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
             ("grid", Some(v)) => {
+                // Grids are powers of two, of which these are in use.
                 let grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
                 self.convention.subpixel_bits = grid.ilog2();
             }
@@ -393,6 +394,7 @@ impl Declared {
             ("winding", Some("both")) => self.convention.winding = Winding::Both,
             ("range", Some(v)) => self.range = Some(whole(v, DOMAIN_PX - 1)?),
             ("window", Some(v)) => {
+                // Both sides are limited on their own.
                 let (w, h) = v.split_once('x')?;
                 let most = MAX_SIDE_PX as i32;
                 self.window = Some([whole(w, most)? as u32, whole(h, most)? as u32]);
@@ -525,9 +527,11 @@ impl fmt::Display for Declared {
             f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
             return f.write_str(if *degenerate { " degenerate" } else { "" });
         }
+        // The convention is always said, since a reader cannot know what is meant by leaving it out.
         let Convention { rule, winding, sample: [x, y], y_up, .. } = self.convention;
         write!(f, " grid={} origin={},{}", self.grid(), px(x), px(y))?;
         write!(f, " rule={} winding={}", rule.word(), winding.word())?;
+        // Everything else is said where it is not what the protocol takes for granted.
         let flags = [("yup", y_up), ("mask", self.mask), ("line-set", self.line_set)];
         for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
             write!(f, " {word}")?;
@@ -554,6 +558,7 @@ impl fmt::Display for Declared {
             write!(f, " window={width}x{height}")?;
         }
         write!(f, " batch={}", self.batch)?;
+        // A tolerance means something only where numbers are answered.
         let has_values = self.attributes || self.sample_values;
         if has_values || self.depth || self.clip || self.clip_attributes {
             write!(f, " tolerance={:e}", self.tolerance)?;

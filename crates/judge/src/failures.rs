@@ -229,6 +229,7 @@ fn failure_that_changes(changing: &Changing, options: &Options, truth: &Truth) -
     let mut answers = answers.clone();
     let (mut truth, mut who) = (truth, String::new());
     if let Some(of_two) = &truth.of_two {
+        // Each program answered twice; one of both did not repeat itself.
         let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
         let side = usize::from(are_same(&first[0], &again[0]));
         answers = [first[side].clone(), again[side].clone()];
@@ -247,6 +248,7 @@ fn failure_that_changes(changing: &Changing, options: &Options, truth: &Truth) -
     let mut exchanges = Vec::new();
     for ((question, first), again) in questions.iter().zip(first).zip(again) {
         let mut exchange = Exchange::new(check, question, first, truth);
+        // Both answers of a question stand side by side.
         exchange.other = show(again, 1);
         exchanges.push(exchange);
     }

@@ -21,6 +21,7 @@ impl From<&Entry> for Declared {
             Some(Specimen::Triangle(specimen)) => Some(specimen),
             _ => None,
         };
+        // An engine answers whatever the pipeline around it can; the others what they were made for.
         let is_engine = entry.engine.is_some();
         let shape = match entry.variant {
             Some(Variant::Touched(TouchedPixels { is_closed: true })) => Shape::TouchedClosed,

@@ -59,6 +59,7 @@ impl Leaving {
 
     /// Said of a convention that does not explain what leaves the window.
     pub fn sentence(&self, what: &str) -> Option<String> {
+        // By how much they come out otherwise decides whether it is a convention.
         let Count { drawn, of } = self.otherwise;
         let outcome = match self.gross {
             0 => "by at most a pixel, as where they are cut first; they are left out".to_owned(),

@@ -66,6 +66,7 @@ pub fn mended(list: &[Corners], hits: &Coverage) -> Coverage {
 
 /// Whether the pixel and its eight neighbours lie within the outline, which is not touched.
 fn is_within(outline: &[Edge], x_px: i32, y_px: i32) -> bool {
+    // The square of nine pixels around this one, in subpixels.
     let border = |px: i32| px.saturating_mul(SUBPIXELS);
     let (x0, x1) = (border(x_px - 1), border(x_px + 2));
     let (y0, y1) = (border(y_px - 1), border(y_px + 2));

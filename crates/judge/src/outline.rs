@@ -15,6 +15,7 @@ use rasterproof_verify::comparison::pixels::mix;
 
 /// The pixels whose centres are the corners; nothing where one lies elsewhere or outside the window.
 pub(super) fn ends(corners: &Corners, window: PixelRect) -> Option<[PixelPoint; 3]> {
+    // Only where all corners lie at centres the outline says exactly what is inside.
     let is_centre = |v: i32| v.rem_euclid(SUBPIXELS) == HALF_PIXEL;
     let pixels =
         corners.map(|p| PixelPoint::new(p.x.div_euclid(SUBPIXELS), p.y.div_euclid(SUBPIXELS)));

@@ -74,6 +74,7 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &CaseJudgement)
             outside += beyond;
         }
     }
+    // What no picture shows: numbers, pixels outside of it, an order, a second hit, a value.
     let mut parts = Vec::new();
     match check {
         Check::Near => parts.push("z, w or the way round".to_owned()),
@@ -107,12 +108,14 @@ fn picture(
     (questions, answers): (&[Question], &[Answer]),
     truth: &Truth,
 ) -> Option<Pictured> {
+    // Most checks show the pixels of the window as they are.
     let plain = |drawn, expected| {
         Some(Pictured { drawn, other: None, expected, of: String::new(), moved: None })
     };
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
     match check {
         Check::Order | Check::Direction => {
+            // Answers of the same program: the first one, and the first that differs from it.
             let (first, others) = drawn.split_first()?;
             let other = others.iter().find(|other| *other != first)?;
             plain(other.clone(), first.clone())
@@ -134,6 +137,7 @@ fn picture(
         }
         Check::Depth => pile(questions.first()?, answers.first()?, truth),
         _ => {
+            // What was drawn and what was expected, each summed over all requests of the case.
             let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
             let expected: Vec<_> = expected.filter_map(|e| picture_of(&e, case.window)).collect();
             plain(sum(&drawn, case.window)?, sum(&expected, case.window)?)

@@ -275,9 +275,11 @@ pub fn mistakes(
     for (&check, to_do) in checks.iter().zip((1..=checks.len() as u32).rev()) {
         // The time that is left is shared among the checks that are still to do.
         let share = program.rest().map(|rest| rest / to_do);
+        // Each check gets its share of the answers, and none of another one.
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
         let mut bench = Bench::new(part);
+        // Triangles and lines have searches of their own; every other check is a stage.
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());

@@ -447,6 +447,7 @@ impl JudgedProgram<'_> {
     /// Adds what was found about a job to its row, to the incidents and to the failing cases that are remembered.
     fn note(&self, found: &mut RunFindings, family: &Family, job: &Job, judged: &CaseJudgement) {
         let &Job { index, check, .. } = job;
+        // A row counts every case, whatever is remembered of it.
         let (property, remember) = (check.name(family.name), self.options.terms.remember);
         found.answered += judged.answered;
         found.row(property, Some(check)).count(judged);

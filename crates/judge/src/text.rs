@@ -7,6 +7,7 @@ use rasterproof_host::text::printable_short;
 /// A decimal number, as the nearest double, or a C99 hex float that a double holds exactly. NaN and infinities are
 /// read; who asks refuses them by name.
 pub fn number(word: &str) -> Option<f64> {
+    // The sign comes first, for decimals and for hex floats alike.
     let (sign, digits) = match word.as_bytes().first()? {
         b'-' => (-1.0, &word[1..]),
         b'+' => (1.0, &word[1..]),

@@ -44,10 +44,12 @@ fn options(cases: u64, families: &[&str]) -> Options {
     patient(cases, families).terms(Asking { patience: Duration::ZERO, ..Asking::default() })
 }
 
+/// What comes of somebody who is judged without a look for a convention.
 fn judged(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|_| None, &|_| ())
 }
 
+/// An engine of the registry.
 fn inside(name: &str) -> Box<dyn Subject> {
     Box::new(Inside::new(engines::find(name).unwrap()))
 }
@@ -150,6 +152,7 @@ fn are_found_and_explained(words: &str, families: &[&str], faults: &[Fault]) {
     }
 }
 
+/// Widths, ends and forms that are wrong, and pixels that are lost or drawn twice.
 const WIDE_FAULTS: [Fault; 8] = [
     (|q| wide(q, |line, form| (WideLine { width: 2 * line.width, ..line }, form)), "twice as wide"),
     (
@@ -217,6 +220,7 @@ const WIDE_FAULTS: [Fault; 8] = [
     ),
 ];
 
+/// The same lines without a fault agree, so that each finding is of the fault.
 #[test]
 fn faults_of_wide_lines_are_found_and_explained() {
     let right =
@@ -282,6 +286,7 @@ fn sampled(question: &Question, n: i32) -> Answer {
     })
 }
 
+/// Whoever rounds to the nearest step agrees, and whoever declares less gets more room.
 #[test]
 fn shares_are_judged_with_a_stated_tolerance() {
     let verdict = judged(inside("area"), &options(1000, &AREA));
@@ -315,6 +320,7 @@ fn shares_are_judged_with_a_stated_tolerance() {
     );
 }
 
+/// Levels that come of another share, of another rounding, or of no share at all.
 const AREA_FAULTS: [Fault; 8] = [
     (|q| sampled(q, 4), "by 4 x 4 samples"),
     (|q| sampled(q, 1), "by the sample at the centre alone"),
@@ -345,6 +351,7 @@ const AREA_FAULTS: [Fault; 8] = [
     ),
 ];
 
+/// The same of levels.
 #[test]
 fn faults_of_shares_are_found_and_explained() {
     are_found_and_explained("area", &AREA, &AREA_FAULTS);
@@ -401,6 +408,7 @@ fn attributes(question: &Question, axis: usize) -> [f64; 3] {
     triangle.vertices.map(|v| v.varying[axis])
 }
 
+/// Values that are clamped or not corrected, and samples that are too many or lost.
 const VALUE_FAULTS: [Fault; 5] = [
     // Nothing beyond what the corners have.
     (

@@ -321,6 +321,7 @@ fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
         return Err("unsupported".to_owned());
     };
     let ends = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?];
+    // The width is snapped as the ends are.
     let width = rasterproof_core::grid::snap(numbers[4]).map_err(named("the width"))?;
     if !(1..=WIDEST_PX * SUBPIXELS).contains(&width) {
         return Err(format!("the width {:e} is not from 1/256 to {WIDEST_PX} px", numbers[4]));
@@ -382,6 +383,7 @@ fn near(numbers: &[f64], carries: bool) -> Reply {
     }
     let corner =
         |i: usize| [0, 1, 2, 3, 4].map(|k| if k < size { numbers[size * i + k] } else { 0.0 });
+    // The clipper of the pipeline, which is right for both verbs.
     let polygon = pipeline::clipped([corner(0), corner(1), corner(2)]);
     let mut corners = Vec::new();
     for number in polygon.iter().flat_map(|corner| &corner[..size]) {

@@ -96,6 +96,7 @@ fn values(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply
     };
     // The pixels are counted first, so that a request that has too many costs no memory.
     let triangle: RealTriangle = [vertex(0)?, vertex(1)?, vertex(2)?];
+    // Overlapping runs count as often as they come.
     let mut pixels = 0;
     specimen
         .cover(&triangle, window, &mut |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))

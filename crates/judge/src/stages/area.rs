@@ -205,6 +205,7 @@ impl AreaDrawn {
             AreaGate::Never => 0.0,
             AreaGate::Whole => f64::from(u8::from(share > 0.0)),
         };
+        // A whole pixel has the declared number of steps, or another one.
         let steps = self.steps.0.map_or(pixel.levels, f64::from) * share;
         // A hair on either side, for roundings of floats.
         let level = match self.rounding {

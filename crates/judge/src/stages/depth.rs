@@ -174,6 +174,7 @@ impl Field for Bias {
         let Self { by, of } = *self;
         let (does, to) = if by > 0.0 { ("adds", "to") } else { ("takes", "off") };
         let size = format!("{:e}", by.abs());
+        // What is added, for what, and whether it brings a triangle nearer or farther.
         let does = match of {
             BiasOf::Triangle => format!("{does} {size} {to} the depth of a triangle"),
             BiasOf::Number => {

@@ -70,6 +70,7 @@ impl Field for Plane {
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
+        // Whatever plane it is, the repair is the same.
         let repair = "clip at the near plane that is declared";
         let [z, w, c] = match *self {
             Self::Near => return None,

@@ -559,6 +559,7 @@ impl Stage for SampleMask {
         let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
             return Vec::new();
         };
+        // Every pixel in and around the triangle: mistakes move samples by a pixel or two.
         let window = PixelRect::window(question.width, question.height);
         let mut parts = Vec::new();
         let (ties, is_clockwise) = (&TIES[0], twice_area(corners) > 0);

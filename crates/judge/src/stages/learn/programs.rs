@@ -101,6 +101,7 @@ fn each_value(answer: &mut Answer, alter: &dyn Fn(usize, [i32; 2], f64) -> f64) 
     }
 }
 
+/// A list with a fixed length, whose end is lost.
 #[test]
 fn triangles_from_the_seventeenth_on_are_not_drawn() {
     let alter: Alter = |question, answer, engine| {
@@ -113,6 +114,7 @@ fn triangles_from_the_seventeenth_on_are_not_drawn() {
     );
 }
 
+/// A tiled renderer whose bins are too small: what comes too late in a tile is lost there alone.
 #[test]
 fn bins_of_tiles_hold_five_triangles() {
     const SIDE: i32 = 16;
@@ -156,6 +158,7 @@ fn bins_of_tiles_hold_five_triangles() {
     );
 }
 
+/// Fragments outside of the triangle must not end the search.
 #[test]
 fn values_below_the_triangle_are_looked_at() {
     let alter: Alter = |_, answer, _| {
@@ -165,6 +168,7 @@ fn values_below_the_triangle_are_looked_at() {
     assert!(!learned(Check::Values, alter).sentences().is_empty());
 }
 
+/// A word that is too short, which matters for large triangles alone.
 #[test]
 fn twice_the_area_wraps_in_16_bits() {
     let alter: Alter = |question, answer, _| {
@@ -180,6 +184,7 @@ fn twice_the_area_wraps_in_16_bits() {
     );
 }
 
+/// Values computed once for four columns, and only where a triangle is high.
 #[test]
 fn values_are_those_of_blocks_in_high_triangles() {
     let alter: Alter = |question, answer, _| {
@@ -207,6 +212,7 @@ fn values_are_those_of_blocks_in_high_triangles() {
     explains(Check::Values, alter, "the right value of the first of its 4 columns");
 }
 
+/// No test of depth, where the window is wide.
 #[test]
 fn the_last_triangle_is_shown_in_wide_windows() {
     let alter: Alter = |question, answer, engine| {
@@ -230,6 +236,7 @@ fn the_last_triangle_is_shown_in_wide_windows() {
     explains(Check::Depth, alter, "the width of the window");
 }
 
+/// A mask that loses a bit in every second row.
 #[test]
 fn the_last_sample_is_lost_in_odd_rows() {
     let alter: Alter = |question, answer, _| {
@@ -249,6 +256,7 @@ fn the_last_sample_is_lost_in_odd_rows() {
     explains(Check::Samples, alter, "its row is odd");
 }
 
+/// A clipper that takes a negative w for a reason to drop.
 #[test]
 fn a_triangle_with_one_corner_behind_is_dropped_where_w_is_negative() {
     let alter: Alter = |question, answer, _| {
@@ -260,6 +268,7 @@ fn a_triangle_with_one_corner_behind_is_dropped_where_w_is_negative() {
     explains(Check::Near, alter, "w of the second corner");
 }
 
+/// One attribute in place of another, where the column is odd.
 #[test]
 fn the_second_attribute_is_the_first_in_odd_columns() {
     let alter: Alter = |_, answer, _| {
@@ -271,6 +280,7 @@ fn the_second_attribute_is_the_first_in_odd_columns() {
     explains(Check::Values, alter, "gives the first attribute");
 }
 
+/// A number that is added, and a place with a limit.
 #[test]
 fn a_fraction_of_depth_is_added_in_the_right_half() {
     let alter: Alter = |_, answer, _| {
@@ -361,6 +371,7 @@ fn noise(answer: &Answer, place: usize) -> u64 {
     }) >> 20
 }
 
+/// What follows no rule is not explained by one, but something is said of it.
 #[test]
 fn what_is_random_is_not_explained() {
     let in_values: Alter = |_, answer, _| {

@@ -188,6 +188,7 @@ const TERMS: [Term; 22] = [
 /// Terms that take the place of the right value and are added to nothing: other formats, other places and straight stretches.
 fn replacements() -> Vec<Term> {
     let mut terms = Vec::new();
+    // Words that are too short for twice the area.
     for bits in [16, 32] {
         for is_whole in [true, false] {
             for is_signed in [true, false] {
@@ -196,15 +197,19 @@ fn replacements() -> Vec<Term> {
         }
     }
     terms.extend([0, 1].map(|axis| Term::At(Place::Uncut(axis))));
+    // The first and the last pixel of a row or a column.
     for axis in [0, 1] {
         terms.extend([false, true].map(|is_last| Term::At(Place::End(axis, is_last))));
     }
+    // Blocks whose first pixel gives the value.
     for axes in [[true, false], [false, true], [true, true]] {
         terms.extend([2, 4, 8, 16].map(|side| Term::At(Place::Block(axes, side))));
     }
+    // Steps from a corner that are counted wrongly.
     for corner in [0, 1, 2] {
         terms.extend((0..STEPS.len()).map(|steps| Term::At(Place::FromCorner(corner, steps))));
     }
+    // Straight stretches between exact values.
     for side in [4, 8, 16, 32] {
         for is_cut in [true, false] {
             for is_in_window in [true, false] {
@@ -569,6 +574,7 @@ impl Learnable for Values {
     fn explains(change: &Change, part: &ValueOfPixel<'_>) -> bool {
         match change {
             Change::Relation { base, by, term } => {
+                // What overflows predicts a number that is none.
                 let predicted = part.base(*base) + by * part.term(*term);
                 if !predicted.is_finite() {
                     return !part.given.is_finite();
