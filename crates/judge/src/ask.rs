@@ -64,6 +64,7 @@ pub enum Asked {
 impl Asked {
     /// The letters of the request and of its answer.
     fn letters(&self) -> [u8; 2] {
+        // The request first, then its answer.
         *match self {
             Self::Coverage(_) => b"TC",
             Self::Values(_) => b"IF",
@@ -554,6 +555,7 @@ pub fn line(answer: &Answer, id: u64) -> String {
             'U'
         }
     };
+    // Two spaces before each item keep long answers readable; who reads them skips white space.
     let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));
     text.trim_end().to_owned()
 }

@@ -500,6 +500,7 @@ impl PlaceTable {
         let window = PixelRect::window(question.width, question.height);
         match &question.of {
             Asked::Coverage(corners) => {
+                // Where nothing is promised of a triangle, its pixels say nothing.
                 let Some(picture) = truth.expect.picture(corners, window) else { return };
                 let must = hits(&picture.must, window).0;
                 let may = match &picture.may {
@@ -511,6 +512,7 @@ impl PlaceTable {
                 self.add_triangle(question, corners, &pictures, &truth.declared);
             }
             Asked::Line { ends, .. } => {
+                // The same of lines.
                 let Some(expected) = truth.expect.line(ends, window) else { return };
                 let drawn = if let Answer::Line(pixels) = answer { &pixels[..] } else { &[] };
                 self.add_line(question, *ends, &expected, drawn, truth.declared.line_set);

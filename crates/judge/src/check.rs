@@ -111,6 +111,7 @@ rasterproof_core::named! {
 impl CaseJudgement {
     /// What is wrong with the answers to a case in words, parts of a sentence that are joined by commas.
     pub fn describe(&self, check: Check) -> String {
+        // First what is counted, then what is off, refused or out of order in a run, then deaths.
         let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
             parts.push(format!("a value off by {:.3e} times the tolerance", self.finding.worst()));
@@ -291,6 +292,7 @@ impl Check {
     /// The declared ones of the checks that a family is made for; nothing of the families of triangles and lines, where each case
     /// is there for several checks.
     fn made_for(family: &str, declared: &Declared) -> Option<Vec<Self>> {
+        // Shares and lines with a width are judged by samples, so that other shapes leave them out.
         let is_sampled = declared.shape == declared::Shape::Sample;
         let all = match family {
             _ if family.starts_with("depth-") => vec![(Self::Depth, declared.depth)],
@@ -666,6 +668,7 @@ fn coverage(
     truth: &Truth,
 ) {
     let before = judged.finding.tally.total();
+    // The first score is as declared, whatever else was recognised.
     compare(&mut judged.finding.tally, &mut judged.mark, runs, declared, window);
     let wrong = judged.finding.tally.total() - before;
     let Some(recognised) = &truth.recognised else { return };

@@ -98,6 +98,7 @@ pub(super) fn difference(
 fn pixels(judged: &mut CaseJudgement, first: &Coverage, second: &Coverage, is_mask: bool) {
     for ((y, a), (_, b)) in first.rows().zip(second.rows()) {
         for (x, (&a, &b)) in a.iter().zip(b).enumerate() {
+            // Of a pixel that both draw, the number of times counts, unless nobody can tell.
             let tally = &mut judged.finding.tally;
             match (a, b) {
                 (0, 0) => continue,

@@ -65,7 +65,9 @@ impl From<&Entry> for Declared {
 
 /// An engine of the registry that is judged in memory: its answers go through the text of the protocol, as those of a program do.
 pub struct Inside {
+    /// What the registry says of it, with the functions that draw.
     entry: Entry,
+    /// What it would say at HELLO.
     declared: Declared,
     /// Of its panics the first one is shown.
     watch: Watch,
@@ -90,6 +92,7 @@ impl Inside {
         // Writing to a vector does not fail.
         let _ = server::respond(&self.entry, &question.text(1), &mut line);
         let mut words = Words(&line);
+        // The letter and the id come first; what follows is read as a program's answer would be.
         let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
         words.word();
         let nonsense = |why: &str| Answer::Died(Breach::Nonsense.by(why));

@@ -58,6 +58,7 @@ impl CaseJudgement {
     /// A number that changes when what is wrong changes; not with the last bits of values.
     pub fn fingerprint(&self) -> u64 {
         let Tally { missing, extra, twice, order } = self.finding.tally;
+        // Whether values are off counts, and not by how much: the last bits differ between machines.
         let off = u64::from(self.finding.worst() > 1.0);
         let mut mark = self.mark;
         [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));

@@ -128,7 +128,9 @@ impl Ranked {
 
 /// A day as year-month-day, from the days since 1970-01-01 (the civil calendar, counted from March).
 pub fn date(days: u64) -> String {
+    // Days since 0000-03-01: a year that begins in March has its leap day at its end.
     let days = days + 719_468;
+    // Eras of 400 years have the same days.
     let (era, of_era) = (days / 146_097, days % 146_097);
     let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
     let of_year = of_era - (365 * year + year / 4 - year / 100);

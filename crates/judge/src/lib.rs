@@ -117,6 +117,7 @@ pub fn for_families(options: &Options, start: Instant) -> Options {
 /// The names of all families, those of polygons last.
 #[must_use]
 pub fn family_names() -> Vec<&'static str> {
+    // Those of polygons come last, since no other program is asked them.
     let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
     adapt_case::families(&[]).into_iter().map(|family| family.name).chain(polygons).collect()
 }

@@ -107,6 +107,7 @@ pub(super) fn between(
     answer: usize,
     is_same: &dyn Fn(usize, usize) -> bool,
 ) -> Tally {
+    // A corner is missing where no corner of the answer is the same, and the other way round.
     let (mut missing, mut extra) = (0, 0);
     for i in 0..wanted {
         missing += u64::from(!(0..answer).any(|j| is_same(i, j)));
@@ -114,6 +115,7 @@ pub(super) fn between(
     for j in 0..answer {
         extra += u64::from(!(0..wanted).any(|i| is_same(i, j)));
     }
+    // Only where both have the same corners does their order say something.
     let is_other_way = missing + extra == 0 && !is_round(wanted, answer, is_same);
     Tally { missing, extra, order: u64::from(is_other_way), ..Tally::default() }
 }

@@ -105,12 +105,14 @@ pub fn polygon_that_asks(
     declared: &Declared,
 ) -> Option<(&'static str, u64)> {
     let options = options(given, declared);
+    // Without names, all families are meant.
     let families = match options.families.as_slice() {
         [] => Family::ALL.to_vec(),
         some => some.to_vec(),
     };
     for family in families {
         for index in options.numbers() {
+            // Polygons are made again from the seed, until one asks the same.
             let polygon = family.polygon(options.seed, index, declared.tessellation.coordinates);
             let question = Question { width: 1, height: 1, of: Asked::Polygon(polygon) };
             if question.text(1) == request {

@@ -34,6 +34,7 @@ pub fn reach(program: &mut dyn Subject) -> Option<i32> {
 pub fn side(program: &mut dyn Subject) -> Option<i32> {
     let is_asked = program.declared().coverage;
     longest(program, is_asked, MOST_SIDE, &|side| {
+        // Around the origin, so that most of the triangle lies outside of the window.
         let [low, high] = [-side / 2, side / 2].map(|v| v * SUBPIXELS);
         let [a, b, c] =
             [[low, low], [high, low], [low, high]].map(|[x, y]| SubpixelPoint::new(x, y));

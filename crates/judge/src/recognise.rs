@@ -541,6 +541,7 @@ impl<'a> Bench<'a> {
 
 /// The shape that is declared for what was found, where every pixel that a triangle touches is drawn.
 fn touched(found: &Diagnosis) -> Option<Shape> {
+    // A square of half a pixel around the sample: the pixel that a triangle touches.
     let by_touch =
         convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach: HALF_PIXEL, square: true };
     if found.convention.shape != by_touch || found.confidence == Confidence::Unexplained {

@@ -130,6 +130,7 @@ impl Row {
 
     /// Adds a judged case.
     fn count(&mut self, judged: &CaseJudgement) {
+        // What is counted of every case, right or wrong.
         self.cases += 1;
         self.shapes += judged.shapes;
         self.pixels += judged.pixels;
@@ -144,6 +145,7 @@ impl Row {
         self.wrong_values += judged.wrong_values;
         self.worst = self.worst.max(judged.finding.worst());
         self.deaths += judged.died.len() as u64;
+        // Who of two programs is right is known where they were compared.
         self.add_sides(judged.right.map(|right| Sides::of(right, judged.is_wrong())));
     }
 
@@ -382,6 +384,7 @@ impl JudgeKind for JudgedProgram<'_> {
         (job, first): &(Job, JobFound),
         again: JobFound,
     ) {
+        // The same answers twice are what is expected.
         if first.answers.iter().zip(&again.answers).all(|(first, again)| first.is_same(again)) {
             return;
         }
@@ -392,6 +395,7 @@ impl JudgeKind for JudgedProgram<'_> {
             questions: job.questions(self.truth),
             answers: [first.answers.clone(), again.answers],
         };
+        // Of each property the first case is kept, by the order of batches and not by who was faster.
         keep_first(&mut tally.changing, batch, changing, |a, b| {
             a.failing.property == b.failing.property
         });

@@ -88,6 +88,7 @@ fn answers_begin_with_known_letters() {
         Answer::Numbers(Vec::new()),
         Answer::Refused("no".to_owned()),
     ];
+    // Each letter once; none may be missing in either list.
     let begun: BTreeSet<u8> = answers.iter().map(|answer| line(answer, 1).as_bytes()[0]).collect();
     assert_eq!(begun, ANSWER_LETTERS.iter().copied().collect());
 }
@@ -105,6 +106,7 @@ fn wide(
     change: impl Fn(WideLine, WideForm) -> (WideLine, WideForm),
 ) -> Answer {
     let Asked::Wide(line) = &question.of else { return Answer::Refused(String::new()) };
+    // The line as the fault takes it, drawn rightly.
     let (line, form) = change(*line, WideForm::Rectangle);
     let window = PixelRect::window(question.width, question.height);
     let mut runs = Vec::new();
@@ -143,6 +145,7 @@ type Fault = (fn(&Question) -> Answer, &'static str);
 /// Each fault is found, on a small case, and said.
 fn are_found_and_explained(words: &str, families: &[&str], faults: &[Fault]) {
     for &(fault, wanted) in faults {
+        // The fault is found, its case is small, and the cause names it.
         let verdict = judged_answers(words, fault, &patient(200, families));
         assert!(!verdict.agrees(), "{wanted}");
         let case = &verdict.failures[0].case;

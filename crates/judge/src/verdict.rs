@@ -219,6 +219,7 @@ fn keeps_protocol(found: &RunFindings) -> bool {
 
 /// How a program kept the protocol, in words: each breach once, and how many answers there were.
 fn manners(found: &RunFindings) -> String {
+    // Each breach is said once, in the order of the alphabet.
     let whats = found.incidents.iter().map(|i| &i.what).chain(&found.strays);
     let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
     words.sort_unstable();

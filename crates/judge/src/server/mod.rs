@@ -73,10 +73,12 @@ pub fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()>
 
 /// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
 fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<bool> {
+    // One byte more than a request may have is read, so that an overlong one is known.
     line.clear();
     if (&mut *input).take(limits::REQUEST_BYTES + 1).read_until(b'\n', line)? == 0 {
         return Ok(false);
     }
+    // The rest of an overlong line belongs to no request.
     if line.last() == Some(&b'\n') {
         line.pop();
     } else if line.len() as u64 > limits::REQUEST_BYTES {
@@ -508,6 +510,7 @@ fn write_fragments(
     out: &mut dyn Write,
 ) -> Result<(), Stop> {
     write!(out, "F {id} {n}")?;
+    // The engine cannot be stopped, so that the first failure to write is kept and the rest is not written.
     let mut result = Ok(());
     engine.fragments(triangle, window, |f| {
         if result.is_ok() {

@@ -49,6 +49,7 @@ impl Sampling {
         match self {
             Self::Exact => share(corners, x_px, y_px),
             Self::Samples(columns, rows) => {
+                // Each row of samples begins and ends where its middle crosses the edges.
                 let mut covered = 0;
                 for row in 0..rows {
                     let Some([left, right]) = across(corners, y_px, row, rows) else { continue };
@@ -73,14 +74,17 @@ impl Sampling {
 
 /// Where the middle of one of the rows of a pixel enters a triangle and leaves it, in pixels.
 fn across(corners: &Corners, y_px: i32, row: i32, rows: i32) -> Option<[f64; 2]> {
+    // The middle of the row.
     let y = f64::from(y_px) + (f64::from(row) + 0.5) / f64::from(rows);
     let mut found: Option<[f64; 2]> = None;
     for i in 0..3 {
         let (ax, ay) = corners[i].to_px();
         let (bx, by) = corners[(i + 1) % 3].to_px();
+        // An edge that the row does not cross.
         if (ay <= y) == (by <= y) {
             continue;
         }
+        // Where it crosses, in doubles: programs that sample do no better.
         let x = ax + (y - ay) * (bx - ax) / (by - ay);
         let [left, right] = found.unwrap_or([x, x]);
         found = Some([left.min(x), right.max(x)]);

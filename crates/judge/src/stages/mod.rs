@@ -293,6 +293,7 @@ fn of_stage(
     programs: &[(RefCell<Inside>, String)],
 ) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
+    // Less noise explains less, so that what is found with the least is most certain.
     let mut found = None;
     for noise in stage_of(check)?.noises() {
         let PartsByCase { parts, cases } = PartsByCase::new(check, all, declared, *noise)?;

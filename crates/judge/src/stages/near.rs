@@ -272,6 +272,7 @@ impl New {
     /// A number of the new corner of an edge, with that of its place.
     fn of(self, edge: &Edge, k: usize) -> f64 {
         let Edge { kept, lost, t, is_forward } = *edge;
+        // The right number, and the same of numbers that are divided by w.
         let at = |k: usize| between(kept[k], lost[k], t);
         let over_w = between(kept[k] / kept[3], lost[k] / lost[3], t);
         match self {
@@ -677,6 +678,7 @@ impl NearCut {
 
     /// What becomes of the right part `t`.
     fn part_at(&self, edge: &Edge, t: f64) -> f64 {
+        // Some parts are of other distances than those from the plane.
         let Edge { kept, lost, .. } = edge;
         match self.part {
             Part::Right => t,

@@ -141,6 +141,7 @@ impl Field for Rule {
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
+        // One rule for both windings is said once.
         let [clockwise, other] = self.0.map(|rule| RULES[rule]);
         let does = match clockwise == other {
             true => format!("follows the {clockwise} rule for {{}} on edges"),
@@ -211,10 +212,12 @@ impl If {
             Self::Point(point) => format!("of which {} is covered", POINTS[point].1),
             Self::Covered(0) => "of any kind".to_owned(),
             Self::Covered(least) => {
+                // From one sample on.
                 let least = ["any is", "two are", "three are", "all four are"][least as usize - 1];
                 format!("where {least} covered")
             }
             Self::Box { sides, is_open } => {
+                // In the order of the bits of the sides.
                 let names = ["left", "upper", "right", "lower"];
                 let sides: Vec<_> = has_bits(sides).into_iter().map(|side| names[side]).collect();
                 let border = if is_open { "in" } else { "in, or on the border of," };

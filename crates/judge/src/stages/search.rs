@@ -488,6 +488,7 @@ pub fn search(
     is_wrong: &[bool],
 ) -> Vec<Mistake> {
     // The parts of some cases are enough to choose by.
+    // Right is what a program without a mistake may answer.
     let value = parts.right();
     let (mut right, mut wrong) = (Vec::new(), Vec::new());
     for case in chosen_by(is_wrong) {

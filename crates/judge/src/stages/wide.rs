@@ -51,6 +51,7 @@ impl Thickness {
     /// The width that is drawn for one that is asked.
     fn of(self, width: i32) -> i32 {
         let px = SUBPIXELS;
+        // A width below 0 is none.
         let drawn = match self {
             Self::Right => width,
             Self::Double => 2 * width,
@@ -190,6 +191,7 @@ impl WideDrawn {
         if width == 0 {
             return false;
         }
+        // Forms without rounded corners are decided exactly.
         let of = |form| wide::covers(&line, form, sample, owns);
         if self.corners != CornerGrid::default() || matches!(self.caps, Caps::AlongX | Caps::AlongY)
         {
@@ -215,6 +217,7 @@ impl WideDrawn {
 
     /// From an end to the corner right of it, as seen from the first end towards the second with y down.
     fn across(&self, [dx, dy]: Vector, form: WideForm, width: f64) -> Vector {
+        // Half the width at right angles to the line, or along the axis that the form is as wide along.
         let along_x = [-width / 2.0 * dy.signum(), 0.0];
         let along_y = [0.0, width / 2.0 * dx.signum()];
         let length = (dx * dx + dy * dy).sqrt();
@@ -268,6 +271,7 @@ impl WideDrawn {
 
     /// Whether it has to be drawn, and whether it may be.
     pub(super) fn draws(&self, pixel: &WidePixel<'_>) -> [bool; 2] {
+        // A gate decides before the border, and a border rule before what is declared.
         match (self.gate, self.border.0) {
             (LineGate::Never, _) => [false; 2],
             (LineGate::Always, _) => [true; 2],

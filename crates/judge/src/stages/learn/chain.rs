@@ -16,6 +16,7 @@ pub(super) type Chain = Vec<GuardedChange>;
 
 /// How much a chain says: its steps and their facts.
 pub(super) fn cost(chain: &Chain) -> usize {
+    // A step counts as one, and each fact of its conditions as another.
     let mut said = chain.len();
     for condition in chain.iter().flat_map(|step| &step.when) {
         said += condition.count();

@@ -161,6 +161,7 @@ impl<'a, L: Learnable> AnyParts<'a> for PartsOf<'a, L> {
     }
 
     fn add_some(&mut self, asked: &'a LearnedCase, declared: &Declared, most: [usize; 2]) {
+        // Wrong parts are few and say most, so that both are chosen from apart.
         let (right, wrong): (Vec<_>, Vec<_>) =
             L::parts(asked, declared).into_iter().partition(L::is_right);
         for (parts, most) in [wrong, right].into_iter().zip(most) {

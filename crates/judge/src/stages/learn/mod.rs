@@ -110,6 +110,7 @@ impl<'a> Learner<'a> {
             asker,
             check,
             truth,
+            // Some questions are kept for the nearest right case.
             left: asker.at_most(MOST_TO_LEARN).saturating_sub(NEAREST_ASKED),
             rng: Rng::new(stage.topic().name, SEED, 0),
             number: 0,

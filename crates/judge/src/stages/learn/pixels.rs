@@ -69,6 +69,7 @@ impl PixelStage for WideDrawn {
 
     fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);
+        // Rounded up to whole subpixels, so that what is on the border is 0.
         let [beside, beyond] = pixel.outside().map(|v| v.ceil() as i64);
         out.number(
             Unit::Subpixels,

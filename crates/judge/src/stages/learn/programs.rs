@@ -77,6 +77,7 @@ fn without(
     is_kept: &dyn Fn(usize, &Triangle) -> bool,
 ) -> Answer {
     let Asked::Depth(list) = &question.of else { panic!("depth") };
+    // The others are asked alone, and get their own numbers back.
     let kept: Vec<usize> = (0..list.len()).filter(|&i| is_kept(i, &list[i])).collect();
     if kept.is_empty() {
         return Answer::Seen(Vec::new());
@@ -311,6 +312,7 @@ impl Conventional {
                 Answer::Seen(pile.map_or_else(Vec::new, |pile| pile.runs()))
             }
             Asked::Values(triangle) => {
+                // Every pixel that has to be drawn, with its exact values.
                 let covered = self.0.picture(&triangle.corners(), window);
                 let exact = exact_values(triangle, &self.0);
                 let mut fragments = Vec::new();
@@ -365,6 +367,7 @@ fn right_samples_and_polygons_are_not_explained() {
 
 /// A number that depends on all of an answer and on a place in it, as no rule does.
 fn noise(answer: &Answer, place: usize) -> u64 {
+    // A hash of the text, so that equal answers are changed alike.
     let text = format!("{answer:?}{place}");
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
