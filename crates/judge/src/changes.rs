@@ -74,7 +74,7 @@ impl JudgementRecord {
     pub fn ask_again(&self, program: &mut dyn Subject, seed: u64) -> [u64; 2] {
         let truth = Truth::of(program.declared());
         let mut counts = [0, 0];
-        for failing in spread(&self.failing, ASKED_AGAIN) {
+        for failing in some_of_each(&self.failing, ASKED_AGAIN) {
             let Some(asked) = AskedAgain::of(program, failing, seed, &truth) else { continue };
             counts[0] += 1;
             counts[1] += u64::from(!asked.is_wrong);
@@ -121,7 +121,7 @@ struct OfProperty<'a> {
 }
 
 /// Some of these, as many of each property as of the others.
-fn spread(all: &[Failing], most: usize) -> Vec<&Failing> {
+fn some_of_each(all: &[Failing], most: usize) -> Vec<&Failing> {
     // The cases of each property, in their order.
     let mut properties: Vec<OfProperty<'_>> = Vec::new();
     for failing in all {
@@ -238,7 +238,9 @@ fn wrong_places(
     }
     // Wrong and right cases count alike: a place is named where nearly all of its pixels are wrong.
     let mut table = PlaceTable::new(check);
-    for case in spread(&wrong, ASKED_AGAIN).into_iter().chain(spread(&right, ASKED_AGAIN)) {
+    for case in
+        some_of_each(&wrong, ASKED_AGAIN).into_iter().chain(some_of_each(&right, ASKED_AGAIN))
+    {
         let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
         let Some(asked) = asked.filter(|asked| asked.check == check) else { continue };
         for (question, answer) in asked.questions.iter().zip(&asked.answers) {
@@ -425,7 +427,7 @@ fn edges_at(corners: &Corners, at: [i32; 2]) -> [bool; 4] {
 
 /// The first and last pixel within the window whose sample lies between the least and the greatest of three coordinates, the
 /// greatest excluded.
-fn between(coordinates: &[i32; 3], sample: i32, side: u32) -> [i32; 2] {
+fn samples_between(coordinates: &[i32; 3], sample: i32, side: u32) -> [i32; 2] {
     let [a, b, c] = *coordinates;
     let (least, most) = (a.min(b).min(c), a.max(b).max(c));
     let (side, last) = (i64::from(side), first_at_or_after(most, sample) - 1);
@@ -531,8 +533,8 @@ impl PlaceTable {
     ) {
         // The rows and columns in which the shape begins and ends: by its corners, and by its pixels.
         let sample = declared.convention.sample;
-        let columns = between(&corners.map(|corner| corner.x), sample[0], question.width);
-        let rows = between(&corners.map(|corner| corner.y), sample[1], question.height);
+        let columns = samples_between(&corners.map(|corner| corner.x), sample[0], question.width);
+        let rows = samples_between(&corners.map(|corner| corner.y), sample[1], question.height);
         let (mut drawn_columns, mut drawn_rows) = ([i32::MAX, -1], [i32::MAX, -1]);
         for (y, x0, x1) in must.runs() {
             drawn_columns = [drawn_columns[0].min(x0), drawn_columns[1].max(x1 - 1)];

@@ -35,7 +35,7 @@ pub(super) struct SurePixels {
 }
 
 /// What may be seen at a pixel.
-struct Seen {
+struct SeenTriangles {
     /// The triangles that may be seen, nearest first.
     triangles: Vec<usize>,
     /// Whether one of them has to be.
@@ -79,7 +79,7 @@ impl Pile {
     }
 
     /// What may be seen at a pixel.
-    fn seen(&self, x: usize, y: i32) -> Seen {
+    fn seen(&self, x: usize, y: i32) -> SeenTriangles {
         let (mut may, mut must) = (Vec::new(), Vec::new());
         for (number, layer) in self.layers.iter().enumerate() {
             if layer.may.row(y)[x] > 0 {
@@ -92,7 +92,7 @@ impl Pile {
         let has_to_be = !must.is_empty();
         // One alone needs no depth, which takes long to compute exactly.
         if may.len() < 2 {
-            return Seen { triangles: may, has_to_be };
+            return SeenTriangles { triangles: may, has_to_be };
         }
         // The nearest of those that have to be there hides whatever lies farther than a program may be off.
         let mut nearest = f64::INFINITY;
@@ -107,7 +107,10 @@ impl Pile {
             }
         }
         by_depth.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Seen { triangles: by_depth.into_iter().map(|(_, number)| number).collect(), has_to_be }
+        SeenTriangles {
+            triangles: by_depth.into_iter().map(|(_, number)| number).collect(),
+            has_to_be,
+        }
     }
 
     /// The depth of a triangle at a pixel; one without depths lies behind all others.
@@ -124,7 +127,7 @@ impl Pile {
         for y_px in self.window.y0..self.window.y1 {
             for x in 0..self.window.width() as usize {
                 let pixel = [self.window.x0 + x as i32, y_px];
-                let Seen { triangles, has_to_be } = self.seen(x, y_px);
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y_px);
                 match triangles[..] {
                     [] => {}
                     [one] if has_to_be => out.seen.push((pixel, one)),
@@ -140,7 +143,7 @@ impl Pile {
         let mut runs: Vec<(Span, u8)> = Vec::new();
         for y_px in self.window.y0..self.window.y1 {
             for x in 0..self.window.width() as usize {
-                let Seen { triangles, has_to_be } = self.seen(x, y_px);
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y_px);
                 if let (Some(&first), true) = (triangles.first(), has_to_be) {
                     push(&mut runs, self.window.x0 + x as i32, y_px, first as u8);
                 }
@@ -158,7 +161,7 @@ impl Pile {
         judged.finding.tally.extra += outside;
         for (y, row) in counts.rows() {
             for (x, &count) in row.iter().enumerate() {
-                let Seen { triangles: seen, has_to_be: must } = self.seen(x, y);
+                let SeenTriangles { triangles: seen, has_to_be: must } = self.seen(x, y);
                 judged.pixels += u64::from(must);
                 judged.finding.tally.twice += u64::from(count.saturating_sub(1));
                 judged.finding.tally.missing += u64::from(count == 0 && must);
@@ -198,7 +201,7 @@ impl Pile {
         for y in self.window.y0..self.window.y1 {
             for x in 0..self.window.width() as usize {
                 let x_px = self.window.x0 + x as i32;
-                let Seen { triangles, has_to_be } = self.seen(x, y);
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y);
                 let shown = shown(runs, x_px, y);
                 // What is right is expected as it is; else the nearest triangle, if one has to be there.
                 let should = match shown {

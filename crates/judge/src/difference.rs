@@ -148,5 +148,5 @@ fn corners(
         let (wanted, given) = (&second[i], &first[j]);
         (0..5).all(|k| (wanted[k] - given[k]).abs() <= bounds[k])
     };
-    judged.finding.tally += near_plane::between(second.len(), first.len(), &is_same);
+    judged.finding.tally += near_plane::difference_of(second.len(), first.len(), &is_same);
 }

@@ -97,12 +97,12 @@ pub(super) fn compare(
         return;
     }
     let is_same = |i: usize, j: usize| is_within(&exact[i], &answer[j], &bounds);
-    judged.finding.tally += between(exact.len(), answer.len(), &is_same);
+    judged.finding.tally += difference_of(exact.len(), answer.len(), &is_same);
 }
 
 /// Corners that an answer lacks, corners that it has alone, and whether the same corners run another way. `is_same` says of a
 /// corner that is wanted and one of the answer whether they are the same.
-pub(super) fn between(
+pub(super) fn difference_of(
     wanted: usize,
     answer: usize,
     is_same: &dyn Fn(usize, usize) -> bool,

@@ -549,7 +549,7 @@ impl DepthTest {
         let mut all = Vec::new();
         for (of, whose) in kinds {
             let [least, most] = self.bias_range(parts, of, whose, sign);
-            if let Some(by) = between(least, most) {
+            if let Some(by) = simplest_between(least, most) {
                 all.push(Self { bias: Bias { by, of }, whose, ..self.clone() });
             }
         }
@@ -623,7 +623,7 @@ impl DepthTest {
 }
 
 /// The simplest number that is not 0 and lies between two, of which one may be missing.
-fn between(least: f64, most: f64) -> Option<f64> {
+fn simplest_between(least: f64, most: f64) -> Option<f64> {
     // A number that is added at its limit makes depths equal.
     if least > most || (least <= 0.0 && most >= 0.0) {
         return None;

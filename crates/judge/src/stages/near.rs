@@ -273,8 +273,8 @@ impl New {
     fn of(self, edge: &Edge, k: usize) -> f64 {
         let Edge { kept, lost, t, is_forward } = *edge;
         // The right number, and the same of numbers that are divided by w.
-        let at = |k: usize| between(kept[k], lost[k], t);
-        let over_w = between(kept[k] / kept[3], lost[k] / lost[3], t);
+        let at = |k: usize| interpolated(kept[k], lost[k], t);
+        let over_w = interpolated(kept[k] / kept[3], lost[k] / lost[3], t);
         match self {
             Self::Right => at(k),
             Self::Kept => kept[k],
@@ -290,7 +290,7 @@ impl New {
             }
             Self::OverW => over_w,
             Self::OverWAndBack => over_w * at(3),
-            Self::TimesWAndBack => between(kept[k] * kept[3], lost[k] * lost[3], t) / at(3),
+            Self::TimesWAndBack => interpolated(kept[k] * kept[3], lost[k] * lost[3], t) / at(3),
             Self::DividedByW => at(k) / at(3),
             Self::TimesW => at(k) * at(3),
             Self::Exchanged => at([1, 0, 2, 3, 4][k]),
@@ -304,7 +304,7 @@ impl New {
 }
 
 /// The number at a part of the way from one number to another.
-fn between(from: f64, to: f64, t: f64) -> f64 {
+fn interpolated(from: f64, to: f64, t: f64) -> f64 {
     from + (to - from) * t
 }
 
