@@ -57,6 +57,11 @@ fn has_depth(check: Check) -> bool {
     matches!(check, Check::Depth | Check::Near | Check::Carried | Check::Wide)
 }
 
+/// Whether triangles of clip space are asked, which have no window.
+fn is_clipped(check: Check) -> bool {
+    matches!(check, Check::Near | Check::Carried)
+}
+
 /// How many triangles have no area.
 fn flat(case: &Case) -> usize {
     triangles(case).iter().filter(|t| twice_area(&t.corners()) == 0).count()
@@ -103,8 +108,7 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
         }
     }
     // A smaller window; what N and A ask has none.
-    let is_clipped = matches!(check, Check::Near | Check::Carried);
-    if !is_clipped {
+    if !is_clipped(check) {
         let PixelRect { x0, y0, x1, y1 } = window;
         for [x1, y1] in [[x1 / 2, y1], [x1, y1 / 2], [x1 - 1, y1], [x1, y1 - 1]] {
             if x1 > x0 && y1 > y0 {
@@ -150,30 +154,9 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
                 found.push(case_of(window, flat));
             }
         }
-        // Then each number of a corner alone: its depth, and its w and its attribute in clip space.
+        // Then each number of a corner alone.
         for j in 0..3 {
-            let corner = &list[i].vertices[j];
-            let mut simpler_corners = Vec::new();
-            if has_depth(check) {
-                for depth in simpler_number(corner.depth) {
-                    simpler_corners.push(ScreenVertex { depth, ..*corner });
-                }
-            }
-            if is_clipped {
-                let DVec2 { x: w, y: attribute } = corner.varying;
-                for w in simpler_number(w) {
-                    // At w = 0 a corner lies nowhere.
-                    if w != 0.0 {
-                        let varying = DVec2::new(w, attribute);
-                        simpler_corners.push(ScreenVertex { varying, ..*corner });
-                    }
-                }
-                for attribute in simpler_number(attribute) {
-                    let varying = DVec2::new(w, attribute);
-                    simpler_corners.push(ScreenVertex { varying, ..*corner });
-                }
-            }
-            for simpler in simpler_corners {
+            for simpler in simpler_corners(&list[i].vertices[j], check) {
                 let mut changed = list.to_vec();
                 changed[i].vertices[j] = simpler;
                 found.push(case_of(window, changed));
@@ -186,6 +169,27 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
 /// A case of these triangles. Whether they are disjoint does not matter to one that is asked again by the same check.
 fn case_of(window: PixelRect, list: Vec<Triangle>) -> Case {
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// A corner with one of its numbers simpler: its depth, or its w and its attribute in clip space.
+fn simpler_corners(corner: &ScreenVertex<DVec2>, check: Check) -> Vec<ScreenVertex<DVec2>> {
+    let mut simpler = Vec::new();
+    if has_depth(check) {
+        for depth in simpler_number(corner.depth) {
+            simpler.push(ScreenVertex { depth, ..*corner });
+        }
+    }
+    if is_clipped(check) {
+        let DVec2 { x: w, y: attribute } = corner.varying;
+        // At w = 0 a corner lies nowhere.
+        for w in simpler_number(w).filter(|w| *w != 0.0) {
+            simpler.push(ScreenVertex { varying: DVec2::new(w, attribute), ..*corner });
+        }
+        for attribute in simpler_number(attribute) {
+            simpler.push(ScreenVertex { varying: DVec2::new(w, attribute), ..*corner });
+        }
+    }
+    simpler
 }
 
 /// Triangles with a corner at another place, in all of those that share it.
