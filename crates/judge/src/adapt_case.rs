@@ -10,7 +10,7 @@ use std::ops::Range;
 use super::Options;
 use super::declared::Declared;
 use rasterproof_core::geometry::is_disjoint;
-use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::facts::Topic;
 use rasterproof_verify::cases::{self, Case, Family, Limits, Shape};
@@ -32,13 +32,14 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     let mut chosen: Vec<&Family> = cases::families()
         .chain(cases::near_plane::FAMILIES)
         .chain(cases::formulas::FAMILIES)
-        .filter(|f| f.name != "far" && (wanted.is_empty() || wanted.iter().any(|w| w == f.name)))
         .collect();
-    let rank = |f: &Family| FIRST.iter().position(|name| *name == f.name).unwrap_or(FIRST.len());
-    chosen.sort_by_key(|f| rank(f));
+    chosen.retain(|f| f.name != "far" && (wanted.is_empty() || wanted.iter().any(|w| w == f.name)));
+    // The sort keeps the order of the catalogue among those that are not among the first.
+    chosen.sort_by_key(|f| FIRST.iter().position(|name| *name == f.name).unwrap_or(FIRST.len()));
     chosen
 }
 
+/// The family of a name; nothing where none of those that are asked has it.
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
@@ -51,6 +52,7 @@ pub fn numbers(options: &Options, design: Option<&Topic>) -> Range<u64> {
     start..end.saturating_mul(blocks)
 }
 
+/// Whether the cases of a family are thin lines, which have verbs and checks of their own.
 #[must_use]
 pub fn is_lines(family: &Family) -> bool {
     cases::lines::FAMILIES.iter().any(|f| f.name == family.name)
@@ -118,8 +120,12 @@ pub fn leaves_window(case: &Case) -> bool {
     let w = case.window;
     match &case.shape {
         Shape::Triangles { list, .. } => {
-            let is_in = |v: i32, side_px: i32| (0..=side_px * SUBPIXELS).contains(&v);
-            list.iter().flat_map(|t| t.corners()).any(|p| !is_in(p.x, w.x1) || !is_in(p.y, w.y1))
+            // A corner on a side lies in the window.
+            let (right, bottom) = (w.x1 * SUBPIXELS, w.y1 * SUBPIXELS);
+            let is_in = |corner: &SubpixelPoint| {
+                (0..=right).contains(&corner.x) && (0..=bottom).contains(&corner.y)
+            };
+            !list.iter().all(|triangle| triangle.corners().iter().all(is_in))
         }
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).any(|e| !w.contains(e.pixel.x, e.pixel.y))

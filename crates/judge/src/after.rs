@@ -24,6 +24,7 @@ impl Patience {
     /// What a time limit leaves until `end`; without one, what the convention that was looked for before has left.
     #[must_use]
     pub fn of(options: &Options, end: Option<Instant>, convention: Option<&Recognised>) -> Self {
+        // Looking for the convention came first and took its part.
         let spent = convention.map_or(Duration::ZERO, |found| found.spent);
         let answers = match end {
             Some(end) => end.saturating_duration_since(Instant::now()),
@@ -52,8 +53,11 @@ impl Patience {
 /// The failing cases of a run, why they fail, and what the time was too short for.
 #[derive(Default)]
 pub struct Explained {
+    /// The failing cases that are shown.
     pub failures: Vec<Failure>,
+    /// Why they fail, for each check in which something is wrong.
     pub causes: Vec<Why>,
+    /// What the time was too short for.
     pub left_out: LeftOut,
 }
 
@@ -86,10 +90,12 @@ pub fn explain(
     if !checks.is_empty() {
         progress(Step::Cause);
     }
+    // Causes get what the smaller cases have left of the time.
     let mut asked = patience.limit(program, spent);
     let (causes, was_cut) =
         recognise::mistakes(&mut asked, &checks, truth, recognised, &failing(&failures));
     let mut left_out = left_out(found, options);
+    // Whatever was cut is said, so that nobody takes silence for a result.
     left_out.convention = recognised.is_some_and(|found| found.is_late);
     left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     left_out.cause = was_cut;

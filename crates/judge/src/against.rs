@@ -17,6 +17,7 @@ use super::{Options, Step, finish, for_families, reach};
 
 /// Two programs behind one [`Subject`]: each answer is [`Answer::Two`].
 struct Pair<'a> {
+    /// The two programs, the first of which has the conventions of the pair.
     sides: [&'a mut dyn Subject; 2],
     /// What both can answer, with the conventions of the first.
     declared: Declared,
@@ -30,20 +31,27 @@ impl Subject for Pair<'_> {
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let names = self.names();
         let [first, second] = &mut self.sides;
+        // The second program is asked only what the first one answered, and both share the deaths that are allowed.
         let answers = first.ask(questions, most_deaths);
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         let others =
             second.ask(&questions[..answers.len()], most_deaths.saturating_sub(deaths).max(1));
-        let both = |(first, second): (Answer, Answer)| match (first, second) {
-            (Answer::Died(what), _) => Answer::Died(said_by(&names[0], what)),
-            (_, Answer::Died(what)) => Answer::Died(said_by(&names[1], what)),
-            (first, second) => Answer::Two(Box::new([first, second])),
-        };
-        answers.into_iter().zip(others).map(both).collect()
+        let mut both = Vec::new();
+        for pair in answers.into_iter().zip(others) {
+            // A death of either is one of both, and says whose it is.
+            both.push(match pair {
+                (Answer::Died(what), _) => Answer::Died(said_by(&names[0], what)),
+                (_, Answer::Died(what)) => Answer::Died(said_by(&names[1], what)),
+                (first, second) => Answer::Two(Box::new([first, second])),
+            });
+        }
+        both
     }
 
     fn end_at(&mut self, end: Option<Instant>) {
-        self.sides.iter_mut().for_each(|side| side.end_at(end));
+        for side in &mut self.sides {
+            side.end_at(end);
+        }
     }
 
     fn cases_at_once(&self) -> u64 {
@@ -64,7 +72,9 @@ impl Subject for Pair<'_> {
         for (side, name) in self.sides.iter().zip(self.names()) {
             let Complaints { lines, shown } = side.complaints();
             both.lines += lines;
-            both.shown.extend(shown.into_iter().map(|line| format!("{name}: {line}")));
+            for line in shown {
+                both.shown.push(format!("{name}: {line}"));
+            }
         }
         both
     }
@@ -78,11 +88,14 @@ impl Pair<'_> {
     ) -> Vec<Misbehaviour> {
         let mut all = Vec::new();
         for (name, side) in self.names().iter().zip(&mut self.sides) {
-            all.extend(what(&mut **side).into_iter().map(|what| said_by(name, what)));
+            for what in what(&mut **side) {
+                all.push(said_by(name, what));
+            }
         }
         all
     }
 
+    /// The names of both sides, by which deaths and complaints are told apart.
     fn names(&self) -> [String; 2] {
         names([self.sides[0].declared(), self.sides[1].declared()])
     }
@@ -99,6 +112,7 @@ pub fn names([first, second]: [&Declared; 2]) -> [String; 2] {
     [first.name.clone(), other]
 }
 
+/// What a program did, with its name before it.
 fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
     Misbehaviour { how: format!("{name}: {}", what.how), ..what }
 }
@@ -117,12 +131,15 @@ pub fn compare(
     progress(Step::Rule);
     let [first, second] = pairs.first_mut().expect("somebody to be asked");
     let mut both = [first.declared().clone(), second.declared().clone()];
+    // How far each one draws is measured before anything is compared.
     for (side, declared) in [first, second].into_iter().zip(&mut both) {
         let asked = &mut Timed::new(&mut **side, end);
         (declared.reach, declared.side) = (reach::reach(asked), reach::side(asked));
     }
-    let asked =
-        both.each_ref().map(|one| both.iter().fold(one.clone(), |d, other| d.within(other)));
+    // Each keeps its own conventions, and is asked what both can answer.
+    let [one, other] = &both;
+    let asked = [one.clone().within(one).within(other), other.clone().within(one).within(other)];
+    // What both are asked is the same; by what each is judged is its own.
     let mut truth = Truth::of(&asked[0]);
     truth.of_two = Some(Box::new(asked.each_ref().map(Truth::of)));
     let mut pairs: Vec<Pair<'_>> = pairs
@@ -136,8 +153,10 @@ pub fn compare(
     let mut askers: Vec<&mut dyn Subject> =
         pairs.iter_mut().map(|pair| pair as &mut dyn Subject).collect();
     let judged = |cases| progress(Step::Judged(cases));
+    // The cases, in which a difference of both counts as wrong.
     let mut found = run::run(&mut askers, &for_families(options, start), &truth, &judged);
     progress(Step::Smaller);
+    // Then the smallest cases that show a difference, and why one of both is wrong there.
     let pair = &mut pairs[0];
     let Explained { failures, causes, left_out } = match found.changing.is_empty() {
         true => explain(pair, &found, options, &truth, end, progress),
@@ -168,12 +187,14 @@ fn explain(
     end: Option<Instant>,
     progress: &(dyn Fn(Step) + Sync),
 ) -> Explained {
+    // First the cases are made smaller, with both programs asked at once.
     let patience = Patience::of(options, end, None);
     let (failures, mut spent) = after::smaller(pair, found, options, truth, patience);
     progress(Step::Cause);
     let mut left_out = after::left_out(found, options);
     left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     let names = pair.names();
+    // Then each side alone is asked for the cause of the rows in which it is wrong.
     let is_wrong: [fn(&Sides) -> bool; 2] =
         [|s| s.second + s.neither > 0, |s| s.first + s.neither > 0];
     let mut causes = Vec::new();

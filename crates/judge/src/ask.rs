@@ -19,6 +19,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::oracle::formula::Formula;
 use rasterproof_verify::partition::{self, Polygon};
 
+/// A request: what is asked, and the window whose pixels the answer may have. Windows of the protocol begin at the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     pub width: u32,
@@ -26,6 +27,7 @@ pub struct Question {
     pub of: Asked,
 }
 
+/// What a request asks, one variant for each verb of the protocol.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// T: the pixels of a triangle.
@@ -62,6 +64,7 @@ pub enum Asked {
 impl Asked {
     /// The letters of the request and of its answer.
     fn letters(&self) -> [u8; 2] {
+        // The request first, then its answer.
         *match self {
             Self::Coverage(_) => b"TC",
             Self::Values(_) => b"IF",
@@ -82,6 +85,8 @@ impl Asked {
 /// The letters that answers begin with, of every verb.
 pub const ANSWER_LETTERS: &[u8] = b"CHFMPVKUGBZOE";
 
+/// What came back for a question, one variant for each letter that answers begin with, and two for what is no answer of one
+/// program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// C: runs of covered pixels as they came.
@@ -205,6 +210,7 @@ pub struct Misbehaviour {
 }
 
 impl Breach {
+    /// The misbehaviour of this kind, with how it was seen.
     pub fn by(self, how: impl Into<String>) -> Misbehaviour {
         Misbehaviour { breach: self, how: how.into() }
     }
@@ -236,7 +242,11 @@ impl fmt::Display for Misbehaviour {
     }
 }
 
+/// Somebody who answers questions: a program behind pipes, an engine in memory, or a record of earlier answers. The judge asks all
+/// of
+/// them through this trait and cannot tell them apart.
 pub trait Subject: Send {
+    /// What it says of itself, which decides what it is asked and by which rules it is judged.
     fn declared(&self) -> &Declared;
 
     /// An answer for each question, in order; fewer where that many of them are deaths, or where its time
@@ -309,12 +319,16 @@ impl Question {
         };
         // Rust prints the shortest decimal that reads back as the same number.
         let mut add = |numbers: &[f64]| {
-            numbers.iter().for_each(|number| drop(write!(out, " {number}")));
+            for number in numbers {
+                let _ = write!(out, " {number}");
+            }
         };
         let at = |p: SubpixelPoint| [px(p.x), px(p.y)];
         match &self.of {
             Asked::Coverage(corners) | Asked::Samples(corners) | Asked::Area(corners) => {
-                corners.iter().for_each(|p| add(&at(*p)));
+                for corner in corners {
+                    add(&at(*corner));
+                }
             }
             Asked::Values(triangle) | Asked::SampleValues(triangle) => {
                 for v in &triangle.vertices {
@@ -324,10 +338,14 @@ impl Question {
             }
             Asked::Line { ends, whole } => {
                 let centre = if *whole { 0.0 } else { 0.5 };
-                ends.iter().for_each(|p| add(&[p.x, p.y].map(|px| f64::from(px) + centre)));
+                for end in ends {
+                    add(&[f64::from(end.x) + centre, f64::from(end.y) + centre]);
+                }
             }
             Asked::Wide(line) => {
-                line.ends.iter().for_each(|p| add(&at(*p)));
+                for end in &line.ends {
+                    add(&at(*end));
+                }
                 add(&[px(line.width)]);
             }
             Asked::Depth(list) => {
@@ -337,10 +355,14 @@ impl Question {
                 }
             }
             Asked::Near(triangle) => {
-                clip_corners(triangle).iter().for_each(|corner| add(&corner[..4]));
+                for corner in clip_corners(triangle) {
+                    add(&corner[..4]);
+                }
             }
             Asked::Carried(triangle) => {
-                clip_corners(triangle).iter().for_each(|corner| add(corner));
+                for corner in clip_corners(triangle) {
+                    add(&corner);
+                }
             }
             Asked::Polygon(polygon) => {
                 add(&[polygon.contours.len() as f64]);
@@ -371,11 +393,14 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
+        // Runs that are drawn often have a letter of their own.
         let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_) | Asked::Wide(_));
         if letter != self.of.letters()[1] && !has_hits {
             return Err("its letter does not belong to the request");
         }
+        // The count comes first, and what follows has to be as much.
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
+        // Each kind of question has its own kind of item.
         let answer = match self.of {
             Asked::Coverage(_) | Asked::Wide(_) if has_hits => {
                 let mut runs = Vec::new();
@@ -386,22 +411,15 @@ impl Question {
             }
             Asked::Coverage(_) | Asked::Wide(_) => Answer::Coverage(each(n, words, span)?),
             Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
-            Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
+            Asked::Line { .. } => Answer::Line(each(n, words, pixel)?),
             Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
             Asked::Area(_) => Answer::Area(each(n, words, marked)?),
             Asked::SampleValues(_) => Answer::SampleValues(each(n, words, sampled)?),
             Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
-            Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
-                Some([w.float()?, w.float()?, w.float()?, w.float()?, 0.0])
-            })?),
-            Asked::Carried(_) => Answer::Carried(each(n, words, |w| {
-                Some([w.float()?, w.float()?, w.float()?, w.float()?, w.float()?])
-            })?),
-            Asked::Formula(..) => Answer::Numbers(each(n, words, |w| w.float())?),
-            Asked::Polygon(_) => Answer::Triangles(each(n, words, |w| {
-                let mut corner = || Some([w.float()?, w.float()?]);
-                Some([corner()?, corner()?, corner()?])
-            })?),
+            Asked::Near(_) => Answer::Polygon(each(n, words, clip_corner)?),
+            Asked::Carried(_) => Answer::Carried(each(n, words, carried_corner)?),
+            Asked::Formula(..) => Answer::Numbers(each(n, words, float)?),
+            Asked::Polygon(_) => Answer::Triangles(each(n, words, triangle)?),
         };
         if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
     }
@@ -411,8 +429,9 @@ impl Question {
 fn each<T>(
     n: usize,
     words: &mut Words<'_>,
-    mut item: impl FnMut(&mut Words<'_>) -> Option<T>,
+    item: fn(&mut Words<'_>) -> Option<T>,
 ) -> Result<Vec<T>, &'static str> {
+    // A count says how much room is made, but no more than the words that are there could fill.
     let mut items = Vec::with_capacity(n.min(words.0.len() / 4 + 1));
     for _ in 0..n {
         if words.is_empty() {
@@ -423,6 +442,36 @@ fn each<T>(
     Ok(items)
 }
 
+/// A pixel of a thin line: its column and its row.
+fn pixel(words: &mut Words<'_>) -> Option<(i32, i32)> {
+    Some((words.int()?, words.int()?))
+}
+
+/// A corner of clip space without an attribute.
+fn clip_corner(words: &mut Words<'_>) -> Option<ClipCorner> {
+    Some([words.float()?, words.float()?, words.float()?, words.float()?, 0.0])
+}
+
+/// The same with the attribute that A asks for.
+fn carried_corner(words: &mut Words<'_>) -> Option<ClipCorner> {
+    Some([words.float()?, words.float()?, words.float()?, words.float()?, words.float()?])
+}
+
+/// A triangle of a polygon, by its three points.
+fn triangle(words: &mut Words<'_>) -> Option<partition::Triangle> {
+    Some([point(words)?, point(words)?, point(words)?])
+}
+
+/// A number alone, as formulas give them.
+fn float(words: &mut Words<'_>) -> Option<f64> {
+    words.float()
+}
+
+fn point(words: &mut Words<'_>) -> Option<[f64; 2]> {
+    Some([words.float()?, words.float()?])
+}
+
+/// A run: its row, its first column, and the column after its last one.
 fn span(words: &mut Words<'_>) -> Option<Span> {
     Some(Span { y_px: words.int()?, x0_px: words.int()?, x1_px: words.int()? })
 }
@@ -432,12 +481,14 @@ fn marked(words: &mut Words<'_>) -> Option<(Span, u8)> {
     Some((span(words)?, words.int().and_then(|mark| u8::try_from(mark).ok())?))
 }
 
+/// A pixel with depth and both attributes.
 fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
     Some(Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) })
 }
 
+/// A pixel with a mask of samples, and the values that all of these have.
 fn sampled(words: &mut Words<'_>) -> Option<SampledValues> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let mask = words.int().and_then(|mask| u8::try_from(mask).ok())?;
@@ -450,60 +501,94 @@ pub fn show(answer: &Answer, id: u64) -> String {
     printable(line(answer, id).as_bytes(), 400)
 }
 
-/// The answer as a line of the protocol, without its end.
+/// The answer as a line of the protocol, without its end: its letter, the id, the number of items, and the items.
 pub fn line(answer: &Answer, id: u64) -> String {
-    let list = |letter: char, items: Vec<String>| {
-        let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));
-        text.trim_end().to_owned()
-    };
-    let run = |s: &Span| format!("{} {} {}", s.y_px, s.x0_px, s.x1_px);
-    match answer {
-        Answer::Coverage(runs) => {
-            let counted: Vec<&[Span]> = runs.chunk_by(|a, b| a == b).collect();
-            // A run that is drawn often is shown once, with its hits.
-            if counted.iter().all(|same| same.len() <= 2) {
-                return list('C', runs.iter().map(run).collect());
-            }
-            list(
-                'H',
-                counted.iter().map(|same| format!("{} {}", run(&same[0]), same.len())).collect(),
-            )
-        }
-        Answer::Samples(runs) => {
-            list('M', runs.iter().map(|(s, mask)| format!("{} {mask}", run(s))).collect())
-        }
-        Answer::Seen(runs) => {
-            list('V', runs.iter().map(|(s, of)| format!("{} {of}", run(s))).collect())
-        }
-        Answer::Area(runs) => {
-            list('K', runs.iter().map(|(s, level)| format!("{} {level}", run(s))).collect())
-        }
+    let mut items = Vec::new();
+    let letter = match answer {
+        Answer::Refused(reason) => return format!("E {id} {reason}"),
+        Answer::Two(both) => return line(&both[0], id),
+        Answer::Died(misbehaviour) => return format!("({misbehaviour})"),
+        Answer::Coverage(runs) => write_runs(runs, &mut items),
+        Answer::Samples(runs) => write_marked('M', runs, &mut items),
+        Answer::Seen(runs) => write_marked('V', runs, &mut items),
+        Answer::Area(runs) => write_marked('K', runs, &mut items),
         Answer::Polygon(corners) => {
-            list('G', corners.iter().map(|[x, y, z, w, _]| format!("{x} {y} {z} {w}")).collect())
+            for [x, y, z, w, _] in corners {
+                items.push(format!("{x} {y} {z} {w}"));
+            }
+            'G'
         }
         Answer::Carried(corners) => {
-            let one = |[x, y, z, w, a]: &ClipCorner| format!("{x} {y} {z} {w} {a}");
-            list('B', corners.iter().map(one).collect())
+            for [x, y, z, w, a] in corners {
+                items.push(format!("{x} {y} {z} {w} {a}"));
+            }
+            'B'
         }
         Answer::Triangles(triangles) => {
-            list('Z', triangles.iter().map(|[a, b, c]| format!("{a:?} {b:?} {c:?}")).collect())
+            for [a, b, c] in triangles {
+                items.push(format!("{a:?} {b:?} {c:?}"));
+            }
+            'Z'
         }
-        Answer::Numbers(numbers) => list('O', numbers.iter().map(f64::to_string).collect()),
-        Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
+        Answer::Numbers(numbers) => {
+            for number in numbers {
+                items.push(number.to_string());
+            }
+            'O'
+        }
+        Answer::Line(pixels) => {
+            for (x, y) in pixels {
+                items.push(format!("{x} {y}"));
+            }
+            'P'
+        }
         Answer::Values(fragments) => {
-            let one = |f: &Fragment<DVec2>| {
-                format!("{} {} {} {} {}", f.x_px, f.y_px, f.depth, f.varying.x, f.varying.y)
-            };
-            list('F', fragments.iter().map(one).collect())
+            for f in fragments {
+                items.push(format!("{} {} {}", f.x_px, f.y_px, values_of(f)));
+            }
+            'F'
         }
         Answer::SampleValues(samples) => {
-            let one = |SampledValues { mask, values: f }: &SampledValues| {
-                format!("{} {} {mask} {} {} {}", f.x_px, f.y_px, f.depth, f.varying.x, f.varying.y)
-            };
-            list('U', samples.iter().map(one).collect())
+            for SampledValues { mask, values: f } in samples {
+                items.push(format!("{} {} {mask} {}", f.x_px, f.y_px, values_of(f)));
+            }
+            'U'
         }
-        Answer::Refused(reason) => format!("E {id} {reason}"),
-        Answer::Two(both) => line(&both[0], id),
-        Answer::Died(misbehaviour) => format!("({misbehaviour})"),
+    };
+    // Two spaces before each item keep long answers readable; who reads them skips white space.
+    let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));
+    text.trim_end().to_owned()
+}
+
+/// The runs of an answer, and its letter. Runs that are drawn often are written once each, with their hits.
+fn write_runs(runs: &[Span], items: &mut Vec<String>) -> char {
+    let is_counted = runs.chunk_by(|a, b| a == b).any(|same| same.len() > 2);
+    if !is_counted {
+        for run in runs {
+            items.push(run_of(run));
+        }
+        return 'C';
     }
+    for same in runs.chunk_by(|a, b| a == b) {
+        items.push(format!("{} {}", run_of(&same[0]), same.len()));
+    }
+    'H'
+}
+
+/// Runs with a mask, a level or the number of a triangle each.
+fn write_marked(letter: char, runs: &[(Span, u8)], items: &mut Vec<String>) -> char {
+    for (run, mark) in runs {
+        items.push(format!("{} {mark}", run_of(run)));
+    }
+    letter
+}
+
+/// A run in the order of the protocol: the row comes first.
+fn run_of(run: &Span) -> String {
+    format!("{} {} {}", run.y_px, run.x0_px, run.x1_px)
+}
+
+/// Depth and both attributes, each as the shortest decimal that reads back as the same number.
+fn values_of(f: &Fragment<DVec2>) -> String {
+    format!("{} {} {}", f.depth, f.varying.x, f.varying.y)
 }

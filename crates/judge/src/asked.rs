@@ -16,22 +16,29 @@ pub(super) fn asked(options: &Options, rows: &[Row], declared: &Declared) -> Vec
         return Vec::new();
     }
     let limits = adapt_case::limits(declared);
-    let is_asked = |family: &&'static Family| {
-        let Some(topic) = family.design() else { return false };
-        // What is counted over all families has a row of its own.
-        let checks: &[Check] = match topic.name {
-            name if name == facts::values::TOPIC.name => &[Check::Values],
-            name if name == facts::samples::TOPIC.name => &[Check::Samples],
-            name if name == facts::sample_values::TOPIC.name => &[Check::SampleValues],
-            name if name == facts::near::TOPIC.name => &[Check::Carried],
-            _ => &[],
-        };
-        let is_judged = |row: &&Row| {
-            row.name == family.name || row.check.is_some_and(|check| checks.contains(&check))
-        };
-        rows.iter().filter(is_judged).any(|row| !row.stopped)
-    };
-    let families = adapt_case::families(&options.families).into_iter().filter(is_asked);
+    let mut families = adapt_case::families(&options.families);
+    families.retain(|family| is_judged(family, rows));
     let numbers = |topic: &_| adapt_case::numbers(options, Some(topic));
     DesignShare::of_families(families, options.seed, numbers, &limits)
+}
+
+/// Whether the cases of a design were all judged: of a row that was given up, some were not.
+fn is_judged(family: &Family, rows: &[Row]) -> bool {
+    let Some(topic) = family.design() else { return false };
+    // What is counted over all families has a row of its own.
+    let checks: &[Check] = match topic.name {
+        name if name == facts::values::TOPIC.name => &[Check::Values],
+        name if name == facts::samples::TOPIC.name => &[Check::Samples],
+        name if name == facts::sample_values::TOPIC.name => &[Check::SampleValues],
+        name if name == facts::near::TOPIC.name => &[Check::Carried],
+        _ => &[],
+    };
+    for row in rows {
+        let is_of_family =
+            row.name == family.name || row.check.is_some_and(|check| checks.contains(&check));
+        if is_of_family && !row.stopped {
+            return true;
+        }
+    }
+    false
 }

@@ -15,6 +15,7 @@ use rasterproof_host::{input, limits};
 use super::run::{Failing, RunFindings};
 use super::verdict::{Outcome, Verdict};
 
+/// The first line of a file. The seed is in it because another seed has other cases under the same names.
 const HEADER: &str = "# rasterproof baseline 1, seed ";
 
 /// Known failures: a fingerprint for each `property family#number`.
@@ -22,6 +23,14 @@ const HEADER: &str = "# rasterproof baseline 1, seed ";
 pub struct Baseline {
     seed: u64,
     known: BTreeMap<String, u64>,
+}
+
+/// A known failure and its fingerprint, of a line `property family#number hex`.
+fn entry(line: &str) -> Option<(String, u64)> {
+    let (case, print) = line.rsplit_once(' ')?;
+    let (_, number) = case.split_once(' ')?;
+    let print = u64::from_str_radix(print, 16).ok()?;
+    number.contains('#').then(|| (case.to_owned(), print))
 }
 
 impl Baseline {
@@ -44,6 +53,7 @@ impl Baseline {
     /// The line that cannot be read, or another seed.
     pub fn parse(text: &str, seed: u64) -> Result<Self, String> {
         let mut lines = text.lines().zip(1..);
+        // The header says of which seed the numbers of the cases are.
         let of = lines.next().and_then(|(line, _)| line.strip_prefix(HEADER)?.parse::<u64>().ok());
         match of {
             None => {
@@ -56,14 +66,10 @@ impl Baseline {
             }
             Some(_) => {}
         }
+        // Then a line for each known failure; empty lines are allowed, since people edit such files.
         let mut known = BTreeMap::new();
         for (line, number) in lines.filter(|(line, _)| !line.is_empty()) {
-            let entry = line.rsplit_once(' ').and_then(|(case, print)| {
-                let is_case = case.split_once(' ')?.1.contains('#');
-                let print = u64::from_str_radix(print, 16).ok()?;
-                is_case.then(|| (case.to_owned(), print))
-            });
-            let (case, print) = entry
+            let (case, print) = entry(line)
                 .ok_or_else(|| format!("line {number}: expected 'property family#number hex'"))?;
             known.insert(case, print);
         }
@@ -82,12 +88,14 @@ impl Baseline {
         verdict.more.known = verdict.more.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
         let judged = judged_cases(&verdict.more.found);
+        // Each property is judged by its own cases: new failures, and known ones that do not fail any more.
         for property in &mut verdict.more.properties {
             let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
             let all: Vec<&String> = failing.keys().filter(of_it).collect();
             let new = all.iter().filter(|c| self.known.get(**c) != failing.get(**c)).count();
             let stale = self.known.keys().filter(of_it);
             let stale = stale.filter(|c| judged.contains(*c) && !failing.contains_key(*c)).count();
+            // A new failure decides before all, then a stale one.
             property.outcome = match (new, stale, property.outcome) {
                 (1.., _, _) => Outcome::Fail,
                 (0, 1.., _) => Outcome::UnexpectedPass,
@@ -112,6 +120,7 @@ impl Baseline {
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
         }
         let judged = judged_cases(&verdict.more.found);
+        // What was known of cases that were not judged now stays known.
         let mut all: BTreeMap<_, _> =
             self.known.iter().filter(|(case, _)| !judged.contains(*case)).collect();
         let failing = failing(verdict);

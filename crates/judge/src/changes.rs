@@ -13,11 +13,11 @@ use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::failures;
 use super::pixels::picture_of;
-use super::run::Failing;
+use super::run::{Failing, Row};
 use super::verdict::Verdict;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_verify::comparison::pixels::hits;
 
@@ -33,20 +33,26 @@ const LEAST: u64 = 2;
 pub struct JudgementRecord {
     /// What is wrong in a few words each, what is wrong most first.
     pub faults: Vec<String>,
+    /// The cases that fail, to be asked again.
     failing: Vec<Failing>,
     /// The names of the cases that fail, and of all that were judged, as in a baseline.
     wrong: BTreeMap<String, u64>,
+    /// The names of all cases that were judged, whatever came of them.
     judged: HashSet<String>,
 }
 
 /// How a judgement differs from the one before.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
+    /// What was wrong before and is right now.
     pub mended: Vec<String>,
+    /// What was wrong before and still is.
     pub still: Vec<String>,
+    /// What was right before, as far as cases show.
     pub new: Vec<String>,
     /// Cases that failed before and are right now, and those that still fail.
     pub right_now: u64,
+    /// Cases that fail in both.
     pub still_wrong: u64,
     /// Cases that were right before.
     pub wrong_now: u64,
@@ -68,7 +74,7 @@ impl JudgementRecord {
     pub fn ask_again(&self, program: &mut dyn Subject, seed: u64) -> [u64; 2] {
         let truth = Truth::of(program.declared());
         let mut counts = [0, 0];
-        for failing in spread(&self.failing, ASKED_AGAIN) {
+        for failing in some_of_each(&self.failing, ASKED_AGAIN) {
             let Some(asked) = AskedAgain::of(program, failing, seed, &truth) else { continue };
             counts[0] += 1;
             counts[1] += u64::from(!asked.is_wrong);
@@ -81,6 +87,7 @@ impl JudgementRecord {
     #[must_use]
     pub fn since(&self, before: &Self) -> Changes {
         let mut out = Changes::default();
+        // First the cases: those that were wrong before, then those that are wrong now.
         for case in before.wrong.keys() {
             if self.wrong.contains_key(case) {
                 out.still_wrong += 1;
@@ -92,11 +99,13 @@ impl JudgementRecord {
             let was_right = before.judged.contains(case) && !before.wrong.contains_key(case);
             out.wrong_now += u64::from(was_right);
         }
+        // Then the words. A fault is new only where a case shows it, since its words may have changed with another fault.
         for fault in &self.faults {
             let is_new = out.wrong_now > 0 && !before.faults.contains(fault);
             let list = if is_new { &mut out.new } else { &mut out.still };
             list.push(fault.clone());
         }
+        // In the same way, a fault is gone only where a case is right that was not.
         if out.right_now > 0 {
             let is_gone = |fault: &&String| !self.faults.contains(*fault);
             out.mended = before.faults.iter().filter(is_gone).cloned().collect();
@@ -105,20 +114,35 @@ impl JudgementRecord {
     }
 }
 
+/// The failing cases of a property.
+struct OfProperty<'a> {
+    name: &'static str,
+    failing: Vec<&'a Failing>,
+}
+
 /// Some of these, as many of each property as of the others.
-fn spread(all: &[Failing], most: usize) -> Vec<&Failing> {
-    let mut properties: Vec<(&str, Vec<&Failing>)> = Vec::new();
+fn some_of_each(all: &[Failing], most: usize) -> Vec<&Failing> {
+    // The cases of each property, in their order.
+    let mut properties: Vec<OfProperty<'_>> = Vec::new();
     for failing in all {
-        match properties.iter_mut().find(|(name, _)| *name == failing.property) {
-            Some((_, list)) => list.push(failing),
-            None => properties.push((failing.property, vec![failing])),
+        match properties.iter_mut().find(|of| of.name == failing.property) {
+            Some(of) => of.failing.push(failing),
+            None => {
+                properties.push(OfProperty { name: failing.property, failing: vec![failing] });
+            }
         }
     }
+    // The properties take turns, each with its next case, until there are enough or no more.
+    let longest = properties.iter().map(|of| of.failing.len()).max().unwrap_or(0);
     let mut chosen = Vec::new();
-    let longest = properties.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
     for number in 0..longest {
-        let turn = properties.iter().filter_map(|(_, list)| list.get(number));
-        chosen.extend(turn.copied().take(most - chosen.len()));
+        for of in &properties {
+            if let Some(&next) = of.failing.get(number)
+                && chosen.len() < most
+            {
+                chosen.push(next);
+            }
+        }
     }
     chosen
 }
@@ -132,7 +156,10 @@ struct AskedAgain {
 }
 
 impl AskedAgain {
+    /// Asks the case of a failure again; nothing where the time was up before it was answered, or where it has no such check any
+    /// more.
     fn of(program: &mut dyn Subject, of: &Failing, seed: u64, truth: &Truth) -> Option<Self> {
+        // The case is made again from the seed, so that only its name has to be kept.
         let family = adapt_case::family(of.family)?;
         let case = adapt_case::case(family, seed, of.index, &truth.declared);
         let checks = Check::of_truth(family.name, &case, of.index, truth);
@@ -147,76 +174,99 @@ impl AskedAgain {
     }
 }
 
-/// What is wrong with a program, in fixed words.
+/// What is wrong with a program, in fixed words, each once.
 fn faults(program: &mut dyn Subject, verdict: &Verdict) -> Vec<String> {
     let found = &verdict.more.found;
-    let truth = Truth::of(program.declared());
     let mut faults = Vec::new();
-    for incident in found.incidents.iter().map(|incident| &incident.what).chain(&found.strays) {
-        let what = format!("it {}", incident.breach.name());
-        if !faults.contains(&what) {
-            faults.push(what);
-        }
+    // What is no answer at all.
+    for incident in &found.incidents {
+        add_once(&mut faults, format!("it {}", incident.what.breach.name()));
     }
-    let rows = || verdict.families.iter().filter(|row| row.wrong_cases > 0);
-    if rows().any(|row| row.refused > 0) {
+    for stray in &found.strays {
+        add_once(&mut faults, format!("it {}", stray.breach.name()));
+    }
+    let wrong: Vec<&Row> = verdict.families.iter().filter(|row| row.wrong_cases > 0).collect();
+    if wrong.iter().any(|row| row.refused > 0) {
         faults.push("requests that it refuses".to_owned());
     }
+    // Wrong pixels, by the places where they lie.
     let mut is_explained = false;
-    let failing = baseline::failing_cases(found);
     for check in [Check::Coverage, Check::Line] {
-        let of_it: Vec<&str> =
-            rows().filter(|row| row.check == Some(check)).map(|row| row.name).collect();
-        if of_it.is_empty() {
-            continue;
+        if wrong.iter().any(|row| row.check == Some(check)) {
+            is_explained = true;
+            faults.extend(wrong_places(program, check, verdict, &wrong));
         }
-        is_explained = true;
-        let wrong: Vec<Failing> =
-            found.failing.iter().filter(|f| of_it.contains(&f.property)).cloned().collect();
-        let judged = found.judged.iter().filter(|(name, ..)| of_it.contains(name));
-        let mut right = Vec::new();
-        for &(property, family, index) in judged {
-            let case = Failing { property, family, index, fingerprint: 0 };
-            if !failing.contains_key(&case.name()) {
-                right.push(case);
-            }
-        }
-        let mut table = PlaceTable::new(check);
-        for case in spread(&wrong, ASKED_AGAIN).into_iter().chain(spread(&right, ASKED_AGAIN)) {
-            let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
-            if let Some(asked) = asked.filter(|asked| asked.check == check) {
-                for (question, answer) in asked.questions.iter().zip(&asked.answers) {
-                    table.add(question, answer, &truth);
-                }
-            }
-        }
-        faults.extend(table.named());
     }
-    for row in rows() {
-        let name = match row.check {
-            Some(Check::Values) if row.wrong_values > 0 => "values",
-            Some(Check::Samples) => "samples",
-            Some(Check::Depth) => "which triangle is seen",
-            Some(Check::Near) => "corners at the near plane",
-            Some(Check::Wide) => "lines with a width",
-            Some(Check::Area) => "shares of pixels",
-            Some(Check::SampleValues) => "values of samples",
-            Some(Check::Formula) => "results of formulas",
-            Some(Check::Carried) => "attributes at the near plane",
-            // What is wrong between answers, and with the pixels of values, comes of wrong pixels, where there are any.
-            Some(Check::Values) if !is_explained => "pixels of values",
-            Some(Check::Order | Check::Watertight | Check::Direction | Check::Outline)
-                if !is_explained =>
-            {
-                row.name
-            }
-            _ => continue,
-        };
-        if !faults.iter().any(|known| known == name) {
-            faults.push(name.to_owned());
+    // Whatever else is wrong has a name.
+    for row in wrong {
+        if let Some(name) = name_of(row, is_explained) {
+            add_once(&mut faults, name.to_owned());
         }
     }
     faults
+}
+
+/// A fault is said once, however many rows show it.
+fn add_once(faults: &mut Vec<String>, fault: String) {
+    if !faults.contains(&fault) {
+        faults.push(fault);
+    }
+}
+
+/// The places of wrong pixels in the answers to some cases of a check, wrong ones and right ones, which are asked again.
+fn wrong_places(
+    program: &mut dyn Subject,
+    check: Check,
+    verdict: &Verdict,
+    rows: &[&Row],
+) -> Vec<String> {
+    let found = &verdict.more.found;
+    let truth = Truth::of(program.declared());
+    // The rows whose cases are judged by this check.
+    let is_of_check =
+        |name: &str| rows.iter().any(|row| row.check == Some(check) && row.name == name);
+    let mut wrong = found.failing.clone();
+    wrong.retain(|failing| is_of_check(failing.property));
+    // Right is a case that was judged and is none of those that fail.
+    let failing = baseline::failing_cases(found);
+    let mut right = Vec::new();
+    for &(property, family, index) in &found.judged {
+        let case = Failing { property, family, index, fingerprint: 0 };
+        if is_of_check(property) && !failing.contains_key(&case.name()) {
+            right.push(case);
+        }
+    }
+    // Wrong and right cases count alike: a place is named where nearly all of its pixels are wrong.
+    let mut table = PlaceTable::new(check);
+    for case in
+        some_of_each(&wrong, ASKED_AGAIN).into_iter().chain(some_of_each(&right, ASKED_AGAIN))
+    {
+        let asked = AskedAgain::of(program, case, verdict.options.seed, &truth);
+        let Some(asked) = asked.filter(|asked| asked.check == check) else { continue };
+        for (question, answer) in asked.questions.iter().zip(&asked.answers) {
+            table.add(question, answer, &truth);
+        }
+    }
+    table.named()
+}
+
+/// The name of what is wrong in a row; nothing where wrong pixels explain it, or where their places are named.
+fn name_of(row: &Row, is_explained: bool) -> Option<&'static str> {
+    Some(match row.check? {
+        Check::Values if row.wrong_values > 0 => "values",
+        Check::Samples => "samples",
+        Check::Depth => "which triangle is seen",
+        Check::Near => "corners at the near plane",
+        Check::Wide => "lines with a width",
+        Check::Area => "shares of pixels",
+        Check::SampleValues => "values of samples",
+        Check::Formula => "results of formulas",
+        Check::Carried => "attributes at the near plane",
+        // What is wrong between answers, and with the pixels of values, comes of wrong pixels, where there are any.
+        Check::Values if !is_explained => "pixels of values",
+        check if check.compares_answers() && !is_explained => row.name,
+        _ => return None,
+    })
 }
 
 /// A pixel of a triangle that is drawn, or might be, with what a place asks of it.
@@ -227,9 +277,11 @@ struct Spot<'a> {
     on_edge: [bool; 4],
     /// The first and last column and row of the window whose samples lie between the corners; they may have no pixel.
     columns: [i32; 2],
+    /// The same of rows.
     rows: [i32; 2],
     /// The first and last column and row with a pixel that is expected.
     drawn_columns: [i32; 2],
+    /// The same of rows.
     drawn_rows: [i32; 2],
     /// The first and last pixel that is expected in its row.
     run: Option<[i32; 2]>,
@@ -240,65 +292,85 @@ struct LineSpot<'a> {
     question: &'a Question,
     ends: [PixelPoint; 2],
     pixel: [i32; 2],
+    /// Whether the pixels come in the order in which they are expected.
     is_in_order: bool,
 }
 
 /// The name of a place, and whether a pixel lies there.
-type TrianglePlace = (&'static str, fn(&Spot<'_>) -> bool);
-type LinePlace = (&'static str, fn(&LineSpot<'_>) -> bool);
+type Place = (&'static str, bool);
 
-/// Places of pixels, those that say most first. A row or column of a shape is meant in either of two ways.
-const TRIANGLE_PLACES: [TrianglePlace; 24] = [
-    ("ties on left edges", |s| s.on_edge[0]),
-    ("ties on right edges", |s| s.on_edge[1]),
-    ("ties on top edges", |s| s.on_edge[2]),
-    ("ties on bottom edges", |s| s.on_edge[3]),
-    ("the first row of shapes", |s| s.pixel[1] == s.rows[0]),
-    ("the last row of shapes", |s| s.pixel[1] == s.rows[1]),
-    ("the first column of shapes", |s| s.pixel[0] == s.columns[0]),
-    ("the last column of shapes", |s| s.pixel[0] == s.columns[1]),
-    ("the first row of shapes", |s| s.pixel[1] == s.drawn_rows[0]),
-    ("the last row of shapes", |s| s.pixel[1] == s.drawn_rows[1]),
-    ("the first column of shapes", |s| s.pixel[0] == s.drawn_columns[0]),
-    ("the last column of shapes", |s| s.pixel[0] == s.drawn_columns[1]),
-    ("the left ends of rows", |s| s.run.is_some_and(|run| run[0] == s.pixel[0])),
-    ("the right ends of rows", |s| s.run.is_some_and(|run| run[1] == s.pixel[0])),
-    ("pixels left of the rows", |s| s.run.is_some_and(|run| s.pixel[0] == run[0] - 1)),
-    ("pixels right of the rows", |s| s.run.is_some_and(|run| s.pixel[0] == run[1] + 1)),
-    ("windows of width 1", |s| s.question.width == 1),
-    ("windows of height 1", |s| s.question.height == 1),
-    ("the last row of windows", |s| s.pixel[1] as u32 + 1 == s.question.height),
-    ("the last column of windows", |s| s.pixel[0] as u32 + 1 == s.question.width),
-    ("clockwise triangles", |s| corners(s.question).is_some_and(|c| twice_area(c) > 0)),
-    ("counterclockwise triangles", |s| corners(s.question).is_some_and(|c| twice_area(c) < 0)),
-    ("triangles without area", |s| corners(s.question).is_some_and(|c| twice_area(c) == 0)),
-    ("all pixels of triangles", |_| true),
-];
-
-const LINE_PLACES: [LinePlace; 18] = [
-    ("the first pixel of lines", |s| s.pixel == [s.ends[0].x, s.ends[0].y]),
-    ("the last pixel of lines", |s| s.pixel == [s.ends[1].x, s.ends[1].y]),
-    ("ties of lines", |s| s.is_tie()),
-    ("ties of lines drawn backwards", |s| s.is_tie() && s.is_backwards()),
-    ("ties of lines whose x and y go opposite ways", |s| {
-        s.is_tie() && s.side()[0].signum() * s.side()[1].signum() < 0
-    }),
-    ("level lines", |s| s.side()[1] == 0),
-    ("upright lines", |s| s.side()[0] == 0),
-    ("diagonal lines", |s| s.side()[0].abs() == s.side()[1].abs()),
-    ("windows of width 1", |s| s.question.width == 1),
-    ("windows of height 1", |s| s.question.height == 1),
-    ("steep lines", |s| s.side()[1].abs() > s.side()[0].abs()),
-    ("flat lines", |s| s.side()[0].abs() > s.side()[1].abs()),
-    ("lines to the left", |s| s.side()[0] < 0),
-    ("lines to the right", |s| s.side()[0] > 0),
-    ("lines that run up", |s| s.side()[1] < 0),
-    ("lines that run down", |s| s.side()[1] > 0),
-    ("the order of the pixels of lines", |s| !s.is_in_order),
-    ("all pixels of lines", |_| true),
-];
+impl Spot<'_> {
+    /// All places, those that say most first. A row or column of a shape is meant in either of two ways.
+    fn places(&self) -> Vec<Place> {
+        let [left, right, top, bottom] = self.on_edge;
+        let [x, y] = self.pixel;
+        // Of questions that are not about coverage, no place of a triangle holds.
+        let area = corners(self.question).map_or(0, twice_area);
+        let is_triangle = corners(self.question).is_some();
+        let run = self.run;
+        vec![
+            ("ties on left edges", left),
+            ("ties on right edges", right),
+            ("ties on top edges", top),
+            ("ties on bottom edges", bottom),
+            ("the first row of shapes", y == self.rows[0]),
+            ("the last row of shapes", y == self.rows[1]),
+            ("the first column of shapes", x == self.columns[0]),
+            ("the last column of shapes", x == self.columns[1]),
+            ("the first row of shapes", y == self.drawn_rows[0]),
+            ("the last row of shapes", y == self.drawn_rows[1]),
+            ("the first column of shapes", x == self.drawn_columns[0]),
+            ("the last column of shapes", x == self.drawn_columns[1]),
+            ("the left ends of rows", run.is_some_and(|run| run[0] == x)),
+            ("the right ends of rows", run.is_some_and(|run| run[1] == x)),
+            ("pixels left of the rows", run.is_some_and(|run| x == run[0] - 1)),
+            ("pixels right of the rows", run.is_some_and(|run| x == run[1] + 1)),
+            ("windows of width 1", self.question.width == 1),
+            ("windows of height 1", self.question.height == 1),
+            ("the last row of windows", y as u32 + 1 == self.question.height),
+            ("the last column of windows", x as u32 + 1 == self.question.width),
+            ("clockwise triangles", area > 0),
+            ("counterclockwise triangles", area < 0),
+            ("triangles without area", is_triangle && area == 0),
+            ("all pixels of triangles", true),
+        ]
+    }
+}
 
 impl LineSpot<'_> {
+    /// All places, those that say most first.
+    fn places(&self) -> Vec<Place> {
+        let [x, y] = self.pixel;
+        let [first, last] = self.ends;
+        let [dx, dy] = self.side();
+        // A tie is computed once, since three places ask for it.
+        let is_tie = self.is_tie();
+        vec![
+            ("the first pixel of lines", [x, y] == [first.x, first.y]),
+            ("the last pixel of lines", [x, y] == [last.x, last.y]),
+            ("ties of lines", is_tie),
+            ("ties of lines drawn backwards", is_tie && self.is_backwards()),
+            (
+                "ties of lines whose x and y go opposite ways",
+                is_tie && dx.signum() * dy.signum() < 0,
+            ),
+            ("level lines", dy == 0),
+            ("upright lines", dx == 0),
+            ("diagonal lines", dx.abs() == dy.abs()),
+            ("windows of width 1", self.question.width == 1),
+            ("windows of height 1", self.question.height == 1),
+            ("steep lines", dy.abs() > dx.abs()),
+            ("flat lines", dx.abs() > dy.abs()),
+            ("lines to the left", dx < 0),
+            ("lines to the right", dx > 0),
+            ("lines that run up", dy < 0),
+            ("lines that run down", dy > 0),
+            ("the order of the pixels of lines", !self.is_in_order),
+            ("all pixels of lines", true),
+        ]
+    }
+
+    /// How far it goes along x and y.
     fn side(&self) -> [i64; 2] {
         let [from, to] = self.ends;
         [i64::from(to.x) - i64::from(from.x), i64::from(to.y) - i64::from(from.y)]
@@ -314,6 +386,7 @@ impl LineSpot<'_> {
     fn is_tie(&self) -> bool {
         let [dx, dy] = self.side();
         let start = [self.ends[0].x, self.ends[0].y];
+        // Along the longer side the line goes a pixel at each step; a tie is where the other coordinate is halfway.
         let along = usize::from(dy.abs() > dx.abs());
         let (longer, shorter) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
         let steps = (i64::from(self.pixel[along]) - i64::from(start[along])).abs();
@@ -321,6 +394,7 @@ impl LineSpot<'_> {
     }
 }
 
+/// The corners of a question about coverage; places of triangles are those of such questions alone.
 fn corners(question: &Question) -> Option<&Corners> {
     match &question.of {
         Asked::Coverage(corners) => Some(corners),
@@ -351,50 +425,75 @@ fn edges_at(corners: &Corners, at: [i32; 2]) -> [bool; 4] {
     on
 }
 
-/// The first and last pixel whose sample lies between two coordinates, the second one excluded, within the window.
-fn between(least: i32, most: i32, sample: i32, side: u32) -> [i32; 2] {
-    let first_at_or_after = |v: i32| {
-        // Corners may lie at the ends of their range.
-        let (way, step) = (i64::from(v) - i64::from(sample), i64::from(SUBPIXELS));
-        way.div_euclid(step) + i64::from(way.rem_euclid(step) > 0)
-    };
-    let last = (first_at_or_after(most) - 1).min(i64::from(side) - 1);
+/// The first and last pixel within the window whose sample lies between the least and the greatest of three coordinates, the
+/// greatest excluded.
+fn samples_between(coordinates: &[i32; 3], sample: i32, side: u32) -> [i32; 2] {
+    let [a, b, c] = *coordinates;
+    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+    let (side, last) = (i64::from(side), first_at_or_after(most, sample) - 1);
     // Both lie in the window or just before it, or the first lies behind the last.
-    [first_at_or_after(least).max(0), last].map(|v| v.clamp(-1, i64::from(side)) as i32)
+    let first = first_at_or_after(least, sample).max(0).clamp(-1, side);
+    [first as i32, last.min(side - 1).clamp(-1, side) as i32]
+}
+
+/// The first pixel whose sample has at least this coordinate. Corners may lie at the ends of their range, so that the difference
+/// does not fit into 32 bits.
+fn first_at_or_after(coordinate: i32, sample: i32) -> i64 {
+    let (way, step) = (i64::from(coordinate) - i64::from(sample), i64::from(SUBPIXELS));
+    way.div_euclid(step) + i64::from(way.rem_euclid(step) > 0)
+}
+
+/// Which pixels of a triangle must and may be drawn, and which were.
+struct TrianglePictures {
+    /// The pixels that have to be drawn.
+    must: Coverage,
+    /// Those, and the pixels of which nothing is promised.
+    may: Coverage,
+    drawn: Coverage,
 }
 
 /// For each place how many pixels there are and how many are wrong; and each wrong pixel with its places, as bits. Pixels that should
 /// be drawn and those that should not are told apart: each place is there for both, one half of all behind the other.
 struct PlaceTable {
     check: Check,
+    /// The name of each place, twice: first for pixels that should be drawn, then for the others.
     names: Vec<&'static str>,
+    /// How many pixels lie at each place.
     all: Vec<u64>,
+    /// How many of them are wrong.
     wrong: Vec<u64>,
+    /// The places of each wrong pixel, a bit for each.
     wrong_pixels: Vec<u64>,
 }
 
 impl PlaceTable {
+    /// A table without a pixel yet.
     fn new(check: Check) -> Self {
-        let names: Vec<&str> = match check {
-            Check::Line => LINE_PLACES.iter().map(|(name, _)| *name).collect(),
-            _ => TRIANGLE_PLACES.iter().map(|(name, _)| *name).collect(),
-        };
-        let names = names.repeat(2);
-        let none = vec![0; names.len()];
-        Self { check, names, all: none.clone(), wrong: none, wrong_pixels: Vec::new() }
+        let (names, all, wrong, wrong_pixels) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { check, names, all, wrong, wrong_pixels }
     }
 
-    fn count(&mut self, holds: impl Iterator<Item = bool>, is_expected: bool, is_wrong: bool) {
-        let first = if is_expected { 0 } else { self.names.len() / 2 };
-        let mut places = 0;
-        for (place, _) in holds.enumerate().filter(|(_, holds)| *holds) {
-            let place = first + place;
-            self.all[place] += 1;
-            self.wrong[place] += u64::from(is_wrong);
-            places |= 1 << place;
+    /// Counts a pixel in all of the places where it lies.
+    fn count(&mut self, places: &[Place], is_expected: bool, is_wrong: bool) {
+        // Every pixel has the same places, so the first one brings their names.
+        if self.names.is_empty() {
+            self.names = places.iter().map(|(name, _)| *name).collect();
+            self.names = self.names.repeat(2);
+            self.all = vec![0; self.names.len()];
+            self.wrong = vec![0; self.names.len()];
+        }
+        let first = if is_expected { 0 } else { places.len() };
+        let mut bits = 0;
+        for (number, (_, lies_there)) in places.iter().enumerate() {
+            if *lies_there {
+                let place = first + number;
+                self.all[place] += 1;
+                self.wrong[place] += u64::from(is_wrong);
+                bits |= 1 << place;
+            }
         }
         if is_wrong {
-            self.wrong_pixels.push(places);
+            self.wrong_pixels.push(bits);
         }
     }
 
@@ -403,14 +502,19 @@ impl PlaceTable {
         let window = PixelRect::window(question.width, question.height);
         match &question.of {
             Asked::Coverage(corners) => {
+                // Where nothing is promised of a triangle, its pixels say nothing.
                 let Some(picture) = truth.expect.picture(corners, window) else { return };
                 let must = hits(&picture.must, window).0;
-                let may = picture.may.map_or_else(|| must.clone(), |may| hits(&may, window).0);
-                let nothing = || Coverage::new(window, 0);
-                let drawn = picture_of(answer, window).unwrap_or_else(nothing);
-                self.add_triangle(question, corners, [&must, &may, &drawn], &truth.declared);
+                let may = match &picture.may {
+                    Some(may) => hits(may, window).0,
+                    None => must.clone(),
+                };
+                let drawn = picture_of(answer, window).unwrap_or_else(|| Coverage::new(window, 0));
+                let pictures = TrianglePictures { must, may, drawn };
+                self.add_triangle(question, corners, &pictures, &truth.declared);
             }
             Asked::Line { ends, .. } => {
+                // The same of lines.
                 let Some(expected) = truth.expect.line(ends, window) else { return };
                 let drawn = if let Answer::Line(pixels) = answer { &pixels[..] } else { &[] };
                 self.add_line(question, *ends, &expected, drawn, truth.declared.line_set);
@@ -419,21 +523,18 @@ impl PlaceTable {
         }
     }
 
+    /// Counts the pixels of a triangle that are drawn, that should be, or that lie where another one like them is drawn.
     fn add_triangle(
         &mut self,
         question: &Question,
         corners: &Corners,
-        [must, may, drawn]: [&Coverage; 3],
+        TrianglePictures { must, may, drawn }: &TrianglePictures,
         declared: &Declared,
     ) {
+        // The rows and columns in which the shape begins and ends: by its corners, and by its pixels.
         let sample = declared.convention.sample;
-        let range = |of: fn(&SubpixelPoint) -> i32, axis: usize, side: u32| {
-            let values = corners.each_ref().map(of);
-            let (least, most) = (values.iter().min().copied(), values.iter().max().copied());
-            between(least.unwrap_or(0), most.unwrap_or(0), sample[axis], side)
-        };
-        let columns = range(|corner| corner.x, 0, question.width);
-        let rows = range(|corner| corner.y, 1, question.height);
+        let columns = samples_between(&corners.map(|corner| corner.x), sample[0], question.width);
+        let rows = samples_between(&corners.map(|corner| corner.y), sample[1], question.height);
         let (mut drawn_columns, mut drawn_rows) = ([i32::MAX, -1], [i32::MAX, -1]);
         for (y, x0, x1) in must.runs() {
             drawn_columns = [drawn_columns[0].min(x0), drawn_columns[1].max(x1 - 1)];
@@ -447,8 +548,10 @@ impl PlaceTable {
             for (x, &hits) in row.iter().enumerate() {
                 let (must, may) = (expected[x], may.row(y)[x]);
                 let pixel = [x as i32, y];
-                let at = [0, 1]
-                    .map(|axis| pixel[axis].saturating_mul(SUBPIXELS).saturating_add(sample[axis]));
+                let mut at = sample;
+                for axis in 0..2 {
+                    at[axis] = pixel[axis].saturating_mul(SUBPIXELS).saturating_add(sample[axis]);
+                }
                 let on_edge = edges_at(corners, at);
                 // A pixel that is rightly left out says something where another one like it is drawn.
                 let is_beside =
@@ -456,6 +559,7 @@ impl PlaceTable {
                 if must == 0 && hits == 0 && !is_beside && on_edge == [false; 4] {
                     continue;
                 }
+                let is_wrong = hits != must && !(hits == 1 && may == 1);
                 let spot = Spot {
                     question,
                     pixel,
@@ -466,13 +570,12 @@ impl PlaceTable {
                     drawn_rows,
                     run,
                 };
-                let is_wrong = hits != must && !(hits == 1 && may == 1);
-                let holds = TRIANGLE_PLACES.iter().map(|(_, holds)| holds(&spot));
-                self.count(holds, must > 0, is_wrong);
+                self.count(&spot.places(), must > 0, is_wrong);
             }
         }
     }
 
+    /// Counts the pixels of a line that are drawn or should be.
     fn add_line(
         &mut self,
         question: &Question,
@@ -484,6 +587,7 @@ impl PlaceTable {
         let (mut is, mut should) = (drawn.to_vec(), expected.to_vec());
         is.sort_unstable();
         should.sort_unstable();
+        // Both lists are sorted, so that a pixel is found by halves.
         let is_drawn = |pixel: &(i32, i32)| is.binary_search(pixel).is_ok();
         let is_in_order = is_set || is != should || drawn == expected;
         // A pixel beside the right one says the same as the one that is missing.
@@ -495,8 +599,7 @@ impl PlaceTable {
                 continue;
             }
             let spot = LineSpot { question, ends, pixel: [x, y], is_in_order };
-            let holds = LINE_PLACES.iter().map(|(_, holds)| holds(&spot));
-            self.count(holds, is_expected, is_wrong);
+            self.count(&spot.places(), is_expected, is_wrong);
         }
     }
 
@@ -505,6 +608,7 @@ impl PlaceTable {
     fn named(mut self) -> Vec<String> {
         let mut named = Vec::new();
         while !self.wrong_pixels.is_empty() {
+            // The place that explains most of the wrong pixels that are left, if nearly all of its own pixels are wrong.
             let mut best = None;
             for place in 0..self.names.len() {
                 let count =
@@ -515,6 +619,7 @@ impl PlaceTable {
                     best = Some((count, place));
                 }
             }
+            // What it explains needs no other place.
             let Some((_, place)) = best else { break };
             self.wrong_pixels.retain(|pixel| pixel >> place & 1 == 0);
             if !named.iter().any(|name| name == self.names[place]) {

@@ -21,12 +21,12 @@ use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::facts;
 use rasterproof_verify::cases::wide::{has_width, wide_line};
 use rasterproof_verify::cases::{Case, Family, Line, Shape, Triangle};
-use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
+use rasterproof_verify::comparison::{Expectation, Tally, Winding};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
+/// What is judged in the answers to a case. A case may have several checks, and each asks its own questions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Check {
@@ -62,6 +62,7 @@ pub enum Check {
     Outline,
 }
 
+/// By what a program is judged: what it declares, and what it was seen to do.
 pub struct Truth {
     pub declared: Declared,
     /// What it is expected to draw, as declared.
@@ -108,7 +109,9 @@ rasterproof_core::named! {
 }
 
 impl CaseJudgement {
+    /// What is wrong with the answers to a case in words, parts of a sentence that are joined by commas.
     pub fn describe(&self, check: Check) -> String {
+        // First what is counted, then what is off, refused or out of order in a run, then deaths.
         let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
             parts.push(format!("a value off by {:.3e} times the tolerance", self.finding.worst()));
@@ -150,6 +153,7 @@ impl Check {
     #[must_use]
     pub fn describe(self, tally: &Tally, of_two: bool) -> Vec<String> {
         let Tally { missing, extra, twice, order } = *tally;
+        // Each check has its own words for what is missing, too many, twice or out of order.
         let counts = match self {
             _ if of_two => vec![
                 (missing, "only in the second answer"),
@@ -217,8 +221,13 @@ impl Check {
                 (order, "out of order"),
             ],
         };
-        let counts = counts.into_iter().filter(|(n, _)| *n > 0);
-        counts.map(|(n, what)| format!("{n} {what}")).collect()
+        let mut said = Vec::new();
+        for (n, what) in counts {
+            if n > 0 {
+                said.push(format!("{n} {what}"));
+            }
+        }
+        said
     }
 
     /// Whether answers of the same program are compared with each other, and with nothing that is expected.
@@ -283,6 +292,7 @@ impl Check {
     /// The declared ones of the checks that a family is made for; nothing of the families of triangles and lines, where each case
     /// is there for several checks.
     fn made_for(family: &str, declared: &Declared) -> Option<Vec<Self>> {
+        // Shares and lines with a width are judged by samples, so that other shapes leave them out.
         let is_sampled = declared.shape == declared::Shape::Sample;
         let all = match family {
             _ if family.starts_with("depth-") => vec![(Self::Depth, declared.depth)],
@@ -303,12 +313,13 @@ impl Check {
             }
             _ => return None,
         };
-        Some(
-            all.into_iter()
-                .filter(|(_, is_declared)| *is_declared)
-                .map(|(check, _)| check)
-                .collect(),
-        )
+        let mut checks = Vec::new();
+        for (check, is_declared) in all {
+            if is_declared {
+                checks.push(check);
+            }
+        }
+        Some(checks)
     }
 
     /// Whether a family has a request for a program that declares this: cases of a design take time to choose.
@@ -346,6 +357,7 @@ impl Check {
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
             Shape::Lines(_) | Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
             Shape::Triangles { list, disjoint } => {
+                // Which checks a case gets depends on its number: of most of them a share of all cases is enough.
                 let is_perspective = family.starts_with("w-");
                 if declared.attributes && (is_perspective || index % 8 == 3) {
                     checks.push(Self::Values);
@@ -384,6 +396,23 @@ impl Check {
         checks
     }
 
+    /// What is asked about one triangle on its own.
+    fn question_of(self, triangle: &Triangle, truth: &Truth) -> Asked {
+        match self {
+            Self::Values => Asked::Values(*triangle),
+            Self::SampleValues => Asked::SampleValues(*triangle),
+            Self::Samples => Asked::Samples(triangle.corners()),
+            Self::Near => Asked::Near(*triangle),
+            Self::Carried => Asked::Carried(*triangle),
+            Self::Wide => Asked::Wide(wide_line(triangle)),
+            Self::Area => Asked::Area(triangle.corners()),
+            // A mesh is wound as the program draws.
+            Self::Watertight => Asked::Coverage(wound(triangle.corners(), truth.drawn)),
+            _ => Asked::Coverage(triangle.corners()),
+        }
+    }
+
+    /// Appends the requests of a case.
     pub fn questions(self, case: &Case, truth: &Truth, out: &mut Vec<Question>) {
         let (width, height) = (case.window.width(), case.window.height());
         let ask = |of| Question { width, height, of };
@@ -397,37 +426,28 @@ impl Check {
                     Winding::Both => [[0, 1, 2], [1, 2, 0], [0, 2, 1]],
                     _ => [[0, 1, 2], [1, 2, 0], [2, 0, 1]],
                 };
-                let ordered = list.iter().flat_map(|t| {
-                    let corners = t.corners();
-                    orders.map(|order| ask(Asked::Coverage(order.map(|i| corners[i]))))
-                });
-                out.extend(ordered);
+                for corners in list.iter().map(Triangle::corners) {
+                    for order in orders {
+                        out.push(ask(Asked::Coverage(order.map(|i| corners[i]))));
+                    }
+                }
             }
             (Shape::Triangles { list, .. }, Self::Outline) => {
                 for corners in list.iter().map(Triangle::corners) {
                     let Some([a, b, c]) = outline::ends(&corners, case.window) else { continue };
                     out.push(ask(Asked::Coverage(wound(corners, truth.drawn))));
-                    out.extend(
-                        [[a, b], [b, c], [c, a]]
-                            .map(|ends| ask(Asked::Line { ends, whole: false })),
-                    );
+                    for ends in [[a, b], [b, c], [c, a]] {
+                        out.push(ask(Asked::Line { ends, whole: false }));
+                    }
                 }
             }
-            (Shape::Triangles { list, .. }, check) => out.extend(list.iter().map(|t| {
-                ask(match check {
-                    Self::Values => Asked::Values(*t),
-                    Self::SampleValues => Asked::SampleValues(*t),
-                    Self::Samples => Asked::Samples(t.corners()),
-                    Self::Near => Asked::Near(*t),
-                    Self::Carried => Asked::Carried(*t),
-                    Self::Wide => Asked::Wide(wide_line(t)),
-                    Self::Area => Asked::Area(t.corners()),
-                    // A mesh is wound as the program draws.
-                    Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
-                    _ => Asked::Coverage(t.corners()),
-                })
-            })),
+            (Shape::Triangles { list, .. }, check) => {
+                for triangle in list {
+                    out.push(ask(check.question_of(triangle, truth)));
+                }
+            }
             (Shape::Lines(lines), check) => {
+                // A program that knows whole pixels alone gets these, and not their centres.
                 let whole = truth.declared.grid() == 1;
                 for [a, b] in lines.iter().map(|l| l.ends.map(|end| end.pixel)) {
                     out.push(ask(Asked::Line { ends: [a, b], whole }));
@@ -446,6 +466,7 @@ impl Check {
     /// What happened instead of answers, where some of them are missing.
     #[must_use]
     pub fn judge_deaths(answers: &[Answer]) -> CaseJudgement {
+        // A run that ends before it begins is a finding even where the rest of the case is not judged.
         let backward = answers.iter().find_map(Answer::backward_run);
         let mut judged =
             CaseJudgement { mark: 0xcbf2_9ce4_8422_2325, backward, ..CaseJudgement::default() };
@@ -472,15 +493,20 @@ impl Check {
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
                 judged.shapes = list.len() as u64;
-                answers.chunks(3).for_each(|same| alike(&mut judged, same, case.window));
+                // Three requests for each triangle, with its vertices in another order each time.
+                for same in answers.chunks(3) {
+                    alike(&mut judged, same, case.window);
+                }
             }
             (Shape::Triangles { .. }, Self::Outline) => {
+                // Four requests for each triangle: its fill, then its three sides.
                 answers.chunks(4).for_each(|of| outline::compare(&mut judged, of, case.window));
             }
             (Shape::Triangles { list, .. }, Self::Watertight) => {
                 watertight(&mut judged, list, answers, case.window);
             }
             (Shape::Triangles { list, .. }, Self::Depth) => {
+                // The whole case is one request, and has one picture.
                 let pile = Pile::new(list, case.window, &*truth.expect, &truth.declared);
                 if let (Some(pile), Some(Answer::Seen(runs))) = (pile, answers.first()) {
                     pile.compare(&mut judged, runs);
@@ -491,6 +517,7 @@ impl Check {
                 let mut questions = Vec::new();
                 self.questions(case, truth, &mut questions);
                 for (question, answer) in questions.iter().zip(answers) {
+                    // The triangle is the one that was asked, with or without its attribute.
                     let asked = near_plane::asked(&question.of);
                     if let (Some(triangle), Some(corners)) = (asked, answer.polygon()) {
                         near_plane::compare(&mut judged, &triangle, corners, &truth.declared);
@@ -499,6 +526,7 @@ impl Check {
             }
             (Shape::Triangles { list, .. }, Self::Wide) => {
                 for (triangle, answer) in list.iter().zip(answers) {
+                    // Each line on its own, as triangles are.
                     let picture = truth.expect.wide(&wide_line(triangle), case.window);
                     let (Some(picture), Answer::Coverage(runs)) = (picture, answer) else {
                         continue;
@@ -517,7 +545,10 @@ impl Check {
             }
             (Shape::Lines(lines), Self::Direction) => {
                 judged.shapes = lines.len() as u64;
-                answers.chunks(2).for_each(|both| alike(&mut judged, both, case.window));
+                // Two requests for each line, from one end and from the other.
+                for both in answers.chunks(2) {
+                    alike(&mut judged, both, case.window);
+                }
             }
             (Shape::Lines(lines), _) => {
                 for (line, answer) in lines.iter().zip(answers) {
@@ -526,6 +557,7 @@ impl Check {
             }
             (Shape::Numbers { formula, numbers }, _) => {
                 let exact = formula.of(numbers);
+                // A formula has one request, with all its numbers.
                 if let (Some(exact), Some(Answer::Numbers(given))) = (exact, answers.first()) {
                     numbers::compare(&mut judged, given, &exact, truth.declared.tolerance);
                 }
@@ -538,6 +570,7 @@ impl Check {
 
 /// How the answers of two programs differ, and whether each is right.
 fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> CaseJudgement {
+    // Each program is judged by its own declaration first.
     let sides = difference::sides(answers);
     let [first, second] = [0, 1].map(|at| check.judge(case, &sides[at], &of_two[at]));
     // What died is the same on both sides.
@@ -551,11 +584,13 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
         mark: first.mark ^ second.mark.rotate_left(1),
         ..CaseJudgement::default()
     };
+    // Then both are compared, answer by answer.
     let declared = &of_two[0].declared;
     for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
         if first.is_same(second) {
             continue;
         }
+        // Bounds of values depend on the triangle that was asked.
         let triangle = match &case.shape {
             Shape::Triangles { list, .. } => list.get(at),
             _ => None,
@@ -589,6 +624,7 @@ fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
     if is_other { [a, c, b] } else { [a, b, c] }
 }
 
+/// Judges the answer to a question about one triangle, whatever kind of answer it is: the pixels first, then what is in them.
 fn one_triangle(
     judged: &mut CaseJudgement,
     triangle: &Triangle,
@@ -597,29 +633,18 @@ fn one_triangle(
     truth: &Truth,
 ) {
     let corners = triangle.corners();
+    // Where nothing is promised, nothing is judged.
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     judged.shapes += 1;
     if !matches!(answer, Answer::Samples(_) | Answer::SampleValues(_) | Answer::Area(_)) {
         judged.pixels += length(&picture.must);
     }
-    let compare_both = |runs: &[Span], judged: &mut CaseJudgement| {
-        let before = judged.finding.tally.total();
-        compare(&mut judged.finding.tally, &mut judged.mark, runs, &picture, window);
-        let wrong = judged.finding.tally.total() - before;
-        let Some(recognised) = &truth.recognised else { return };
-        match recognised.picture(&corners, window) {
-            Some(picture) => {
-                judged.other_pixels += length(&picture.must);
-                compare(&mut judged.other, &mut 0, runs, &picture, window);
-            }
-            None => leave_out(judged, wrong),
-        }
-    };
     match answer {
-        Answer::Coverage(runs) => compare_both(runs, judged),
+        Answer::Coverage(runs) => coverage(judged, &corners, runs, &picture, window, truth),
         Answer::Values(fragments) => {
+            // Fragments are pixels first, and their values count where a pixel is expected.
             let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
-            compare_both(&runs, judged);
+            coverage(judged, &corners, &runs, &picture, window, truth);
             let expected = hits(&picture.must, window).0;
             values(judged, triangle, fragments, &expected, truth);
         }
@@ -627,12 +652,37 @@ fn one_triangle(
             samples(judged, &corners, runs, window, truth);
         }
         Answer::SampleValues(list) => {
+            // Masks first, then the values of the samples that are covered.
             let runs: Vec<_> = list.iter().map(|s| (pixel_of(&s.values), s.mask)).collect();
             let Some(covered) = samples(judged, &corners, &runs, window, truth) else { return };
             sample_values::compare(judged, triangle, list, &covered, &truth.declared);
         }
         Answer::Area(runs) => levels(judged, &corners, runs, window, truth),
         _ => {}
+    }
+}
+
+/// Compares the pixels of a triangle with those that are expected as declared, and with those by the convention that was
+/// recognised, where there is one.
+fn coverage(
+    judged: &mut CaseJudgement,
+    corners: &Corners,
+    runs: &[Span],
+    declared: &Expectation,
+    window: PixelRect,
+    truth: &Truth,
+) {
+    let before = judged.finding.tally.total();
+    // The first score is as declared, whatever else was recognised.
+    compare(&mut judged.finding.tally, &mut judged.mark, runs, declared, window);
+    let wrong = judged.finding.tally.total() - before;
+    let Some(recognised) = &truth.recognised else { return };
+    match recognised.picture(corners, window) {
+        Some(picture) => {
+            judged.other_pixels += length(&picture.must);
+            compare(&mut judged.other, &mut 0, runs, &picture, window);
+        }
+        None => leave_out(judged, wrong),
     }
 }
 
@@ -643,14 +693,19 @@ fn alike(judged: &mut CaseJudgement, answers: &[Answer], window: PixelRect) {
     judged.pixels += first.covered();
     for other in others {
         judged.finding.tally += Tally::between(other, first);
-        if other != first {
-            first.rows().zip(other.rows()).for_each(|((_, a), (_, b))| {
-                a.iter().zip(b).for_each(|(a, b)| mix(&mut judged.mark, u64::from(*a ^ *b)));
-            });
+        if other == first {
+            continue;
+        }
+        // The mark tells one difference from another.
+        for ((_, row), (_, other)) in first.rows().zip(other.rows()) {
+            for (a, b) in row.iter().zip(other) {
+                mix(&mut judged.mark, u64::from(*a ^ *b));
+            }
         }
     }
 }
 
+/// Counts the holes and the doubles of a mesh, under any convention.
 fn watertight(
     judged: &mut CaseJudgement,
     list: &[Triangle],
@@ -674,6 +729,7 @@ fn values(
     truth: &Truth,
 ) {
     let Some(exact) = exact_values(triangle, &truth.declared) else { return };
+    // Values are compared in some pixels only, since exact ones take long.
     let bounds = value_bounds(triangle, truth.declared.tolerance);
     for f in few(fragments) {
         if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
@@ -726,8 +782,10 @@ fn levels(
 ) {
     let declared = &truth.declared;
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+    // Hits are counted apart from levels: a pixel that is drawn twice is wrong whatever its level.
     let (hit, outside) = hits(&all, window);
     judged.finding.tally.extra += outside;
+    // Of each pixel the last level that was drawn.
     let actual = painted(runs, window, 0, |here, level| *here = level);
     for (y, row) in actual.rows() {
         for ((x, &level), &hits) in (window.x0..).zip(row).zip(hit.row(y)) {
@@ -747,6 +805,7 @@ fn levels(
     }
 }
 
+/// Judges the pixels of a line as declared and, where another convention was recognised, by that one too.
 fn one_line(
     judged: &mut CaseJudgement,
     line: &Line,
@@ -755,10 +814,12 @@ fn one_line(
     truth: &Truth,
 ) {
     let Answer::Line(pixels) = answer else { return };
+    // Only the pixels of the ends are asked; depth and values of lines are not judged.
     let ends = line.ends.map(|end| end.pixel);
     let Some(expected) = truth.expect.line(&ends, window) else { return };
     judged.shapes += 1;
     judged.pixels += expected.len() as u64;
+    // A program may declare that it gives the pixels of a line in no order.
     let in_order = !truth.declared.line_set;
     let before = judged.finding.tally.total();
     sequence(&mut judged.finding.tally, &mut judged.mark, pixels, &expected, window, in_order);
@@ -795,14 +856,18 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
             let exact = exact_values(triangle, &truth.declared);
-            let pixels =
-                picture.must.iter().flat_map(|run| (run.x0_px..run.x1_px).map(|x| (x, run.y_px)));
-            let fragment = |(x_px, y_px)| {
-                let (depth, [a, b]) = exact.as_ref()?.at(x_px, y_px);
-                let varying = DVec2::new(a.to_f64(), b.to_f64());
-                Some(Fragment { x_px, y_px, depth: depth.to_f64(), varying })
-            };
-            Some(Answer::Values(pixels.filter_map(fragment).collect()))
+            let mut fragments = Vec::new();
+            for run in &picture.must {
+                for x_px in run.x0_px..run.x1_px {
+                    // A triangle without area has no values.
+                    let Some(exact) = &exact else { continue };
+                    let (depth, [a, b]) = exact.at(x_px, run.y_px);
+                    let varying = DVec2::new(a.to_f64(), b.to_f64());
+                    let depth = depth.to_f64();
+                    fragments.push(Fragment { x_px, y_px: run.y_px, depth, varying });
+                }
+            }
+            Some(Answer::Values(fragments))
         }
         Asked::Depth(list) => {
             let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;
@@ -812,6 +877,7 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             let corners = near_plane::polygon(triangle, truth.declared.near_is_zero);
             let floats =
                 corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64)).collect();
+            // The exact polygon, with or without its attributes.
             let carries = matches!(question.of, Asked::Carried(_));
             Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
         }
@@ -821,6 +887,7 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
                 for x in window.x0..window.x1 {
                     let share = truth.declared.share(corners, [x, y]);
                     let level = share * f64::from(truth.declared.levels);
+                    // A level of 0 is not drawn.
                     if level.round() > 0.0 {
                         push(&mut runs, x, y, level.round() as u8);
                     }

@@ -17,6 +17,7 @@ use rasterproof_verify::oracle::Oracle;
 pub struct PlainPixel {
     pub x: i32,
     pub y: i32,
+    /// A mask, the number of a triangle, a level, or depth and two attributes; nothing of plain pixels.
     pub values: Vec<f64>,
 }
 
@@ -29,6 +30,7 @@ pub struct Checkable {
     pub either: Vec<[i32; 2]>,
     /// How far each value may be off; nothing may where this is empty.
     pub bounds: Vec<f64>,
+    /// Whether the pixels have to come in this order.
     pub in_order: bool,
     /// Whether it counts how often a pixel is drawn.
     pub counts_hits: bool,
@@ -39,6 +41,7 @@ pub struct Checkable {
 pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
     let window = PixelRect::window(question.width, question.height);
     let declared = &truth.declared;
+    // Each kind of question fills in what its answers have: pixels, values, or both.
     let mut out = Checkable { counts_hits: !declared.mask, ..Checkable::default() };
     match &question.of {
         Asked::Coverage(corners) => {
@@ -53,14 +56,18 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
         }
         Asked::Line { ends, .. } => {
             let line = truth.expect.line(ends, window)?;
-            out.expected = line.into_iter().map(|(x, y)| pixel(x, y, Vec::new())).collect();
+            for (x, y) in line {
+                out.expected.push(pixel(x, y, Vec::new()));
+            }
             out.in_order = !declared.line_set;
         }
         Asked::Values(triangle) => {
             let picture = truth.expect.picture(&triangle.corners(), window)?;
+            // Values are expected in every pixel that has to be drawn.
             let exact = exact_values(triangle, declared)?;
             out.either = may_be(&picture.must, picture.may.as_deref(), window);
             out.expected = plain(&picture.must);
+            // The largest of each value, for the rounding of what is written.
             let mut largest = [0.0; 3];
             for pixel in &mut out.expected {
                 let (depth, [a, b]) = exact.at(pixel.x, pixel.y);
@@ -70,10 +77,14 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
                 }
             }
             // The exact value is written as the nearest float, which is off by half a unit of its last place.
-            let bounds = value_bounds(triangle, declared.tolerance).into_iter().zip(largest);
-            out.bounds = bounds.map(|(bound, largest)| bound + largest * f64::EPSILON).collect();
+            for (bound, largest) in
+                value_bounds(triangle, declared.tolerance).into_iter().zip(largest)
+            {
+                out.bounds.push(bound + largest * f64::EPSILON);
+            }
         }
         Asked::Samples(corners) => {
+            // A winding that is not drawn has no samples.
             let drawn = declared.convention.draws(twice_area(corners));
             let masks = multisample::masks(&Oracle, *corners, window).filter(|_| drawn)?;
             for (y, row) in masks.rows() {
@@ -83,23 +94,25 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
             }
         }
         Asked::Depth(list) => {
+            // Where several triangles may be seen, either is right, so that such a pixel is open.
             let pile = Pile::new(list, window, &*truth.expect, declared)?;
             let SurePixels { seen, open } = pile.sure();
             out.either = open;
-            let of = |([x, y], triangle): ([i32; 2], usize)| pixel(x, y, vec![triangle as f64]);
-            out.expected = seen.into_iter().map(of).collect();
+            for ([x, y], triangle) in seen {
+                out.expected.push(pixel(x, y, vec![triangle as f64]));
+            }
         }
         Asked::Area(corners) => {
             let (levels, bound) = (f64::from(declared.levels), declared.steps_off());
-            for (x, y) in
-                (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)))
-            {
-                let level = declared.share(corners, [x, y]) * levels;
-                // A level of 0 is right, and so may be a small one.
-                if level > bound {
-                    out.expected.push(pixel(x, y, vec![level]));
-                } else if level > 0.0 || bound >= 1.0 {
-                    out.either.push([x, y]);
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    let level = declared.share(corners, [x, y]) * levels;
+                    // A level of 0 is right, and so may be a small one.
+                    if level > bound {
+                        out.expected.push(pixel(x, y, vec![level]));
+                    } else if level > 0.0 || bound >= 1.0 {
+                        out.either.push([x, y]);
+                    }
                 }
             }
             out.bounds = vec![bound];
@@ -113,13 +126,20 @@ pub fn checkable(question: &Question, truth: &Truth) -> Option<Checkable> {
     Some(out)
 }
 
+/// A pixel with what is written into it.
 fn pixel(x: i32, y: i32, values: Vec<f64>) -> PlainPixel {
     PlainPixel { x, y, values }
 }
 
+/// The pixels of runs, with nothing written into them.
 fn plain(runs: &[Span]) -> Vec<PlainPixel> {
-    let of_run = |run: &Span| (run.x0_px..run.x1_px).map(|x| (x, run.y_px)).collect::<Vec<_>>();
-    runs.iter().flat_map(of_run).map(|(x, y)| pixel(x, y, Vec::new())).collect()
+    let mut pixels = Vec::new();
+    for run in runs {
+        for x in run.x0_px..run.x1_px {
+            pixels.push(pixel(x, run.y_px, Vec::new()));
+        }
+    }
+    pixels
 }
 
 /// The pixels that may be drawn and need not be.
@@ -136,17 +156,20 @@ impl Checkable {
     pub fn refutes(&self, question: &Question, answer: &Answer) -> bool {
         let window = PixelRect::window(question.width, question.height);
         let Some(mut drawn) = pixels_of(answer, window) else { return true };
+        // Where hits are not counted, the first one of a pixel is looked at.
         if !self.counts_hits {
-            let mut seen: Vec<[i32; 2]> = Vec::new();
-            drawn.retain(|p| {
-                let is_new = !seen.contains(&[p.x, p.y]);
-                seen.push([p.x, p.y]);
-                is_new
-            });
+            let mut first: Vec<PlainPixel> = Vec::new();
+            for pixel in drawn {
+                if !first.iter().any(|known| [known.x, known.y] == [pixel.x, pixel.y]) {
+                    first.push(pixel);
+                }
+            }
+            drawn = first;
         }
         if self.in_order {
             return drawn != self.expected;
         }
+        // Every drawn pixel has to be one of those that are expected, each once, and none of these may be left over.
         drawn.retain(|p| !self.either.contains(&[p.x, p.y]));
         let mut left = self.expected.clone();
         for pixel in &drawn {
@@ -154,11 +177,13 @@ impl Checkable {
                 return true;
             };
             let expected = left.swap_remove(at);
-            let off = expected.values.iter().zip(&pixel.values).map(|(e, v)| (e - v).abs());
-            let bounds = self.bounds.iter().copied().chain(std::iter::repeat(0.0));
-            // What is not a number is wrong, too.
-            if !off.zip(bounds).all(|(off, bound)| off <= bound) {
-                return true;
+            for (i, (expected, value)) in expected.values.iter().zip(&pixel.values).enumerate() {
+                let bound = self.bounds.get(i).copied().unwrap_or(0.0);
+                let off = (expected - value).abs();
+                // What is not a number is wrong, too.
+                if off > bound || off.is_nan() {
+                    return true;
+                }
             }
         }
         !left.is_empty()
@@ -168,31 +193,35 @@ impl Checkable {
 /// The pixels of an answer that lie in the window; nothing where it has none to compare.
 fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
     let mut out = Vec::new();
-    let mut add_run = |run: &Span, values: &[f64]| {
-        if (window.y0..window.y1).contains(&run.y_px) {
-            let columns = run.x0_px.max(window.x0)..run.x1_px.min(window.x1);
-            out.extend(columns.map(|x| pixel(x, run.y_px, values.to_vec())));
-        }
-    };
     match answer {
-        Answer::Coverage(runs) => runs.iter().for_each(|run| add_run(run, &[])),
-        Answer::Samples(runs) => {
-            let covered = runs.iter().filter(|(_, mask)| *mask != 0);
-            covered.for_each(|(run, mask)| add_run(run, &[f64::from(*mask)]));
+        Answer::Coverage(runs) => {
+            for run in runs {
+                add_run(&mut out, window, run, &[]);
+            }
         }
-        Answer::Area(runs) => {
-            let drawn = runs.iter().filter(|(_, level)| *level != 0);
-            drawn.for_each(|(run, level)| add_run(run, &[f64::from(*level)]));
+        Answer::Samples(runs) | Answer::Area(runs) => {
+            for (run, number) in runs {
+                // Without a sample, or with a level of 0, nothing is drawn.
+                if *number != 0 {
+                    add_run(&mut out, window, run, &[f64::from(*number)]);
+                }
+            }
         }
         Answer::Seen(runs) => {
-            runs.iter().for_each(|(run, number)| add_run(run, &[f64::from(*number)]));
+            for (run, triangle) in runs {
+                add_run(&mut out, window, run, &[f64::from(*triangle)]);
+            }
         }
-        Answer::Line(pixels) => out.extend(pixels.iter().map(|&(x, y)| pixel(x, y, Vec::new()))),
-        Answer::Values(fragments) => out.extend(
-            fragments
-                .iter()
-                .map(|f| pixel(f.x_px, f.y_px, vec![f.depth, f.varying.x, f.varying.y])),
-        ),
+        Answer::Line(pixels) => {
+            for &(x, y) in pixels {
+                out.push(pixel(x, y, Vec::new()));
+            }
+        }
+        Answer::Values(fragments) => {
+            for f in fragments {
+                out.push(pixel(f.x_px, f.y_px, vec![f.depth, f.varying.x, f.varying.y]));
+            }
+        }
         Answer::SampleValues(_)
         | Answer::Polygon(_)
         | Answer::Carried(_)
@@ -204,6 +233,16 @@ fn pixels_of(answer: &Answer, window: PixelRect) -> Option<Vec<PlainPixel>> {
     }
     out.retain(|p| window.contains(p.x, p.y));
     Some(out)
+}
+
+/// Adds the pixels of a run that lie in the window. A run may be longer than any window, so it is cut first.
+fn add_run(out: &mut Vec<PlainPixel>, window: PixelRect, run: &Span, values: &[f64]) {
+    if !(window.y0..window.y1).contains(&run.y_px) {
+        return;
+    }
+    for x in run.x0_px.max(window.x0)..run.x1_px.min(window.x1) {
+        out.push(pixel(x, run.y_px, values.to_vec()));
+    }
 }
 
 #[cfg(test)]

@@ -102,12 +102,14 @@ rasterproof_core::named! {
 /// The words for what a tessellator promises.
 const FILL_RULES: [(&str, partition::FillRule); 2] =
     [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
+/// The words for the turn of its triangles.
 const WINDINGS: [(&str, partition::Winding); 4] = [
     ("alike", partition::Winding::Alike),
     ("ccw", partition::Winding::Counterclockwise),
     ("cw", partition::Winding::Clockwise),
     ("any", partition::Winding::Any),
 ];
+/// The words for the numbers in which it computes.
 const COORDINATES: [(&str, partition::Coordinates); 3] = [
     ("f64", partition::Coordinates::F64),
     ("f32", partition::Coordinates::F32),
@@ -170,34 +172,67 @@ fn meant_instead(key: &str, value: Option<&str>) -> String {
     if let Some((_, form)) = numbered().into_iter().find(|(known, _)| *known == key) {
         return format!("expected {form}");
     }
-    let is_near = |a: &str, b: &str| 2 * strsim::levenshtein(a, b) <= a.len().max(b.len());
-    let said = value.map_or(key.to_owned(), |value| format!("{key}={value}")).to_lowercase();
+    let said = match value {
+        Some(value) => format!("{key}={value}").to_lowercase(),
+        None => key.to_lowercase(),
+    };
     // The key is right, and its value is one of a few: one that resembles none of them gets them all.
     if let (Some(value), Some((_, values))) =
         (value, listed().into_iter().find(|(known, _)| *known == key))
-        && !values.iter().any(|known| is_near(&value.to_lowercase(), known))
+        && !values.iter().any(|known| resembles(&value.to_lowercase(), known))
     {
         return format!("expected one of {key}={}", values.join(&format!(", {key}=")));
     }
+    // All words that can be used; a number that somebody wrote is kept.
     let mut words: Vec<String> = FLAGS.map(str::to_owned).to_vec();
     for (known, values) in listed() {
-        words.extend(values.iter().map(|value| format!("{known}={value}")));
-    }
-    // A number that somebody wrote is kept.
-    let number = |known: &str| value.map(|value| format!("{known}={value}"));
-    words.extend(numbered().iter().filter_map(|(known, _)| number(known)));
-    words.retain(|word| Declared::default().declare(word).is_ok());
-    let nearest = words.iter().min_by_key(|word| strsim::levenshtein(&said, word));
-    match nearest.filter(|word| is_near(&said, word)) {
-        Some(word) => format!("did you mean '{word}'?"),
-        None => {
-            let keys = listed().map(|(known, _)| known).into_iter();
-            let keys =
-                keys.chain(numbered().map(|(known, _)| known)).map(|known| format!("{known}=..."));
-            let all: Vec<_> = keys.chain(FLAGS.map(str::to_owned)).collect();
-            format!("expected words such as {}", all.join(", "))
+        for value in values {
+            words.push(format!("{known}={value}"));
         }
     }
+    if let Some(value) = value {
+        for (known, _) in numbered() {
+            words.push(format!("{known}={value}"));
+        }
+    }
+    words.retain(|word| Declared::default().declare(word).is_ok());
+    let nearest = words.iter().min_by_key(|word| strsim::levenshtein(&said, word));
+    if let Some(word) = nearest.filter(|word| resembles(&said, word)) {
+        return format!("did you mean '{word}'?");
+    }
+    // None resembles it, so that all of them are named.
+    let mut all = Vec::new();
+    for (known, _) in listed() {
+        all.push(format!("{known}=..."));
+    }
+    for (known, _) in numbered() {
+        all.push(format!("{known}=..."));
+    }
+    all.extend(FLAGS.map(str::to_owned));
+    format!("expected words such as {}", all.join(", "))
+}
+
+/// Whether at most half of the letters of a word have to change to make it another one.
+fn resembles(word: &str, other: &str) -> bool {
+    2 * strsim::levenshtein(word, other) <= word.len().max(other.len())
+}
+
+/// The key of a word, and its value where it has one.
+fn parts_of(word: &str) -> (&str, Option<&str>) {
+    match word.split_once('=') {
+        Some((key, value)) => (key, Some(value)),
+        None => (word, None),
+    }
+}
+
+/// A whole number from 1 to a greatest one.
+fn whole(word: &str, most: i32) -> Option<i32> {
+    word.parse::<i32>().ok().filter(|number| (1..=most).contains(number))
+}
+
+/// A number from 0 to a greatest one.
+fn up_to(word: &str, most: f64) -> Option<f64> {
+    number(word).filter(|number| (0.0..=most).contains(number))
 }
 
 /// What a word stands for in a list.
@@ -205,6 +240,7 @@ fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
     list.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
 }
 
+/// The word of a list that stands for a value; each value has one.
 fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str {
     list.iter().find(|(_, known)| known == value).map_or("", |(word, _)| word)
 }
@@ -264,6 +300,7 @@ impl Declared {
     /// Reads `HELLO 1 name word...` or `HELLO 2 name word...`; nothing for any other line.
     #[must_use]
     pub fn parse(line: &str) -> Option<Self> {
+        // HELLO, the version and the name come first; every other word is a declaration.
         let mut words = line.split_ascii_whitespace();
         let version = match (words.next(), words.next()) {
             (Some("HELLO"), Some("1")) => 1,
@@ -272,13 +309,15 @@ impl Declared {
         };
         let name = printable(words.next()?.as_bytes(), 40);
         let mut declared = Self { name, version, ..Self::default() };
-        words.for_each(|word| declared.hear(word));
+        for word in words {
+            declared.hear(word);
+        }
         Some(declared)
     }
 
     /// Takes a word into account; one that cannot be used is kept as unknown.
     pub fn hear(&mut self, word: &str) {
-        let (key, value) = word.split_once('=').map_or((word, None), |(k, v)| (k, Some(v)));
+        let (key, value) = parts_of(word);
         if self.take(key, value).is_none() && self.unknown.len() < MOST_UNKNOWN {
             self.unknown.push(printable(word.as_bytes(), 40));
         }
@@ -292,7 +331,7 @@ impl Declared {
     /// Where a word is not known or its value cannot be used.
     pub fn declare(&mut self, words: &str) -> Result<(), String> {
         for word in words.split_whitespace() {
-            let (key, value) = word.split_once('=').map_or((word, None), |(k, v)| (k, Some(v)));
+            let (key, value) = parts_of(word);
             if self.take(key, value).is_none() {
                 let shown = printable(word.as_bytes(), 40);
                 return Err(format!("'{shown}' is not understood; {}", meant_instead(key, value)));
@@ -301,8 +340,9 @@ impl Declared {
         Ok(())
     }
 
+    /// Sets the field that a word is about; nothing where no field is, or where the value cannot be used.
     fn take(&mut self, key: &str, value: Option<&str>) -> Option<()> {
-        let whole = |v: &str, most: i32| v.parse::<i32>().ok().filter(|n| (1..=most).contains(n));
+        // A word with a value and one without are told apart, so that a value too many is not ignored.
         match (key, value) {
             ("coverage", None) => self.coverage = true,
             ("line", None) => self.line = true,
@@ -318,9 +358,7 @@ impl Declared {
                 self.values_at = ValuePlace::ALL.into_iter().find(|place| place.name() == v)?;
             }
             ("levels", Some(v)) => self.levels = whole(v, 255)? as u8,
-            ("area-tolerance", Some(v)) => {
-                self.area_tolerance = number(v).filter(|t| (0.0..=255.0).contains(t))?;
-            }
+            ("area-tolerance", Some(v)) => self.area_tolerance = up_to(v, 255.0)?,
             ("wide", Some(v)) => {
                 self.wide = WideForm::ALL.into_iter().find(|form| form.name() == v)?
             }
@@ -335,6 +373,7 @@ impl Declared {
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
             ("grid", Some(v)) => {
+                // Grids are powers of two, of which these are in use.
                 let grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
                 self.convention.subpixel_bits = grid.ilog2();
             }
@@ -343,8 +382,7 @@ impl Declared {
                 self.convention.sample = [subpixels(x)?, subpixels(y)?];
             }
             ("rule", Some(v)) => {
-                self.convention.rule =
-                    Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
+                self.convention.rule = meant(&Rule::ALL, v)?;
             }
             ("shape", Some(v)) => {
                 self.shape = Shape::ALL.into_iter().find(|shape| shape.name() == v)?;
@@ -356,16 +394,15 @@ impl Declared {
             ("winding", Some("both")) => self.convention.winding = Winding::Both,
             ("range", Some(v)) => self.range = Some(whole(v, DOMAIN_PX - 1)?),
             ("window", Some(v)) => {
+                // Both sides are limited on their own.
                 let (w, h) = v.split_once('x')?;
-                let side = |v| whole(v, MAX_SIDE_PX as i32).map(|n| n as u32);
-                self.window = Some([side(w)?, side(h)?]);
+                let most = MAX_SIDE_PX as i32;
+                self.window = Some([whole(w, most)? as u32, whole(h, most)? as u32]);
             }
             ("batch", Some(v)) => {
                 self.batch = v.parse::<usize>().ok().filter(|n| *n > 0)?.min(MOST_IN_FLIGHT);
             }
-            ("tolerance", Some(v)) => {
-                self.tolerance = number(v).filter(|t| (0.0..=1.0).contains(t))?;
-            }
+            ("tolerance", Some(v)) => self.tolerance = up_to(v, 1.0)?,
             _ => return None,
         }
         Some(())
@@ -375,6 +412,7 @@ impl Declared {
     #[must_use]
     pub fn within(self, other: &Self) -> Self {
         let least = |a: Option<i32>, b: Option<i32>| a.into_iter().chain(b).min();
+        // Of two limits the smaller one holds for both.
         let window = match (self.window, other.window) {
             (Some([w, h]), Some([x, y])) => Some([w.min(x), h.min(y)]),
             (a, b) => a.or(b),
@@ -427,6 +465,7 @@ impl Declared {
         self.sample_values && self.has_standard_samples()
     }
 
+    /// Whether samples lie where the protocol has them: the pixel is sampled at its centre by the top-left rule.
     fn has_standard_samples(&self) -> bool {
         self.shape == Shape::Sample && self.convention.is_standard()
     }
@@ -446,8 +485,9 @@ impl Declared {
         }
     }
 
+    /// The words for the kinds of questions that it answers.
     pub fn capabilities(&self) -> Vec<&'static str> {
-        let all = [
+        let mut all = vec![
             ("coverage", self.coverage),
             ("attributes", self.attributes),
             ("samples4", self.samples4),
@@ -461,7 +501,8 @@ impl Declared {
             ("formulas", self.formulas),
             ("partition", self.partition),
         ];
-        all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
+        all.retain(|(_, has)| *has);
+        all.into_iter().map(|(word, _)| word).collect()
     }
 }
 
@@ -475,6 +516,7 @@ impl fmt::Display for Declared {
     /// The words after the name, as HELLO 2 has them.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.capabilities().join(" "))?;
+        // A tessellator has words of its own, and none of a rasterizer.
         if self.partition {
             let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate, .. } =
                 &self.tessellation;
@@ -485,9 +527,11 @@ impl fmt::Display for Declared {
             f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
             return f.write_str(if *degenerate { " degenerate" } else { "" });
         }
+        // The convention is always said, since a reader cannot know what is meant by leaving it out.
         let Convention { rule, winding, sample: [x, y], y_up, .. } = self.convention;
         write!(f, " grid={} origin={},{}", self.grid(), px(x), px(y))?;
         write!(f, " rule={} winding={}", rule.word(), winding.word())?;
+        // Everything else is said where it is not what the protocol takes for granted.
         let flags = [("yup", y_up), ("mask", self.mask), ("line-set", self.line_set)];
         for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
             write!(f, " {word}")?;
@@ -514,6 +558,7 @@ impl fmt::Display for Declared {
             write!(f, " window={width}x{height}")?;
         }
         write!(f, " batch={}", self.batch)?;
+        // A tolerance means something only where numbers are answered.
         let has_values = self.attributes || self.sample_values;
         if has_values || self.depth || self.clip || self.clip_attributes {
             write!(f, " tolerance={:e}", self.tolerance)?;

@@ -17,8 +17,11 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.
 struct Layer {
+    /// The pixels that the triangle covers by every reading of the convention.
     must: Coverage,
+    /// Those, and the pixels of which nothing is promised.
     may: Coverage,
+    /// Its exact depths; nothing of a triangle without area.
     depths: Option<ExactTriangle<2>>,
 }
 
@@ -31,9 +34,19 @@ pub(super) struct SurePixels {
     pub open: Vec<[i32; 2]>,
 }
 
+/// What may be seen at a pixel.
+struct SeenTriangles {
+    /// The triangles that may be seen, nearest first.
+    triangles: Vec<usize>,
+    /// Whether one of them has to be.
+    has_to_be: bool,
+}
+
+/// The triangles of a question about depth, with what may be seen of each.
 pub(super) struct Pile {
     layers: Vec<Layer>,
     window: PixelRect,
+    /// How much farther than the nearest a triangle may lie that is seen.
     allowance: f64,
 }
 
@@ -45,37 +58,67 @@ impl Pile {
         expect: &dyn Expect,
         declared: &Declared,
     ) -> Option<Self> {
-        let layer = |triangle: &Triangle| {
+        // What each triangle has to cover and may cover, and the largest depth of all.
+        let (mut layers, mut largest) = (Vec::new(), 0.0_f64);
+        for triangle in list {
             let Expectation { must, may } = expect.picture(&triangle.corners(), window)?;
-            let (must, may) = (hits(&must, window).0, may.map(|may| hits(&may, window).0));
-            let may = may.unwrap_or_else(|| must.clone());
-            Some(Layer { must, may, depths: exact_values(triangle, declared) })
-        };
-        let layers = list.iter().map(layer).collect::<Option<Vec<_>>>()?;
-        let depths = list.iter().flat_map(|t| &t.vertices).map(|v| v.depth.abs());
+            let must = hits(&must, window).0;
+            let may = match may {
+                Some(may) => hits(&may, window).0,
+                None => must.clone(),
+            };
+            layers.push(Layer { must, may, depths: exact_values(triangle, declared) });
+            for vertex in &triangle.vertices {
+                largest = largest.max(vertex.depth.abs());
+            }
+        }
         // Beside the tolerances: exact depths are compared as the nearest floats.
         let rounding = 2.0 * f64::EPSILON;
-        let allowance = (2.0 * declared.tolerance + rounding) * depths.fold(0.0, f64::max);
+        let allowance = (2.0 * declared.tolerance + rounding) * largest;
         Some(Self { layers, window, allowance })
     }
 
-    /// The triangles that may be seen at a pixel, nearest first, and whether one has to be.
-    fn seen(&self, x: usize, y: i32) -> (Vec<usize>, bool) {
-        let of = |t: usize| &self.layers[t];
-        let must: Vec<_> = (0..self.layers.len()).filter(|&t| of(t).must.row(y)[x] > 0).collect();
-        let may: Vec<_> = (0..self.layers.len()).filter(|&t| of(t).may.row(y)[x] > 0).collect();
-        if may.len() < 2 {
-            return (may, !must.is_empty());
+    /// What may be seen at a pixel.
+    fn seen(&self, x: usize, y: i32) -> SeenTriangles {
+        let (mut may, mut must) = (Vec::new(), Vec::new());
+        for (number, layer) in self.layers.iter().enumerate() {
+            if layer.may.row(y)[x] > 0 {
+                may.push(number);
+            }
+            if layer.must.row(y)[x] > 0 {
+                must.push(number);
+            }
         }
-        let depth = |t: usize| {
-            let x_px = self.window.x0 + x as i32;
-            of(t).depths.as_ref().map_or(f64::INFINITY, |d| d.at(x_px, y).0.to_f64())
-        };
-        let nearest = must.iter().map(|&t| depth(t)).fold(f64::INFINITY, f64::min);
-        let mut all: Vec<_> = may.into_iter().map(|t| (depth(t), t)).collect();
-        all.retain(|(depth, _)| *depth <= nearest + self.allowance);
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        (all.into_iter().map(|(_, t)| t).collect(), !must.is_empty())
+        let has_to_be = !must.is_empty();
+        // One alone needs no depth, which takes long to compute exactly.
+        if may.len() < 2 {
+            return SeenTriangles { triangles: may, has_to_be };
+        }
+        // The nearest of those that have to be there hides whatever lies farther than a program may be off.
+        let mut nearest = f64::INFINITY;
+        for number in must {
+            nearest = nearest.min(self.depth(number, x, y));
+        }
+        let mut by_depth: Vec<(f64, usize)> = Vec::new();
+        for number in may {
+            let depth = self.depth(number, x, y);
+            if depth <= nearest + self.allowance {
+                by_depth.push((depth, number));
+            }
+        }
+        by_depth.sort_by(|a, b| a.0.total_cmp(&b.0));
+        SeenTriangles {
+            triangles: by_depth.into_iter().map(|(_, number)| number).collect(),
+            has_to_be,
+        }
+    }
+
+    /// The depth of a triangle at a pixel; one without depths lies behind all others.
+    fn depth(&self, triangle: usize, x: usize, y: i32) -> f64 {
+        match &self.layers[triangle].depths {
+            Some(depths) => depths.at(self.window.x0 + x as i32, y).0.to_f64(),
+            None => f64::INFINITY,
+        }
     }
 
     /// The pixels at which one triangle alone may be seen and has to be, apart from those at which several may, or none.
@@ -84,9 +127,10 @@ impl Pile {
         for y_px in self.window.y0..self.window.y1 {
             for x in 0..self.window.width() as usize {
                 let pixel = [self.window.x0 + x as i32, y_px];
-                match self.seen(x, y_px) {
-                    (seen, _) if seen.is_empty() => {}
-                    (seen, true) if seen.len() == 1 => out.seen.push((pixel, seen[0])),
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y_px);
+                match triangles[..] {
+                    [] => {}
+                    [one] if has_to_be => out.seen.push((pixel, one)),
                     _ => out.open.push(pixel),
                 }
             }
@@ -99,9 +143,10 @@ impl Pile {
         let mut runs: Vec<(Span, u8)> = Vec::new();
         for y_px in self.window.y0..self.window.y1 {
             for x in 0..self.window.width() as usize {
-                let (seen, true) = self.seen(x, y_px) else { continue };
-                let Some(&first) = seen.first() else { continue };
-                push(&mut runs, self.window.x0 + x as i32, y_px, first as u8);
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y_px);
+                if let (Some(&first), true) = (triangles.first(), has_to_be) {
+                    push(&mut runs, self.window.x0 + x as i32, y_px, first as u8);
+                }
             }
         }
         runs
@@ -111,22 +156,24 @@ impl Pile {
     pub fn compare(&self, judged: &mut CaseJudgement, runs: &[(Span, u8)]) {
         judged.shapes += self.layers.len() as u64;
         let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+        // A pixel outside of the window shows a triangle where there is nothing to see.
         let (counts, outside) = hits(&all, self.window);
         judged.finding.tally.extra += outside;
         for (y, row) in counts.rows() {
             for (x, &count) in row.iter().enumerate() {
-                let (seen, must) = self.seen(x, y);
+                let SeenTriangles { triangles: seen, has_to_be: must } = self.seen(x, y);
                 judged.pixels += u64::from(must);
                 judged.finding.tally.twice += u64::from(count.saturating_sub(1));
                 judged.finding.tally.missing += u64::from(count == 0 && must);
                 judged.finding.tally.extra += u64::from(count > 0 && seen.is_empty());
                 let shown = shown(runs, self.window.x0 + x as i32, y);
+                // Wrong is also a triangle that covers the pixel and lies behind another one.
                 let is_behind = !seen.is_empty() && shown.is_some_and(|t| !seen.contains(&t));
                 judged.finding.tally.order += u64::from(is_behind);
                 if count > 1 || is_behind || (count == 0) == (must || seen.is_empty()) {
-                    [y as u64, x as u64, u64::from(count)]
-                        .iter()
-                        .for_each(|w| mix(&mut judged.mark, *w));
+                    for word in [y as u64, x as u64, u64::from(count)] {
+                        mix(&mut judged.mark, word);
+                    }
                 }
             }
         }
@@ -134,30 +181,49 @@ impl Pile {
 
     /// The triangle with most wrong pixels, where it is seen, and where it should be.
     pub fn pictures(&self, runs: &[(Span, u8)]) -> Option<(usize, [Coverage; 2])> {
-        let of = |t: usize| {
-            let mut drawn = Coverage::new(self.window, 0);
-            let mut expected = Coverage::new(self.window, 0);
-            for y in self.window.y0..self.window.y1 {
-                for x in 0..self.window.width() as usize {
-                    let x_px = self.window.x0 + x as i32;
-                    let (seen, must) = self.seen(x, y);
-                    let shown = shown(runs, x_px, y);
-                    let is_right = shown.is_some_and(|s| seen.contains(&s));
-                    let should =
-                        if is_right { shown } else { seen.first().copied().filter(|_| must) };
-                    drawn.hit(y, x_px, x_px + i32::from(shown == Some(t)));
-                    expected.hit(y, x_px, x_px + i32::from(should == Some(t)));
-                }
+        let mut worst = None;
+        let mut most = 0;
+        for triangle in 0..self.layers.len() {
+            let pictures = self.picture(triangle, runs);
+            let wrong = differing(&pictures);
+            // Of as many wrong pixels, the last triangle is shown.
+            if worst.is_none() || wrong >= most {
+                (worst, most) = (Some((triangle, pictures)), wrong);
             }
-            (t, [drawn, expected])
-        };
-        let wrong = |(_, [drawn, expected]): &(usize, [Coverage; 2])| {
-            let rows = drawn.rows().zip(expected.rows());
-            rows.map(|((_, a), (_, b))| a.iter().zip(b).filter(|(a, b)| a != b).count())
-                .sum::<usize>()
-        };
-        (0..self.layers.len()).map(of).max_by_key(wrong)
+        }
+        worst
     }
+
+    /// Where a triangle is seen, and where it should be.
+    fn picture(&self, triangle: usize, runs: &[(Span, u8)]) -> [Coverage; 2] {
+        let mut drawn = Coverage::new(self.window, 0);
+        let mut expected = Coverage::new(self.window, 0);
+        for y in self.window.y0..self.window.y1 {
+            for x in 0..self.window.width() as usize {
+                let x_px = self.window.x0 + x as i32;
+                let SeenTriangles { triangles, has_to_be } = self.seen(x, y);
+                let shown = shown(runs, x_px, y);
+                // What is right is expected as it is; else the nearest triangle, if one has to be there.
+                let should = match shown {
+                    Some(number) if triangles.contains(&number) => shown,
+                    _ if has_to_be => triangles.first().copied(),
+                    _ => None,
+                };
+                drawn.hit(y, x_px, x_px + i32::from(shown == Some(triangle)));
+                expected.hit(y, x_px, x_px + i32::from(should == Some(triangle)));
+            }
+        }
+        [drawn, expected]
+    }
+}
+
+/// In how many pixels two pictures differ.
+fn differing([first, second]: &[Coverage; 2]) -> usize {
+    let mut count = 0;
+    for ((_, first), (_, second)) in first.rows().zip(second.rows()) {
+        count += first.iter().zip(second).filter(|(a, b)| a != b).count();
+    }
+    count
 }
 
 /// The triangle that an answer shows at a pixel: the first, where it names several.

@@ -17,14 +17,16 @@ use rasterproof_verify::comparison::pixels::{few, mix, sequence};
 
 /// The answers of the first program and those of the second; what came instead of answers stands in both.
 pub(super) fn sides(answers: &[Answer]) -> [Vec<Answer>; 2] {
-    let side = |at: usize| -> Vec<Answer> {
-        let one = |answer: &Answer| match answer {
-            Answer::Two(both) => both[at].clone(),
-            other => other.clone(),
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    for answer in answers {
+        let [of_first, of_second] = match answer {
+            Answer::Two(both) => (**both).clone(),
+            other => [other.clone(), other.clone()],
         };
-        answers.iter().map(one).collect()
-    };
-    [side(0), side(1)]
+        first.push(of_first);
+        second.push(of_second);
+    }
+    [first, second]
 }
 
 /// Adds how two answers to the same question differ.
@@ -36,6 +38,7 @@ pub(super) fn difference(
     declared: &Declared,
 ) {
     match (first, second) {
+        // What both refuse is no difference, and what one refuses is.
         (Answer::Refused(_), Answer::Refused(_)) => return,
         (Answer::Refused(why), _) | (_, Answer::Refused(why)) => {
             judged.refuse(&format!("by one of both: {why}"));
@@ -53,10 +56,12 @@ pub(super) fn difference(
         }
         _ => {}
     }
+    // What is left are answers with pixels: first which ones are drawn, then what is in those that both draw.
     let both = [first, second].map(|answer| hits_of(answer, window));
     let [Some((first_hits, first_outside)), Some((second_hits, second_outside))] = both else {
         return;
     };
+    // Pixels outside of the window are counted, not compared one by one.
     judged.finding.tally.extra += first_outside.saturating_sub(second_outside);
     judged.finding.tally.missing += second_outside.saturating_sub(first_outside);
     pixels(judged, &first_hits, &second_hits, declared.mask);
@@ -71,7 +76,8 @@ pub(super) fn difference(
                     let are_covered = a.is_some() && b.is_some();
                     if are_covered && a != b {
                         judged.finding.tally.order += 1;
-                        [y as u64, x as u64].iter().for_each(|word| mix(&mut judged.mark, *word));
+                        mix(&mut judged.mark, y as u64);
+                        mix(&mut judged.mark, x as u64);
                     }
                 }
             }
@@ -88,9 +94,11 @@ pub(super) fn difference(
     }
 }
 
+/// Counts the pixels that one of both draws alone, or draws another number of times, and mixes them into the mark.
 fn pixels(judged: &mut CaseJudgement, first: &Coverage, second: &Coverage, is_mask: bool) {
     for ((y, a), (_, b)) in first.rows().zip(second.rows()) {
         for (x, (&a, &b)) in a.iter().zip(b).enumerate() {
+            // Of a pixel that both draw, the number of times counts, unless nobody can tell.
             let tally = &mut judged.finding.tally;
             match (a, b) {
                 (0, 0) => continue,
@@ -99,7 +107,9 @@ fn pixels(judged: &mut CaseJudgement, first: &Coverage, second: &Coverage, is_ma
                 _ if a == b || is_mask => continue,
                 _ => tally.twice += 1,
             }
-            [y as u64, x as u64, u64::from(a)].iter().for_each(|word| mix(&mut judged.mark, *word));
+            for word in [y as u64, x as u64, u64::from(a)] {
+                mix(&mut judged.mark, word);
+            }
         }
     }
 }
@@ -117,12 +127,14 @@ fn values(
         let Some(g) = second.iter().find(|g| (g.x_px, g.y_px) == (f.x_px, f.y_px)) else {
             continue;
         };
+        // Of a pixel that both draw, the values.
         let errors =
             [f.depth - g.depth, f.varying.x - g.varying.x, f.varying.y - g.varying.y].map(f64::abs);
         judged.off(f, [0, 1, 2].map(|i| errors[i] / bounds[i]));
     }
 }
 
+/// Two right corners lie within twice the tolerance of each other, too.
 fn corners(
     judged: &mut CaseJudgement,
     first: &[ClipCorner],
@@ -132,9 +144,9 @@ fn corners(
 ) {
     let Some(triangle) = triangle else { return };
     let bounds = near_plane::bounds(&clip_corners(triangle), 2.0 * declared.tolerance);
-    let near = |a: &ClipCorner, b: &ClipCorner| {
-        a.iter().zip(b).zip(bounds).all(|((a, b), bound)| (a - b).abs() <= bound)
+    let is_same = |i: usize, j: usize| {
+        let (wanted, given) = (&second[i], &first[j]);
+        (0..5).all(|k| (wanted[k] - given[k]).abs() <= bounds[k])
     };
-    judged.finding.tally +=
-        near_plane::between(second.len(), first.len(), |i, j| near(&second[i], &first[j]));
+    judged.finding.tally += near_plane::difference_of(second.len(), first.len(), &is_same);
 }

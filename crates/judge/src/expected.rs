@@ -13,6 +13,7 @@ use rasterproof_verify::convention::{self, Declarations, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
+/// What is expected of a program: a convention that it declares, or one that it was recognised to follow.
 pub trait Expect: Send + Sync {
     /// The picture in a window at the origin; nothing where nothing is promised.
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation>;
@@ -87,17 +88,18 @@ impl Expect for Declared {
     }
 
     fn wide(&self, line: &WideLine, window: PixelRect) -> Option<Expectation> {
-        let mut all = Expectation { must: Vec::new(), may: Some(Vec::new()) };
+        // Each pixel on its own: those of a line with a width are few.
+        let (mut all_must, mut all_may) = (Vec::new(), Vec::new());
         for y_px in window.y0..window.y1 {
             for x_px in window.x0..window.x1 {
                 let [must, may] = self.convention.expected_of_wide(line, self.wide, [x_px, y_px]);
                 let pixel = Span { y_px, x0_px: x_px, x1_px: x_px + 1 };
-                all.must.extend(must.then_some(pixel));
-                all.may.iter_mut().for_each(|runs| runs.extend(may.then_some(pixel)));
+                all_must.extend(must.then_some(pixel));
+                all_may.extend(may.then_some(pixel));
             }
         }
-        all.may = all.may.filter(|may| *may != all.must);
-        Some(all)
+        let may = (all_may != all_must).then_some(all_may);
+        Some(Expectation { must: all_must, may })
     }
 }
 
@@ -117,8 +119,11 @@ pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTri
 /// How far depth and both attributes may be off: the tolerance times the largest magnitude at the corners. Where all are zero
 /// the result must be; the smallest number keeps a quotient defined.
 pub(super) fn value_bounds(triangle: &Triangle, tolerance: f64) -> [f64; 3] {
-    let v = &triangle.vertices;
-    let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    [v.map_array(|v| v.depth), v.map_array(|v| v.varying.x), v.map_array(|v| v.varying.y)]
-        .map_array(|values| (tolerance * largest(values)).max(f64::MIN_POSITIVE))
+    let (mut depth, mut first, mut second) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for vertex in &triangle.vertices {
+        depth = depth.max(vertex.depth.abs());
+        first = first.max(vertex.varying.x.abs());
+        second = second.max(vertex.varying.y.abs());
+    }
+    [depth, first, second].map(|largest| (tolerance * largest).max(f64::MIN_POSITIVE))
 }

@@ -25,11 +25,14 @@ pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
 /// What was asked and answered in a failing case.
 #[derive(Clone, Debug)]
 pub struct Exchanged {
+    /// The property whose failing case it is.
     pub property: &'static str,
     /// The other properties whose smallest case shows the same.
     pub also: Vec<&'static str>,
     pub check: Check,
+    /// How small the case could be made.
     pub shrunk: HowFar,
+    /// The requests of the smallest case, in the order in which they were sent.
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
@@ -62,7 +65,9 @@ impl HowFar {
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Exchange {
+    /// As it was sent, with the id 1.
     pub request: String,
+    /// As it came, cut where it gets long.
     pub answer: String,
     /// What the other of two compared programs answered, or the same program the second time; or nothing.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -74,6 +79,20 @@ pub struct Exchange {
     pub question: Question,
     #[serde(skip)]
     pub heard: Answer,
+}
+
+impl Exchange {
+    /// A question with its answer, and what was expected.
+    fn new(check: Check, question: &Question, answer: &Answer, truth: &Truth) -> Self {
+        Self {
+            request: question.text(1),
+            answer: show(answer, 1),
+            other: String::new(),
+            expected: expected(check, question, truth),
+            question: question.clone(),
+            heard: answer.clone(),
+        }
+    }
 }
 
 impl Exchanged {
@@ -97,19 +116,15 @@ pub(super) fn failures(
     truth: &Truth,
     patience: Duration,
 ) -> (Vec<Failure>, Duration) {
-    let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
-    let share = |row: &Row| match row.check {
-        Some(Check::Watertight) => f64::INFINITY,
-        _ => row.share(),
-    };
-    rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let is_known = |f: &Failing| {
-        !options.terms.known.is_empty()
-            && options.terms.known.get(&f.name()) == Some(&f.fingerprint)
-    };
-    let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
-    let of = |name: &str| news.iter().find(|f| f.property == name);
-    let firsts: Vec<&Failing> = rows.into_iter().filter_map(|row| of(row.name)).copied().collect();
+    // The properties that are wrong most come first, and of those that are not known the first failing case.
+    let mut rows: Vec<&Row> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
+    rows.sort_by(|a, b| importance(b).total_cmp(&importance(a)));
+    let mut firsts = Vec::new();
+    for row in rows {
+        let of_row =
+            |failing: &&Failing| failing.property == row.name && !is_known(failing, options);
+        firsts.extend(found.failing.iter().find(of_row));
+    }
     let mut program = Spending { asked: program, spent: Duration::ZERO };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
@@ -125,6 +140,7 @@ pub(super) fn failures(
         let Some(failure) = failure(&mut program, found, failing, share, options, truth) else {
             continue;
         };
+        // A case that shows what another one shows already is named beside it and not shown.
         let kind = Kind::of(&failure, truth.declared.convention.sample);
         match kinds.iter().position(|known| *known == kind) {
             Some(at) => shown[at].evidence.also.push(failing.property),
@@ -134,8 +150,23 @@ pub(super) fn failures(
             }
         }
     }
+    // The one that is read fastest comes first.
     shown.sort_by_key(to_read);
     (shown, program.spent)
+}
+
+/// How bad a property is: holes and doubles first, then by the share of wrong cases.
+fn importance(row: &Row) -> f64 {
+    match row.check {
+        Some(Check::Watertight) => f64::INFINITY,
+        _ => row.share(),
+    }
+}
+
+/// Whether the baseline knows a failing case, wrong in the same way.
+fn is_known(failing: &Failing, options: &Options) -> bool {
+    let known = &options.terms.known;
+    !known.is_empty() && known.get(&failing.name()) == Some(&failing.fingerprint)
 }
 
 /// How much there is to read until it is seen what is wrong: whether the pictures do not show it, and how many characters the requests
@@ -155,6 +186,7 @@ fn to_read(failure: &Failure) -> (bool, u64) {
 /// that answers at once nothing is left out on a busy machine.
 struct Spending<'a> {
     asked: &'a mut dyn Subject,
+    /// What the answers took so far.
     spent: Duration,
 }
 
@@ -177,53 +209,64 @@ impl Subject for Spending<'_> {
 
 /// The first case of each property whose answers change, as it was asked: what was shrunk would answer otherwise again.
 pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Failure> {
-    let one = |changing: &Changing| {
-        let Changing { failing, check, questions, answers } = changing;
-        let family = adapt_case::family(failing.family)?;
-        let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
-        // Of two programs that are compared the one whose answers change is shown.
-        let mut answers = answers.clone();
-        let (mut truth, mut who) = (truth, String::new());
-        if let Some(of_two) = &truth.of_two {
-            let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
-            let is_same = |side: usize| {
-                first[side].iter().zip(&again[side]).all(|(first, again)| first.is_same(again))
-            };
-            let side = usize::from(is_same(0));
-            answers = [&first, &again].map(|sides| sides[side].clone());
-            truth = &of_two[side];
-            who = format!("{}: ", truth.declared.name);
+    let mut failures = Vec::new();
+    for changing in &found.changing {
+        if failures.len() == MOST_SHOWN {
+            break;
         }
-        let [first, again] = &answers;
-        let said = |answers: &[Answer]| {
-            judge(*check, &case, answers, questions.len(), truth).describe(*check)
-        };
-        let what = format!("{who}first {}, then {}", said(first), said(again));
-        let mut picture = pictured(*check, &case, first, truth);
-        if let Some(picture) = &mut picture {
-            picture.other = pictured(*check, &case, again, truth).map(|again| again.drawn);
-        }
-        let exchanges = questions.iter().zip(first.iter().zip(again));
-        let exchanges = exchanges.map(|(question, (first, again))| Exchange {
-            request: question.text(1),
-            answer: show(first, 1),
-            other: show(again, 1),
-            expected: expected(*check, question, truth),
-            question: question.clone(),
-            heard: first.clone(),
-        });
-        let evidence = Exchanged {
-            property: failing.property,
-            also: Vec::new(),
-            check: *check,
-            shrunk: HowFar::Changes,
-            exchanges: exchanges.collect(),
-            picture,
-            changes: true,
-        };
-        Some(Failure::new(failing.family, failing.index, options.seed, what, case, evidence))
+        failures.extend(failure_that_changes(changing, options, truth));
+    }
+    failures
+}
+
+/// A case whose answers change, with the answers of both times.
+fn failure_that_changes(changing: &Changing, options: &Options, truth: &Truth) -> Option<Failure> {
+    let Changing { failing, check, questions, answers } = changing;
+    let check = *check;
+    let family = adapt_case::family(failing.family)?;
+    let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
+    // Of two programs that are compared the one whose answers change is shown.
+    let mut answers = answers.clone();
+    let (mut truth, mut who) = (truth, String::new());
+    if let Some(of_two) = &truth.of_two {
+        // Each program answered twice; one of both did not repeat itself.
+        let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
+        let side = usize::from(are_same(&first[0], &again[0]));
+        answers = [first[side].clone(), again[side].clone()];
+        truth = &of_two[side];
+        who = format!("{}: ", truth.declared.name);
+    }
+    // What is wrong each time, and both pictures.
+    let [first, again] = &answers;
+    let said =
+        |answers: &[Answer]| judge(check, &case, answers, questions.len(), truth).describe(check);
+    let what = format!("{who}first {}, then {}", said(first), said(again));
+    let mut picture = pictured(check, &case, first, truth);
+    if let Some(picture) = &mut picture {
+        picture.other = pictured(check, &case, again, truth).map(|again| again.drawn);
+    }
+    let mut exchanges = Vec::new();
+    for ((question, first), again) in questions.iter().zip(first).zip(again) {
+        let mut exchange = Exchange::new(check, question, first, truth);
+        // Both answers of a question stand side by side.
+        exchange.other = show(again, 1);
+        exchanges.push(exchange);
+    }
+    let evidence = Exchanged {
+        property: failing.property,
+        also: Vec::new(),
+        check,
+        shrunk: HowFar::Changes,
+        exchanges,
+        picture,
+        changes: true,
     };
-    found.changing.iter().filter_map(one).take(MOST_SHOWN).collect()
+    Some(Failure::new(failing.family, failing.index, options.seed, what, case, evidence))
+}
+
+/// Whether the same questions got the same answers twice.
+fn are_same(first: &[Answer], again: &[Answer]) -> bool {
+    first.iter().zip(again).all(|(first, again)| first.is_same(again))
 }
 
 /// The answer that was expected, as a line of the protocol; nothing of checks that compare answers with each other.
@@ -236,10 +279,12 @@ fn expected(check: Check, question: &Question, truth: &Truth) -> String {
 pub struct AskedCase {
     pub questions: Vec<Question>,
     pub answers: Vec<Answer>,
+    /// What was found in the answers.
     pub judged: CaseJudgement,
 }
 
 impl AskedCase {
+    /// Asks the questions of a case, and judges the answers.
     fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
@@ -260,6 +305,7 @@ impl AskedCase {
     }
 }
 
+/// The smallest case of a failure. Its words are those of the first time where the time is up before it could be asked again.
 fn failure(
     program: &mut Spending<'_>,
     found: &RunFindings,
@@ -273,6 +319,7 @@ fn failure(
     let check = Check::of_truth(family.name, &case, failing.index, truth)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;
+    // A case within the window stays within it: programs that do not clip would crash on a smaller one, which is another fault.
     let leaves = adapt_case::leaves_window(&case);
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = AskedCase::of(program, check, &case, truth);
@@ -314,10 +361,12 @@ impl Search<'_> {
             (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
         let mut kept = first;
+        // A smaller case is put where the program draws, as the original was.
         let put = |case: &Case| adapt_case::put(case.clone(), &truth.declared);
         let is_asked = |case: &Case| {
             adapt_case::holds(case, &truth.declared) && may_be(case) && check.fits(&put(case))
         };
+        // The search goes on from each smaller case that is still wrong, until the time for it is over.
         let steps = ProgramSteps::new(check, &original, &is_asked);
         let mut search = SmallerSearch::new(original.clone(), &steps);
         while was_wrong && !is_slow && program.spent < patience {
@@ -329,11 +378,13 @@ impl Search<'_> {
         }
         let case = search.smallest;
         let was_cut = program.spent >= patience;
-        let again = if was_late || is_slow {
-            None
-        } else {
-            Some(AskedCase::of(&mut program, check, &case, truth)).filter(|again| !again.is_late())
-        };
+        // The smallest case is asked once more, for the answers that are shown.
+        let mut again = None;
+        if !was_late && !is_slow {
+            let asked = AskedCase::of(&mut program, check, &case, truth);
+            again = (!asked.is_late()).then_some(asked);
+        }
+        // What is said of how far it got.
         let shrunk = match (is_slow, was_cut || again.is_none()) {
             (true, _) => HowFar::TakesLong,
             (_, true) if case == original => HowFar::NotAtAll,
@@ -346,23 +397,20 @@ impl Search<'_> {
             true => judged.describe(check),
             false => "wrong at first, right when asked again".to_owned(),
         };
-        let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
-            request: question.text(1),
-            answer: show(answer, 1),
-            other: match answer {
-                Answer::Two(both) => show(&both[1], 1),
-                _ => String::new(),
-            },
-            expected: expected(check, question, truth),
-            question: question.clone(),
-            heard: answer.clone(),
-        });
+        let mut exchanges = Vec::new();
+        for (question, answer) in questions.iter().zip(&answers) {
+            let mut exchange = Exchange::new(check, question, answer, truth);
+            if let Answer::Two(both) = answer {
+                exchange.other = show(&both[1], 1);
+            }
+            exchanges.push(exchange);
+        }
         let evidence = Exchanged {
             property: failing.property,
             also: Vec::new(),
             check,
             shrunk,
-            exchanges: exchanges.collect(),
+            exchanges,
             picture: pictured(check, &case, &answers, truth),
             changes: false,
         };
@@ -391,6 +439,7 @@ struct Kind {
     check: Check,
     /// What is wrong, without the numbers.
     words: Vec<String>,
+    /// The wrong pixels of the picture, in the order of rows.
     pixels: Vec<Pixel>,
     /// Whether the sample of the first of these lies exactly on an edge.
     on_edge: bool,
@@ -403,6 +452,7 @@ struct Kind {
 struct Pixel {
     x: usize,
     y: usize,
+    /// The character that pictures in text show there.
     mark: char,
 }
 
@@ -417,6 +467,7 @@ impl Kind {
             on_edge: false,
             requests: Vec::new(),
         };
+        // The wrong pixels, as they stand in the picture that is shown.
         if let Some(picture) = &evidence.picture {
             let target = picture.other.as_ref().unwrap_or(&picture.expected);
             for (y, (drawn, target)) in picture.drawn.rows().zip(target.rows()).enumerate() {
@@ -431,6 +482,7 @@ impl Kind {
             kind.requests = evidence.exchanges.iter().map(|e| e.request.clone()).collect();
             return kind;
         };
+        // A pixel whose sample lies exactly on an edge is wrong for another reason than one beside it.
         if let (Check::Coverage | Check::Values, Shape::Triangles { list, .. }) =
             (kind.check, &failure.case.shape)
         {
@@ -441,6 +493,7 @@ impl Kind {
             kind.on_edge =
                 list.iter().map(Triangle::corners).any(|corners| is_on_edge(corners, at));
         }
+        // The place in the window does not matter, so that pixels are counted from their own corner.
         let left = kind.pixels.iter().map(|pixel| pixel.x).min().unwrap_or(0);
         let top = kind.pixels.iter().map(|pixel| pixel.y).min().unwrap_or(0);
         for pixel in &mut kind.pixels {
@@ -451,11 +504,13 @@ impl Kind {
     }
 }
 
+/// The words of a sentence without its numbers, which differ between cases of the same kind.
 fn words(what: &str) -> Vec<String> {
     let words = what.split(' ').filter(|word| !word.starts_with(|c: char| c.is_ascii_digit()));
     words.map(|word| word.trim_end_matches(',').to_owned()).collect()
 }
 
+/// Whether a point lies on one of the three edges.
 fn is_on_edge([a, b, c]: Corners, at: [i32; 2]) -> bool {
     [[a, b], [b, c], [c, a]].iter().any(|&[from, to]| lies_between(from, to, at))
 }

@@ -16,10 +16,12 @@ const OWN_TOLERANCE: f64 = 32.0 * (f64::EPSILON / 2.0);
 impl From<&Entry> for Declared {
     /// What an engine of the registry says of itself. A specimen promises nothing.
     fn from(entry: &Entry) -> Self {
+        // A specimen, an engine and a variant of an engine each answer other questions.
         let triangle = match entry.specimen {
             Some(Specimen::Triangle(specimen)) => Some(specimen),
             _ => None,
         };
+        // An engine answers whatever the pipeline around it can; the others what they were made for.
         let is_engine = entry.engine.is_some();
         let shape = match entry.variant {
             Some(Variant::Touched(TouchedPixels { is_closed: true })) => Shape::TouchedClosed,
@@ -61,8 +63,11 @@ impl From<&Entry> for Declared {
     }
 }
 
+/// An engine of the registry that is judged in memory: its answers go through the text of the protocol, as those of a program do.
 pub struct Inside {
+    /// What the registry says of it, with the functions that draw.
     entry: Entry,
+    /// What it would say at HELLO.
     declared: Declared,
     /// Of its panics the first one is shown.
     watch: Watch,
@@ -87,6 +92,7 @@ impl Inside {
         // Writing to a vector does not fail.
         let _ = server::respond(&self.entry, &question.text(1), &mut line);
         let mut words = Words(&line);
+        // The letter and the id come first; what follows is read as a program's answer would be.
         let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
         words.word();
         let nonsense = |why: &str| Answer::Died(Breach::Nonsense.by(why));

@@ -13,6 +13,7 @@ use rasterproof_verify::comparison::{Finding, Tally};
 pub struct CaseJudgement {
     /// Wrong pixels, of a mesh its holes and doubles; and errors of values as fractions of the tolerance.
     pub finding: Finding,
+    /// Triangles or lines that were compared.
     pub shapes: u64,
     /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
@@ -28,6 +29,7 @@ pub struct CaseJudgement {
     pub unscored_wrong: u64,
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
+    /// Why the first refused request was refused.
     pub reason: String,
     /// The first run of the answers that ends before it begins; its pixels count as pixels outside the window.
     pub backward: Option<Span>,
@@ -35,6 +37,7 @@ pub struct CaseJudgement {
     pub steps_off: f64,
     /// Where the value is whose error is the largest.
     pub worst_at: Option<(i32, i32)>,
+    /// Requests that were answered, refused ones among them.
     pub answered: u64,
     /// What happened instead of answers, with the number of the question.
     pub died: Vec<(usize, Misbehaviour)>,
@@ -45,6 +48,7 @@ pub struct CaseJudgement {
 }
 
 impl CaseJudgement {
+    /// Whether anything about the case is to be reported: a count, a value beyond its tolerance, or a death.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         let has_no_answer = self.refused > 0 || !self.died.is_empty();
@@ -54,6 +58,7 @@ impl CaseJudgement {
     /// A number that changes when what is wrong changes; not with the last bits of values.
     pub fn fingerprint(&self) -> u64 {
         let Tally { missing, extra, twice, order } = self.finding.tally;
+        // Whether values are off counts, and not by how much: the last bits differ between machines.
         let off = u64::from(self.finding.worst() > 1.0);
         let mut mark = self.mark;
         [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));
@@ -63,6 +68,7 @@ impl CaseJudgement {
         mark
     }
 
+    /// Counts a refusal; of several, the reason of the first one is kept.
     pub(super) fn refuse(&mut self, reason: &str) {
         if self.refused == 0 {
             self.reason = reason.to_owned();

@@ -3,14 +3,16 @@
 use serde::{Deserialize, Serialize};
 
 use super::check::Check;
-use super::verdict::{Score, Scores as _, Shapes, Verdict};
+use super::verdict::{self, Score, Scores as _, Shapes, Verdict};
 
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Adapter {
     pub name: String,
     pub library: String,
+    /// The function of the library that draws.
     pub call: String,
+    /// The program that speaks the protocol for the library, with its arguments.
     pub command: Vec<String>,
 }
 
@@ -27,6 +29,7 @@ pub struct Kind {
     pub mistake: Option<String>,
 }
 
+/// A row of the league: a library, and how its triangles and lines came out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ranked {
     pub name: String,
@@ -36,6 +39,7 @@ pub struct Ranked {
     /// The day it was judged, year-month-day.
     pub date: String,
     pub call: String,
+    /// The words of its HELLO.
     pub declares: String,
     pub triangles: Option<Kind>,
     pub lines: Option<Kind>,
@@ -49,12 +53,38 @@ pub struct Ranked {
     pub unanswered: [u64; 2],
 }
 
+/// The whole table, with what is needed to make it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct League {
+    /// The version that judged.
     pub rasterproof: String,
     pub seed: u64,
     pub cases: u64,
     pub rows: Vec<Ranked>,
+}
+
+impl Kind {
+    /// How a kind of shapes came out, whose sentences begin with `about`; nothing where none was judged.
+    fn of(verdict: &Verdict, shapes: Shapes, about: &str) -> Option<Self> {
+        let as_declared = verdict.score(Some(shapes), &verdict::as_declared);
+        if as_declared.pixels == 0 {
+            return None;
+        }
+        // What was recognised is one of the sentences about both kinds.
+        let mut sentence = String::new();
+        if let Some(said) = &verdict.more.recognised {
+            let found = said.sentences.iter().find_map(|said| said.strip_prefix(about));
+            sentence = found.unwrap_or_default().to_owned();
+        }
+        let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
+        let by_convention =
+            is_explained.then(|| verdict.score(Some(shapes), &verdict::by_convention));
+        // The first mistake is the one that explains most.
+        let check = if shapes == Shapes::Lines { Check::Line } else { Check::Coverage };
+        let why = verdict.cause.iter().find(|why| why.check == check);
+        let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
+        Some(Self { sentence, as_declared, by_convention, mistake })
+    }
 }
 
 impl League {
@@ -67,27 +97,17 @@ impl League {
 }
 
 impl Ranked {
+    /// The row of a library, from the verdict on its adapter.
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));
-        let kind = |shapes: Shapes, about: &str| {
-            let as_declared = verdict.score(Some(shapes), |r| (r.tally.total(), r.pixels, 0));
-            let found = verdict
-                .score(Some(shapes), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
-            let said = verdict.more.recognised.as_ref();
-            let sentence =
-                said.and_then(|said| said.sentences.iter().find_map(|s| s.strip_prefix(about)));
-            let sentence = sentence.unwrap_or_default().to_owned();
-            let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
-            let by_convention = is_explained.then_some(found);
-            let check = if shapes == Shapes::Lines { Check::Line } else { Check::Coverage };
-            let why = verdict.cause.iter().find(|why| why.check == check);
-            let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
-            let kind = Kind { sentence, as_declared, by_convention, mistake };
-            (as_declared.pixels > 0).then_some(kind)
-        };
         let changed = |check| row(check).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
-        let sum = |of: fn(&super::run::Row) -> u64| verdict.families.iter().map(of).sum();
+        // What was not answered, over all rows.
+        let (mut refused, mut deaths) = (0, 0);
+        for row in &verdict.families {
+            refused += row.refused;
+            deaths += row.deaths;
+        }
         Self {
             name: adapter.name.clone(),
             library: adapter.library.clone(),
@@ -95,20 +115,22 @@ impl Ranked {
             date,
             call: adapter.call.clone(),
             declares: verdict.more.declared.to_string(),
-            triangles: kind(Shapes::Triangles, "Triangles: "),
-            lines: kind(Shapes::Lines, "Lines: "),
+            triangles: Kind::of(verdict, Shapes::Triangles, "Triangles: "),
+            lines: Kind::of(verdict, Shapes::Lines, "Lines: "),
             meshes: row(Check::Watertight)
                 .map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
             orders: changed(Check::Order),
             directions: changed(Check::Direction),
-            unanswered: [sum(|r| r.refused), sum(|r| r.deaths)],
+            unanswered: [refused, deaths],
         }
     }
 }
 
 /// A day as year-month-day, from the days since 1970-01-01 (the civil calendar, counted from March).
 pub fn date(days: u64) -> String {
+    // Days since 0000-03-01: a year that begins in March has its leap day at its end.
     let days = days + 719_468;
+    // Eras of 400 years have the same days.
     let (era, of_era) = (days / 146_097, days % 146_097);
     let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
     let of_year = of_era - (365 * year + year / 4 - year / 100);

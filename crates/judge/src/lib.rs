@@ -117,6 +117,7 @@ pub fn for_families(options: &Options, start: Instant) -> Options {
 /// The names of all families, those of polygons last.
 #[must_use]
 pub fn family_names() -> Vec<&'static str> {
+    // Those of polygons come last, since no other program is asked them.
     let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
     adapt_case::families(&[]).into_iter().map(|family| family.name).chain(polygons).collect()
 }
@@ -152,11 +153,14 @@ pub fn judge(
     askers.iter_mut().for_each(|asker| asker.end_at(end));
     progress(Step::Rule);
     let first = askers.first_mut().expect("somebody to be asked");
+    // From here on the program is judged by what it declares.
     let declared = first.declared().clone();
     let mut truth = Truth::of(&declared);
     // Of a limited time, a third is for the questions before the families and a tenth for those after them.
     let asked = Timed::new(&mut **first, options.time_limit.map(|limit| start + limit / 3));
     let mut first = WatchedSubject { asked, incidents: Vec::new() };
+    // Before the cases: which winding it draws, how far it draws, and by which convention, since all of them decide what is asked
+    // and expected.
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
@@ -167,18 +171,22 @@ pub fn judge(
     }
     truth.recognised = convention.as_mut().and_then(|found| found.expect.take());
     let before = first.incidents;
+    // All copies judge the cases together.
     let mut all: Vec<&mut dyn Subject> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
     let judged = |cases| progress(Step::Judged(cases));
     let mut found = run::run(&mut all, &for_families(options, start), &truth, &judged);
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
+    // One of them is enough to look for causes, since each question there depends on the answers before it.
     let first = &mut *askers[0];
     let patience = Patience::of(options, end, convention.as_ref());
     let Explained { failures, causes, left_out } =
         explain(first, &found, options, &truth, convention.as_ref(), patience, progress);
+    // A program whose answers change follows no convention.
     let recognised = convention.map(|found| found.said).filter(|_| found.changing.is_empty());
     found.strays.extend(first.strays());
     let Declared { reach, side, .. } = truth.declared;
+    // At the end of its input a program may still do something wrong, such as leak.
     let complaints = finish(askers.iter_mut().map(|asker| &mut **asker as _), &mut found);
     let more = Particulars {
         declared,

@@ -17,15 +17,21 @@ fn side([a, b]: Edge, p: SubpixelPoint) -> i128 {
 
 /// The edges that belong to one triangle only, in one direction or the other.
 fn outline(list: &[Corners]) -> Vec<Edge> {
-    let sorted = |[a, b]: Edge| if a < b { [a, b] } else { [b, a] };
+    // Both directions of an edge are written as one, so that the same edges stand side by side when they are sorted.
     let mut all = Vec::with_capacity(3 * list.len());
     for triangle in list {
-        for edge in edges(triangle) {
-            all.push(sorted(edge));
+        for [a, b] in edges(triangle) {
+            all.push(if a < b { [a, b] } else { [b, a] });
         }
     }
     all.sort_unstable();
-    all.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect()
+    let mut outline = Vec::new();
+    for same in all.chunk_by(|a, b| a == b) {
+        if same.len() % 2 == 1 {
+            outline.push(same[0]);
+        }
+    }
+    outline
 }
 
 /// Pixels of the window without a hit whose neighbourhood lies within the mesh, and hits beyond the
@@ -39,10 +45,14 @@ pub fn holes_and_doubles(list: &[Corners], hits: &Coverage) -> (u64, u64) {
 pub fn mended(list: &[Corners], hits: &Coverage) -> Coverage {
     let outline = outline(list);
     let mut mended = hits.clone();
-    let corners = || list.iter().flatten();
-    let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let (left, right) = (corners().map(|p| px(p.x)).min(), corners().map(|p| px(p.x)).max());
-    let (Some(left), Some(right)) = (left, right) else { return mended };
+    // Beyond the first and the last column of a corner there is no mesh.
+    let mut columns: Option<[i32; 2]> = None;
+    for corner in list.iter().flatten() {
+        let x = corner.x.div_euclid(SUBPIXELS);
+        let [left, right] = columns.unwrap_or([x, x]);
+        columns = Some([left.min(x), right.max(x)]);
+    }
+    let Some([left, right]) = columns else { return mended };
     let bounds = hits.bounds();
     for y_px in bounds.y0..bounds.y1 {
         for (x_px, n) in (bounds.x0..).zip(mended.row_mut(y_px)) {
@@ -56,26 +66,32 @@ pub fn mended(list: &[Corners], hits: &Coverage) -> Coverage {
 
 /// Whether the pixel and its eight neighbours lie within the outline, which is not touched.
 fn is_within(outline: &[Edge], x_px: i32, y_px: i32) -> bool {
+    // The square of nine pixels around this one, in subpixels.
     let border = |px: i32| px.saturating_mul(SUBPIXELS);
     let (x0, x1) = (border(x_px - 1), border(x_px + 2));
     let (y0, y1) = (border(y_px - 1), border(y_px + 2));
-    let untouched = outline.iter().all(|&[a, b]| {
-        let apart =
+    let square = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].map(|(x, y)| SubpixelPoint::new(x, y));
+    for &[a, b] in outline {
+        // An edge does not touch the square where its box lies apart, or where all corners of the square lie on one side of it.
+        let is_apart =
             a.x.max(b.x) < x0 || a.x.min(b.x) > x1 || a.y.max(b.y) < y0 || a.y.min(b.y) > y1;
-        let signs = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)]
-            .map(|(x, y)| side([a, b], SubpixelPoint::new(x, y)).signum());
-        apart || signs == [1; 4] || signs == [-1; 4]
-    });
-    untouched && is_inside(outline, SubpixelPoint::new(x0, y0))
+        let signs = square.map(|corner| side([a, b], corner).signum());
+        if !is_apart && signs != [1; 4] && signs != [-1; 4] {
+            return false;
+        }
+    }
+    // No edge touches the square, so it lies inside or outside as a whole.
+    is_inside(outline, square[0])
 }
 
 /// Whether an odd number of edges crosses the ray from a point to the right; it lies on none.
 fn is_inside(outline: &[Edge], p: SubpixelPoint) -> bool {
-    let crossed = outline.iter().filter(|[a, b]| {
-        let (upper, lower) = if a.y <= b.y { (*a, *b) } else { (*b, *a) };
-        upper.y <= p.y && p.y < lower.y && side([upper, lower], p) > 0
-    });
-    crossed.count() % 2 == 1
+    let mut crossed = 0;
+    for &[a, b] in outline {
+        let (upper, lower) = if a.y <= b.y { (a, b) } else { (b, a) };
+        crossed += u32::from(upper.y <= p.y && p.y < lower.y && side([upper, lower], p) > 0);
+    }
+    crossed % 2 == 1
 }
 
 #[cfg(test)]

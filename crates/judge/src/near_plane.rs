@@ -5,61 +5,75 @@
 //! interpolate. A polygon may begin at any corner and may name a corner several times: where an edge
 //! begins in the plane, the textbook names it twice.
 
-use glam::DVec2;
-
 use super::ask::Asked;
 use super::declared::Declared;
 use super::judged::CaseJudgement;
-use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::values::{Exact, at_crossing};
 
+/// x, y, z, w and the attribute of a corner, exactly.
 type Corner = [Exact; 5];
 
 /// The corners that are left, in the order of the triangle's; the plane is z = -w, or z = 0.
 pub(super) fn polygon(triangle: &Triangle, is_zero: bool) -> Vec<Corner> {
     let corners = clip_corners(triangle);
-    let asked = |w: f64| if is_zero { 0.0 } else { w };
-    let is_kept = |[_, _, z, w, _]: ClipCorner| z + asked(w) >= 0.0;
     let mut left = Vec::new();
     for (i, &from) in corners.iter().enumerate() {
         let to = corners[(i + 1) % 3];
-        let distances = [from, to].map(|[_, _, z, w, _]| [z, asked(w)]);
-        let at = |k: usize| at_crossing([from[k], to[k]], distances);
-        if is_kept(from) {
+        let distances = [distance(from, is_zero), distance(to, is_zero)];
+        // Rounding keeps the sign of a sum, so the side is exact.
+        let [from_is_kept, to_is_kept] = distances.map(|[z, w]| z + w >= 0.0);
+        if from_is_kept {
             left.push(from.map(Exact::from));
         }
-        if is_kept(from) != is_kept(to) {
-            left.push([at(0), at(1), at(2), at(3), at(4)]);
+        // An edge with one end on each side gets a new corner, each of whose numbers divides the edge alike.
+        if from_is_kept != to_is_kept {
+            left.push([0, 1, 2, 3, 4].map(|k| at_crossing([from[k], to[k]], distances)));
         }
     }
     left
 }
 
+/// The two numbers whose sum is how far a corner lies before the plane.
+fn distance([_, _, z, w, _]: ClipCorner, is_zero: bool) -> [f64; 2] {
+    [z, if is_zero { 0.0 } else { w }]
+}
+
 /// How far the numbers of a corner may be off: the tolerance times the largest number asked, or the largest attribute.
 pub(super) fn bounds(corners: &[ClipCorner; 3], tolerance: f64) -> ClipCorner {
-    let largest = |numbers: &dyn Fn(&ClipCorner) -> f64| {
-        let largest = corners.iter().map(numbers).fold(0.0, f64::max);
-        (tolerance * largest).max(f64::MIN_POSITIVE)
-    };
-    let place = largest(&|c| c[..4].iter().fold(0.0, |m: f64, v| m.max(v.abs())));
-    [place, place, place, place, largest(&|c| c[4].abs())]
+    let (mut place, mut attribute) = (0.0_f64, 0.0_f64);
+    for corner in corners {
+        for number in &corner[..4] {
+            place = place.max(number.abs());
+        }
+        attribute = attribute.max(corner[4].abs());
+    }
+    // Where nothing may be off, the smallest number keeps quotients defined.
+    let place = (tolerance * place).max(f64::MIN_POSITIVE);
+    let attribute = (tolerance * attribute).max(f64::MIN_POSITIVE);
+    [place, place, place, place, attribute]
 }
 
 /// The triangle of a question about the near plane, whose attributes are 0 where they are not asked for.
 pub fn asked(of: &Asked) -> Option<Triangle> {
     match of {
-        Asked::Near(triangle) => Some(Triangle {
-            vertices: triangle.vertices.map(|v| {
-                let varying = DVec2::new(v.varying.x, 0.0);
-                ScreenVertex { varying, ..v }
-            }),
-        }),
+        Asked::Near(triangle) => {
+            let mut without = *triangle;
+            for vertex in &mut without.vertices {
+                vertex.varying.y = 0.0;
+            }
+            Some(without)
+        }
         Asked::Carried(triangle) => Some(*triangle),
         _ => None,
     }
+}
+
+/// Whether each number of a corner is the exact one, within its bound.
+fn is_within(exact: &Corner, corner: &ClipCorner, bounds: &ClipCorner) -> bool {
+    (0..5).all(|k| exact[k].distance(corner[k]) <= bounds[k])
 }
 
 /// Compares a polygon with the exact one.
@@ -69,54 +83,74 @@ pub(super) fn compare(
     answer: &[ClipCorner],
     declared: &Declared,
 ) {
+    // A corner that is named several times is one.
     let mut exact = polygon(triangle, declared.near_is_zero);
     exact.dedup();
     if exact.len() > 1 && exact.first() == exact.last() {
         exact.pop();
     }
     let bounds = bounds(&clip_corners(triangle), declared.tolerance);
-    let near = |at: &Corner, corner: &ClipCorner| {
-        at.iter().zip(corner).zip(bounds).all(|((e, v), bound)| e.distance(*v) <= bound)
-    };
     judged.shapes += 1;
     judged.pixels += exact.len() as u64;
     // What has no area may be left out.
     if answer.is_empty() && exact.len() < 3 {
         return;
     }
-    judged.finding.tally += between(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]));
+    let is_same = |i: usize, j: usize| is_within(&exact[i], &answer[j], &bounds);
+    judged.finding.tally += difference_of(exact.len(), answer.len(), &is_same);
 }
 
-/// Corners that an answer lacks, corners that it has alone, and whether the same corners run another way; `near` says of a corner
-/// that is wanted and one of the answer whether they are the same.
-pub(super) fn between(wanted: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> Tally {
-    let lacks = |i: &usize| !(0..answer).any(|j| near(*i, j));
-    let strays = |j: &usize| !(0..wanted).any(|i| near(i, *j));
-    let missing = (0..wanted).filter(lacks).count() as u64;
-    let extra = (0..answer).filter(strays).count() as u64;
-    let is_other_way = missing + extra == 0 && !is_round(wanted, answer, near);
+/// Corners that an answer lacks, corners that it has alone, and whether the same corners run another way. `is_same` says of a
+/// corner that is wanted and one of the answer whether they are the same.
+pub(super) fn difference_of(
+    wanted: usize,
+    answer: usize,
+    is_same: &dyn Fn(usize, usize) -> bool,
+) -> Tally {
+    // A corner is missing where no corner of the answer is the same, and the other way round.
+    let (mut missing, mut extra) = (0, 0);
+    for i in 0..wanted {
+        missing += u64::from(!(0..answer).any(|j| is_same(i, j)));
+    }
+    for j in 0..answer {
+        extra += u64::from(!(0..wanted).any(|i| is_same(i, j)));
+    }
+    // Only where both have the same corners does their order say something.
+    let is_other_way = missing + extra == 0 && !is_round(wanted, answer, is_same);
     Tally { missing, extra, order: u64::from(is_other_way), ..Tally::default() }
 }
 
-/// Whether both are the same corners on one way round: from a pair that is near, each step goes to
-/// the next corner of one or of both, every pair is near, and the way ends where it began.
-pub(super) fn is_round(exact: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> bool {
-    if exact == 0 || answer == 0 {
-        return exact == answer;
+/// Whether both are the same corners on one way round: from a pair that is the same, each step goes to the next corner of one or
+/// of both, every pair is the same, and the way ends where it began.
+pub(super) fn is_round(
+    wanted: usize,
+    answer: usize,
+    is_same: &dyn Fn(usize, usize) -> bool,
+) -> bool {
+    if wanted == 0 || answer == 0 {
+        return wanted == answer;
     }
-    (0..answer).any(|first| {
-        let near = |i: usize, j: usize| near(i, (first + j) % answer);
-        let mut reached = vec![vec![false; answer]; exact];
-        for i in 0..exact {
-            for j in 0..answer {
-                let before =
-                    |up: usize, left: usize| i >= up && j >= left && reached[i - up][j - left];
-                let comes = (i, j) == (0, 0) || before(1, 0) || before(0, 1) || before(1, 1);
-                reached[i][j] = comes && near(i, j);
-            }
+    // The answer may begin at any of its corners.
+    (0..answer).any(|first| is_round_from(first, wanted, answer, is_same))
+}
+
+/// The same where the answer begins at one of its corners.
+fn is_round_from(
+    first: usize,
+    wanted: usize,
+    answer: usize,
+    is_same: &dyn Fn(usize, usize) -> bool,
+) -> bool {
+    // Whether there is a way from the first pair to each other one; a row and a column more stand before the first.
+    let mut reached = vec![vec![false; answer + 1]; wanted + 1];
+    reached[0][0] = true;
+    for i in 0..wanted {
+        for j in 0..answer {
+            let comes = reached[i][j] || reached[i][j + 1] || reached[i + 1][j];
+            reached[i + 1][j + 1] = comes && is_same(i, (first + j) % answer);
         }
-        reached[exact - 1][answer - 1]
-    })
+    }
+    reached[wanted][answer]
 }
 
 #[cfg(test)]

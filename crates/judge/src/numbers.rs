@@ -17,11 +17,13 @@ pub(super) fn compare(
     tolerance: f64,
 ) {
     judged.shapes += 1;
+    // Every number counts as a pixel, so that a share of wrong ones can be said.
     judged.pixels += exact.len() as u64;
     count(judged, numbers.len(), exact.len());
     for (at, (number, given)) in numbers.iter().zip(exact).enumerate() {
         let is_wrong = given.exact.distance(*number) > bound(given, tolerance);
         judged.finding.tally.order += u64::from(is_wrong);
+        // The mark says which of them are wrong.
         mix(&mut judged.mark, u64::from(is_wrong) << at);
     }
 }
@@ -40,6 +42,7 @@ pub(super) fn difference(
     }
 }
 
+/// Counts numbers that are missing or too many.
 fn count(judged: &mut CaseJudgement, has: usize, of: usize) {
     judged.finding.tally.missing += of.saturating_sub(has) as u64;
     judged.finding.tally.extra += has.saturating_sub(of) as u64;

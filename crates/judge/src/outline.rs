@@ -15,6 +15,7 @@ use rasterproof_verify::comparison::pixels::mix;
 
 /// The pixels whose centres are the corners; nothing where one lies elsewhere or outside the window.
 pub(super) fn ends(corners: &Corners, window: PixelRect) -> Option<[PixelPoint; 3]> {
+    // Only where all corners lie at centres the outline says exactly what is inside.
     let is_centre = |v: i32| v.rem_euclid(SUBPIXELS) == HALF_PIXEL;
     let pixels =
         corners.map(|p| PixelPoint::new(p.x.div_euclid(SUBPIXELS), p.y.div_euclid(SUBPIXELS)));
@@ -31,7 +32,9 @@ pub(super) fn pictures(answers: &[Answer], window: PixelRect) -> Option<[Coverag
     for side in sides {
         let drawn = picture_of(side, window)?;
         for (y, row) in drawn.rows() {
-            outline.row_mut(y).iter_mut().zip(row).for_each(|(here, hits)| *here |= *hits > 0);
+            for (here, hits) in outline.row_mut(y).iter_mut().zip(row) {
+                *here |= *hits > 0;
+            }
         }
     }
     let outside = outside(&outline);
@@ -39,6 +42,7 @@ pub(super) fn pictures(answers: &[Answer], window: PixelRect) -> Option<[Coverag
     for (y, row) in filled.rows() {
         let open = outline.row(y).iter().zip(outside.row(y));
         for ((mended, filled), (on, out)) in mended.row_mut(y).iter_mut().zip(row).zip(open) {
+            // On the outline the fill may be anything; beside it, what is enclosed is filled.
             *mended = match (on, out) {
                 (true, _) => *filled,
                 (false, true) => 0,
@@ -53,11 +57,16 @@ pub(super) fn pictures(answers: &[Answer], window: PixelRect) -> Option<[Coverag
 fn outside(outline: &Frame<bool>) -> Frame<bool> {
     let window = outline.bounds();
     let mut outside = Frame::new(window, false);
-    let is_border = |x: i32, y: i32| {
-        x == window.x0 || y == window.y0 || x == window.x1 - 1 || y == window.y1 - 1
-    };
-    let all = (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)));
-    let mut reached: Vec<(i32, i32)> = all.filter(|&(x, y)| is_border(x, y)).collect();
+    // The search begins at all pixels of the border.
+    let mut reached = Vec::new();
+    for y in window.y0..window.y1 {
+        for x in window.x0..window.x1 {
+            let is_side = x == window.x0 || x == window.x1 - 1;
+            if is_side || y == window.y0 || y == window.y1 - 1 {
+                reached.push((x, y));
+            }
+        }
+    }
     while let Some((x, y)) = reached.pop() {
         if !window.contains(x, y) {
             continue;
@@ -80,8 +89,11 @@ pub(super) fn compare(judged: &mut CaseJudgement, answers: &[Answer], window: Pi
     judged.pixels += mended.covered();
     judged.finding.tally += Tally::between(&filled, &mended);
     for ((y, a), (_, b)) in filled.rows().zip(mended.rows()) {
-        for (x, _) in a.iter().zip(b).enumerate().filter(|(_, (a, b))| a != b) {
-            [y as u64, x as u64].iter().for_each(|word| mix(&mut judged.mark, *word));
+        for (x, (a, b)) in a.iter().zip(b).enumerate() {
+            if a != b {
+                mix(&mut judged.mark, y as u64);
+                mix(&mut judged.mark, x as u64);
+            }
         }
     }
 }

@@ -17,10 +17,11 @@ use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::oracle::Oracle;
-use rasterproof_verify::oracle::values::Exact;
 
+/// Two pictures side by side: what was drawn, and what was expected or what another program drew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
+    /// What was drawn, by hits.
     pub drawn: Coverage,
     /// What the second of two compared programs drew.
     pub other: Option<Coverage>,
@@ -36,6 +37,7 @@ pub struct Pictured {
 pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
     let mut questions = Vec::new();
     check.questions(case, truth, &mut questions);
+    // Of two programs, the picture of each is made on its own, and one stands where the expected one would.
     let mut picture = match &truth.of_two {
         Some(of_two) => {
             let [first, second] = difference::sides(answers);
@@ -46,6 +48,7 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
         }
         None => picture(check, case, (&questions, answers), truth)?,
     };
+    // Where both pictures are the same, words have to say what is wrong.
     let beside = picture.other.as_ref().unwrap_or(&picture.expected);
     if picture.drawn == *beside {
         let what = if answers.len() < questions.len() {
@@ -65,18 +68,18 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
 
 /// What is wrong with answers whose picture is right.
 fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &CaseJudgement) -> String {
-    let outside = answers.iter().filter_map(|answer| Some(hits_of(answer, case.window)?.1));
-    let outside: u64 = outside.sum();
+    let mut outside = 0;
+    for answer in answers {
+        if let Some((_, beyond)) = hits_of(answer, case.window) {
+            outside += beyond;
+        }
+    }
+    // What no picture shows: numbers, pixels outside of it, an order, a second hit, a value.
     let mut parts = Vec::new();
-    if matches!(check, Check::Near | Check::Carried) {
-        parts.push(
-            if check == Check::Near {
-                "z, w or the way round"
-            } else {
-                "an attribute, z, w or the way round"
-            }
-            .to_owned(),
-        );
+    match check {
+        Check::Near => parts.push("z, w or the way round".to_owned()),
+        Check::Carried => parts.push("an attribute, z, w or the way round".to_owned()),
+        _ => {}
     }
     if let Some(Span { y_px, x0_px, x1_px }) = judged.backward {
         parts.push(format!("a run of row {y_px} from column {x0_px} to column {x1_px}"));
@@ -98,18 +101,21 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &CaseJudgement)
     if parts.is_empty() { judged.describe(check) } else { parts.join(", ") }
 }
 
+/// The picture of a check, of one program. Each check has its own, since what is compared differs.
 fn picture(
     check: Check,
     case: &Case,
     (questions, answers): (&[Question], &[Answer]),
     truth: &Truth,
 ) -> Option<Pictured> {
+    // Most checks show the pixels of the window as they are.
     let plain = |drawn, expected| {
         Some(Pictured { drawn, other: None, expected, of: String::new(), moved: None })
     };
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
     match check {
         Check::Order | Check::Direction => {
+            // Answers of the same program: the first one, and the first that differs from it.
             let (first, others) = drawn.split_first()?;
             let other = others.iter().find(|other| *other != first)?;
             plain(other.clone(), first.clone())
@@ -131,6 +137,7 @@ fn picture(
         }
         Check::Depth => pile(questions.first()?, answers.first()?, truth),
         _ => {
+            // What was drawn and what was expected, each summed over all requests of the case.
             let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
             let expected: Vec<_> = expected.filter_map(|e| picture_of(&e, case.window)).collect();
             plain(sum(&drawn, case.window)?, sum(&expected, case.window)?)
@@ -138,6 +145,7 @@ fn picture(
     }
 }
 
+/// Several pictures as one: hits of the same pixel add up. Nothing where there is none.
 fn sum(pictures: &[Coverage], window: PixelRect) -> Option<Coverage> {
     let mut whole = Coverage::new(window, 0);
     for (y, row) in pictures.iter().flat_map(Coverage::rows) {
@@ -170,6 +178,7 @@ fn samples(
     window: PixelRect,
     truth: &Truth,
 ) -> Pictured {
+    // Both pictures are of a window that is as much finer as a pixel has cells.
     let finer = PixelRect {
         x0: window.x0 * FINER,
         y0: window.y0 * FINER,
@@ -177,31 +186,40 @@ fn samples(
         y1: window.y1 * FINER,
     };
     let (mut drawn, mut expected) = (Coverage::new(finer, 0), Coverage::new(finer, 0));
-    let hit = |picture: &mut Coverage, x_px: i32, y_px: i32, mask: u8| {
-        for (bit, (x_16th, y_16th)) in multisample::SAMPLES.into_iter().enumerate() {
-            let (x, y) = (x_px * FINER + x_16th / FINER, y_px * FINER + y_16th / FINER);
-            picture.hit(y, x, x + i32::from(mask >> bit & 1));
-        }
-    };
     let mut moved = Vec::new();
     for (question, answer) in questions.iter().zip(answers) {
         let Asked::Samples(corners) = &question.of else { continue };
-        let four = |sub: i32| sub.saturating_mul(FINER);
-        moved.push(corners.map(|p| SubpixelPoint::new(four(p.x), four(p.y))));
+        moved.push(corners.map(|corner| {
+            SubpixelPoint::new(corner.x.saturating_mul(FINER), corner.y.saturating_mul(FINER))
+        }));
+        // What is expected is exact, by the winding that is drawn.
         let is_drawn = truth.declared.convention.draws(twice_area(corners));
         let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
         for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
-            (window.x0..).zip(row).for_each(|(x, mask)| hit(&mut expected, x, y, *mask));
+            for (x, mask) in (window.x0..).zip(row) {
+                hit_samples(&mut expected, x, y, *mask);
+            }
         }
         let runs = if let Answer::Samples(runs) = answer { &runs[..] } else { &[] };
-        for (run, mask) in runs.iter().filter(|(run, _)| (window.y0..window.y1).contains(&run.y_px))
-        {
-            let columns = run.x0_px.max(window.x0)..run.x1_px.min(window.x1);
-            columns.for_each(|x| hit(&mut drawn, x, run.y_px, *mask));
+        for (run, mask) in runs {
+            if !(window.y0..window.y1).contains(&run.y_px) {
+                continue;
+            }
+            for x in run.x0_px.max(window.x0)..run.x1_px.min(window.x1) {
+                hit_samples(&mut drawn, x, run.y_px, *mask);
+            }
         }
     }
     let of = "the four samples of each pixel, in a grid of 4 x 4 cells for a pixel".to_owned();
     Pictured { drawn, other: None, expected, of, moved: Some(moved) }
+}
+
+/// Hits the cells of the samples of a pixel that a mask has.
+fn hit_samples(picture: &mut Coverage, x_px: i32, y_px: i32, mask: u8) {
+    for (bit, (x_16th, y_16th)) in multisample::SAMPLES.into_iter().enumerate() {
+        let (x, y) = (x_px * FINER + x_16th / FINER, y_px * FINER + y_16th / FINER);
+        picture.hit(y, x, x + i32::from(mask >> bit & 1));
+    }
 }
 
 /// Cells that the longer side of a triangle of clip space spans at least.
@@ -212,11 +230,13 @@ fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Optio
     let (question, answer) = (questions.first()?, answers.first()?);
     let triangle = &near_plane::asked(&question.of)?;
     let corners = triangle.corners().map(|p| p.to_px());
-    let reach = |of: fn(&(f64, f64)) -> f64| {
-        let values = corners.iter().map(of);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
-    };
-    let ([x0, x1], [y0, y1]) = (reach(|c| c.0), reach(|c| c.1));
+    let [mut x0, mut y0] = [f64::INFINITY; 2];
+    let [mut x1, mut y1] = [f64::NEG_INFINITY; 2];
+    for (x, y) in corners {
+        (x0, x1) = (x0.min(x), x1.max(x));
+        (y0, y1) = (y0.min(y), y1.max(y));
+    }
+    // The size of a cell depends on the triangle, since clip space has no pixels.
     let longer = (x1 - x0).max(y1 - y0);
     // The largest power of two of which it spans so many; corners stay on the lattice.
     let mut cell = 256.0;
@@ -226,37 +246,49 @@ fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Optio
     let cells = |v: f64| (v / cell).floor() as i32;
     let window =
         PixelRect { x0: cells(x0) - 1, y0: cells(y0) - 1, x1: cells(x1) + 2, y1: cells(y1) + 2 };
-    let exact: Vec<[f64; 2]> = near_plane::polygon(triangle, near_is_zero)
-        .iter()
-        .map(|[x, y, ..]| [Exact::to_f64(x), Exact::to_f64(y)])
-        .collect();
-    let answered = answer.polygon().unwrap_or_default().iter().map(|[x, y, ..]| [*x, *y]);
-    let answered: Vec<[f64; 2]> = answered.collect();
+    // What is left by the exact clipper, and what was answered, in x and y alone.
+    let mut exact = Vec::new();
+    for [x, y, ..] in near_plane::polygon(triangle, near_is_zero) {
+        exact.push([x.to_f64(), y.to_f64()]);
+    }
+    let mut answered = Vec::new();
+    for [x, y, ..] in answer.polygon().unwrap_or_default() {
+        answered.push([*x, *y]);
+    }
     let expected = fan(&exact, cell, window);
     let drawn = fan(&answered, cell, window);
     let [left, top] = [window.x0, window.y0].map(|v| f64::from(v) * cell);
     let of = format!(
         "x and y of clip space, before the division; a cell is {cell}, the first begins at {left}, {top}"
     );
-    let moved = on_cells(&corners.map(|(x, y)| [x, y]), cell);
-    let moved = moved.and_then(|m| <Corners>::try_from(m).ok()).map(|corners| vec![corners]);
+    let on_cells = on_cells(&corners.map(|(x, y)| [x, y]), cell);
+    let moved = on_cells.and_then(|corners| Some(vec![Corners::try_from(corners).ok()?]));
     Some(Pictured { drawn, other: None, expected, of, moved })
 }
 
 /// Positions in cells as positions in pixels; nothing where one is too far away or no number.
 fn on_cells(corners: &[[f64; 2]], cell: f64) -> Option<Vec<SubpixelPoint>> {
-    let subpixels = |v: f64| {
-        let sub = (v / cell * f64::from(SUBPIXELS)).round();
-        (sub.abs() < f64::from(1 << 28)).then_some(sub as i32)
-    };
-    let point = |[x, y]: &[f64; 2]| Some(SubpixelPoint::new(subpixels(*x)?, subpixels(*y)?));
-    corners.iter().map(point).collect()
+    let mut points = Vec::new();
+    for [x, y] in corners {
+        let [x, y] = [x, y].map(|v| (v / cell * f64::from(SUBPIXELS)).round());
+        // A number that is none is not less than any other.
+        let is_in_reach = x.abs().max(y.abs()) < FARTHEST && !x.is_nan() && !y.is_nan();
+        if !is_in_reach {
+            return None;
+        }
+        points.push(SubpixelPoint::new(x as i32, y as i32));
+    }
+    Some(points)
 }
+
+/// How far from the origin a position in cells may lie, in subpixels.
+const FARTHEST: f64 = (1 << 28) as f64;
 
 /// A polygon as triangles around its first corner; nothing of one that cannot be drawn.
 fn fan(corners: &[[f64; 2]], cell: f64, window: PixelRect) -> Coverage {
     let mut picture = Coverage::new(window, 0);
     let corners = on_cells(corners, cell).unwrap_or_default();
+    // Each triangle of the fan has the first corner and two neighbours.
     let Some((first, rest)) = corners.split_first() else { return picture };
     for pair in rest.windows(2) {
         let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);
@@ -271,6 +303,7 @@ mod tests {
     use crate::declared::Declared;
     use rasterproof_verify::cases::Triangle;
     use rasterproof_verify::cases::near_plane::{ClipCorner, FAMILIES, clip_corners};
+    use rasterproof_verify::oracle::values::Exact;
 
     fn pictures(check: Check, case: &Case, answers: &[Answer]) -> Pictured {
         let truth = Truth::of(&Declared::default());

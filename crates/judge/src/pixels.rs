@@ -8,10 +8,12 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_verify::comparison::pixels::{as_runs, hits};
 
+/// The pixel of a fragment as a run of one. Its column may be the largest number there is.
 pub(super) fn pixel_of(f: &Fragment<DVec2>) -> Span {
     Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
 }
 
+/// How many pixels runs have; a run that ends before it begins counts as if it were turned round.
 pub(super) fn length(runs: &[Span]) -> u64 {
     runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
 }
@@ -23,6 +25,7 @@ pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
 
 /// The pixels of an answer by hits, and how many lie outside the window.
 pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
+    // Every answer with pixels is one of runs, whatever else its items hold.
     let runs: Vec<Span> = match answer {
         Answer::Coverage(runs) => return Some(hits(runs, window)),
         Answer::Samples(runs) | Answer::Seen(runs) | Answer::Area(runs) => {
@@ -71,6 +74,7 @@ pub(super) fn painted<T: Copy>(
 ) -> Frame<T> {
     let mut painted = Frame::new(window, empty);
     for (run, mark) in runs {
+        // What lies outside of the window is cut off, so that a run of any length costs no more than a row.
         let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
         if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
             painted.span_mut(run.y_px, x0, x1).iter_mut().for_each(|here| paint(here, *mark));

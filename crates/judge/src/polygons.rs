@@ -45,12 +45,14 @@ pub fn is_out_of_time(report: &partition::Verdict) -> bool {
 /// # Errors
 /// No polygon was judged; why, in words.
 pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Verdict, String> {
+    // Families that hold no polygons leave nothing to judge.
     let options = options(given, program.declared());
     if options.families.is_empty() && !given.families.is_empty() {
         return Err("no case was judged: these families hold no polygons".to_owned());
     }
     let end = given.time_limit.map(|limit| Instant::now() + limit);
     program.end_at(end);
+    // The program, how often it died, and what it did the last time. The judge of polygons asks from several threads.
     let asked = Mutex::new((Timed::new(program, end), 0, String::new()));
     let answer = |polygons: &[Polygon]| -> Vec<Option<Result<Vec<Triangle>, Refused>>> {
         let mut asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -64,6 +66,7 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
         if let (Some(what), Some(answer)) = (program.strays().pop(), answers.last_mut()) {
             *answer = Answer::Died(what);
         }
+        // Polygons that were not asked for want of time have no answer; those that a program would not answer have a refusal.
         let asked = if program.is_late { answers.len() } else { polygons.len() };
         let mut answers = answers.into_iter();
         let made = polygons[..asked].iter().map(|_| match answers.next() {
@@ -102,12 +105,14 @@ pub fn polygon_that_asks(
     declared: &Declared,
 ) -> Option<(&'static str, u64)> {
     let options = options(given, declared);
+    // Without names, all families are meant.
     let families = match options.families.as_slice() {
         [] => Family::ALL.to_vec(),
         some => some.to_vec(),
     };
     for family in families {
         for index in options.numbers() {
+            // Polygons are made again from the seed, until one asks the same.
             let polygon = family.polygon(options.seed, index, declared.tessellation.coordinates);
             let question = Question { width: 1, height: 1, of: Asked::Polygon(polygon) };
             if question.text(1) == request {
@@ -127,6 +132,7 @@ pub fn asked(report: &partition::Verdict) -> DesignShare {
 
 /// The report as a verdict with a property for each family, for what is written for machines.
 pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Verdict {
+    // The families of polygons become rows like those of cases.
     let row = |family: &partition::Polygons| Row {
         name: family.family.name(),
         cases: family.polygons,
@@ -148,6 +154,7 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
     let (declared, left_out) = (declared.clone(), report.more);
     let more = Particulars { declared, found, left_out, ..Particulars::default() };
     let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());
+    // What the design asked is said only where all of it was judged.
     let is_whole = !is_out_of_time(report) && options.only.is_none();
     if is_whole && report.families.iter().any(|of| of.family == Family::Design) {
         verdict.more.asked = vec![asked(report)];

@@ -34,6 +34,7 @@ pub fn reach(program: &mut dyn Subject) -> Option<i32> {
 pub fn side(program: &mut dyn Subject) -> Option<i32> {
     let is_asked = program.declared().coverage;
     longest(program, is_asked, MOST_SIDE, &|side| {
+        // Around the origin, so that most of the triangle lies outside of the window.
         let [low, high] = [-side / 2, side / 2].map(|v| v * SUBPIXELS);
         let [a, b, c] =
             [[low, low], [high, low], [low, high]].map(|[x, y]| SubpixelPoint::new(x, y));
@@ -42,6 +43,9 @@ pub fn side(program: &mut dyn Subject) -> Option<i32> {
     })
 }
 
+/// The length up to which a program answers soon, found by lengths that grow by [`GROWTH`]; nothing where it draws any length in
+/// time,
+/// or is not asked for such shapes.
 fn longest(
     program: &mut dyn Subject,
     is_asked: bool,
@@ -51,6 +55,7 @@ fn longest(
     if !is_asked {
         return None;
     }
+    // Nothing is asked beyond what it declares.
     let most = program.declared().range.map_or(most, |range| range.saturating_mul(2).min(most));
     let mut time = |steps: i32| {
         let questions = question(steps).into_iter();
@@ -62,6 +67,7 @@ fn longest(
         let are_drawn = answers.len() == questions.len() && answers.iter().all(is_drawn);
         are_drawn.then(|| program.took().unwrap_or_else(|| start.elapsed()))
     };
+    // The shortest length tells how long any answer takes.
     let usual = time(2)?;
     let mut steps = FIRST;
     while steps <= most {
@@ -69,6 +75,7 @@ fn longest(
             // It was refused, or did not end in time.
             return (steps > FIRST).then_some(steps / GROWTH);
         };
+        // Where the length begins to cost time, the cost of each step gives the length that may be asked.
         let more = taken.saturating_sub(usual);
         if more > SHORT && taken > 2 * usual {
             let each_s = more.as_secs_f64() / f64::from(steps);

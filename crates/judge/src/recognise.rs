@@ -35,7 +35,9 @@ use rasterproof_verify::convention::{
 use rasterproof_verify::judge::AFTER_FAILURE;
 use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
+/// What was found about the convention of a program.
 pub struct Recognised {
+    /// What is said of both.
     pub said: Said,
     pub triangles: Option<Diagnosis>,
     pub lines: Option<LineDiagnosis>,
@@ -47,6 +49,7 @@ pub struct Recognised {
     pub is_late: bool,
 }
 
+/// The same in words, for reports.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Said {
     /// What the program does, a sentence or two for triangles and for lines.
@@ -62,6 +65,7 @@ pub struct Said {
     pub is_open: bool,
 }
 
+/// What is looked for, and for how long.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope {
     pub triangles: bool,
@@ -97,30 +101,30 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     let declared = program.declared().clone();
     let mut bench = Bench::new(Timed::new(program, None));
     let open = declared.convention.rule == Rule::Unspecified;
-    let triangles = (scope.triangles && declared.coverage)
-        .then(|| {
-            let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            (ask && !bench.program.is_late).then(|| {
-                bench.limit(scope.patience);
-                let known = known(&declared);
-                let search = async |asker| convention::diagnose(&asker, &known, SEED).await;
-                bench.search(Search::new(search), Bench::triangles)
-            })
-        })
-        .flatten();
-    let lines = (scope.lines && declared.line)
-        .then(|| {
-            let ask = scope.always || !bench.draws_as_declared(&declared, true);
-            let side_px = known(&declared).side_px();
-            let ordered = !declared.line_set;
-            (ask && !bench.program.is_late).then(|| {
-                bench.limit(scope.patience);
-                let search =
-                    async |asker| convention::diagnose_lines(&asker, side_px, ordered, SEED).await;
-                bench.search(Search::new(search), Bench::lines)
-            })
-        })
-        .flatten();
+    // A program that draws as it declares is not questioned, unless that is asked for or its rule leaves ties open.
+    let mut triangles = None;
+    if scope.triangles
+        && declared.coverage
+        && (scope.always || open || !bench.draws_as_declared(&declared, false))
+        && !bench.program.is_late
+    {
+        bench.limit(scope.patience);
+        let known = known(&declared);
+        let search = async |asker| convention::diagnose(&asker, &known, SEED).await;
+        triangles = Some(bench.search(Search::new(search), Bench::triangles));
+    }
+    let mut lines = None;
+    if scope.lines
+        && declared.line
+        && (scope.always || !bench.draws_as_declared(&declared, true))
+        && !bench.program.is_late
+    {
+        bench.limit(scope.patience);
+        let side_px = known(&declared).side_px();
+        let ordered = !declared.line_set;
+        let search = async |asker| convention::diagnose_lines(&asker, side_px, ordered, SEED).await;
+        lines = Some(bench.search(Search::new(search), Bench::lines));
+    }
     if bench.program.is_late {
         let spent = bench.spent(scope.patience);
         return Some(Recognised { spent, ..Recognised::late() });
@@ -128,11 +132,13 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     if triangles.is_none() && lines.is_none() {
         return None;
     }
+    // Something is explained where a hypothesis was found for triangles or for lines.
     let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
         || lines.as_ref().is_some_and(|l| l.confidence != Confidence::Unexplained);
     let mut sentences = Vec::new();
     sentences.extend(triangles.as_ref().map(|t| clause("Triangles", &t.sentence())));
     sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
+    // What is not a rule with a name is said sample by sample, and what can be declared is offered as words.
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
     let is_open = triangles.as_ref().is_some_and(|t| !t.compass.is_decided());
@@ -161,6 +167,7 @@ impl Recognised {
     }
 }
 
+/// A sentence as a clause after what it is about: its first letter becomes small.
 fn clause(about: &str, sentence: &str) -> String {
     let mut chars = sentence.chars();
     let first = chars.next().map(|c| c.to_ascii_lowercase());
@@ -185,6 +192,7 @@ impl Recognition {
         sentences: &mut [String],
     ) {
         let certain = Some(Confidence::Certain);
+        // What leaves the window says something only where all within it is explained.
         let is_certain = [
             self.triangles.as_ref().map(|t| t.confidence) == certain,
             self.lines.as_ref().map(|l| l.confidence) == certain,
@@ -193,6 +201,7 @@ impl Recognition {
             if !is_certain[usize::from(lines)] {
                 continue;
             }
+            // Shapes that leave the window are asked, and compared with what the convention says of them.
             let questions = leaving::questions(declared, lines, self.quantum());
             let found = leaving::otherwise(&questions, &bench.answers(&questions), self);
             let Some(said) = found.sentence(what) else { continue };
@@ -232,14 +241,19 @@ impl Expect for Recognition {
     }
 }
 
+/// What the search for a convention may take for granted, since the program declares it or was seen to do it.
 fn known(declared: &Declared) -> Declarations {
     let known = Declarations::from(&declared.convention);
-    let measured = [declared.reach, declared.side.map(|side| side / 2)];
+    // The range is as short as the program was seen to need.
+    let mut range_px = declared.range.unwrap_or(known.range_px);
+    if let Some(reach) = declared.reach {
+        range_px = range_px.min(reach);
+    }
+    if let Some(side) = declared.side {
+        range_px = range_px.min(side / 2);
+    }
     Declarations {
-        range_px: measured
-            .into_iter()
-            .flatten()
-            .fold(declared.range.unwrap_or(known.range_px), i32::min),
+        range_px,
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
         ..known
@@ -259,10 +273,13 @@ pub fn mistakes(
     let known = known(&truth.declared);
     let (mut all, mut was_cut) = (Vec::new(), false);
     for (&check, to_do) in checks.iter().zip((1..=checks.len() as u32).rev()) {
+        // The time that is left is shared among the checks that are still to do.
         let share = program.rest().map(|rest| rest / to_do);
+        // Each check gets its share of the answers, and none of another one.
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
         let mut bench = Bench::new(part);
+        // Triangles and lines have searches of their own; every other check is a stage.
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
@@ -295,9 +312,10 @@ pub fn mistakes(
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };
-                let programs: Vec<_> = entries()
-                    .map(|(entry, about)| (RefCell::new(Inside::new(&entry)), about))
-                    .collect();
+                let mut programs = Vec::new();
+                for (entry, about) in entries() {
+                    programs.push((RefCell::new(Inside::new(&entry)), about));
+                }
                 let search = stages::mistakes(check, truth, &programs);
                 (of, bench.search(search, |bench, asked| bench.program.ask(asked, MOST_DEATHS)))
             }
@@ -335,49 +353,62 @@ impl Why {
 }
 
 /// The planted faults and the published algorithms, each with what is wrong with it.
-fn entries() -> impl Iterator<Item = (Entry, String)> {
+fn entries() -> Vec<(Entry, String)> {
     // Its panic says what it is, and would be shown.
-    let answers = |mutant: &TriangleMutant| *mutant != TriangleMutant::PanicsOnFlatBottom;
-    let planted = TriangleMutant::ALL.into_iter().filter(answers);
-    let planted = planted.map(|mutant| (mutant.name(), mutant.about()));
-    let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted_tiles = TileMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted = planted.chain(planted_lines).chain(planted_tiles).filter_map(|(name, about)| {
-        Some((engines::find_planted(name)?, format!("draws as the planted fault {name}: {about}")))
-    });
-    let published = engines::SPECIMENS.iter().map(|entry| {
+    let mut planted = Vec::new();
+    for mutant in TriangleMutant::ALL {
+        // Its panic says what it is, and would be shown.
+        if mutant != TriangleMutant::PanicsOnFlatBottom {
+            planted.push((mutant.name(), mutant.about()));
+        }
+    }
+    planted.extend(LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about())));
+    planted.extend(TileMutant::ALL.map(|mutant| (mutant.name(), mutant.about())));
+    let mut all = Vec::new();
+    for (name, about) in planted {
+        if let Some(entry) = engines::find_planted(name) {
+            all.push((entry, format!("draws as the planted fault {name}: {about}")));
+        }
+    }
+    for entry in engines::SPECIMENS {
         let about = entry.about.trim_start_matches("specimen: ");
-        (*entry, format!("draws as the published algorithm {}: {about}", entry.name))
-    });
-    planted.chain(published)
+        let does = format!("draws as the published algorithm {}: {about}", entry.name);
+        all.push((entry, does));
+    }
+    all
 }
 
 /// The same as programs whose answers are known.
 fn programs<'a, Q: 'a, A: 'a>(
     of: impl Fn(&Q, &mut Inside) -> Option<A> + Copy + 'a,
 ) -> Vec<Program<'a, Q, A>> {
-    let program = |(entry, about): (Entry, String)| {
+    let mut all = Vec::new();
+    for (entry, about) in entries() {
         let inside = RefCell::new(Inside::new(&entry));
         let draw = move |question: &Q| of(question, &mut inside.borrow_mut());
-        Program { name: entry.name, about, draw: Box::new(draw) }
-    };
-    entries().map(program).collect()
+        all.push(Program { name: entry.name, about, draw: Box::new(draw) });
+    }
+    all
 }
 
+/// The picture that a program in memory draws.
 fn of_triangle(question: &TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
     let asked = triangle_question(question);
     program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
 }
 
+/// The pixels of a line that a program in memory draws.
 fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]>> {
     program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
 }
 
+/// A question of the search as the protocol asks it.
 fn triangle_question(q: &TriangleQuestion) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     Question { width, height, of: Asked::Coverage(q.corners) }
 }
 
+/// The same of a line; `whole` is for programs that know whole pixels alone.
 fn line_question(q: &LineQuestion, whole: bool) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     let ends = q.ends.map(|[x, y]| PixelPoint::new(x, y));
@@ -390,12 +421,14 @@ fn as_triangle(question: &Question) -> Option<TriangleQuestion> {
     Some(TriangleQuestion { corners, window: PixelRect::window(question.width, question.height) })
 }
 
+/// The same of lines.
 fn as_line(question: &Question) -> Option<LineQuestion> {
     let Asked::Line { ends, .. } = question.of else { return None };
     let window = PixelRect::window(question.width, question.height);
     Some(LineQuestion { ends: ends.map(|end| [end.x, end.y]), window })
 }
 
+/// The pixels of an answer about a line; nothing of other answers, such as a refusal.
 fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
     match answer {
         Answer::Line(pixels) => Some(pixels.into_iter().map(|(x, y)| [x, y]).collect()),
@@ -406,6 +439,7 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 /// The program as the questions want it; asked no more once it has died too often.
 struct Bench<'a> {
     program: Timed<'a>,
+    /// How often it may still die before it is asked no more.
     deaths_left: u64,
 }
 
@@ -425,6 +459,7 @@ impl<'a> Bench<'a> {
         left.map_or(Duration::ZERO, |(patience, left)| patience.saturating_sub(left))
     }
 
+    /// The answers to some questions; nothing more once the program has died too often, or its time is up.
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
         if self.deaths_left == 0 || self.program.is_late {
             return Vec::new();
@@ -451,12 +486,14 @@ impl<'a> Bench<'a> {
         }
     }
 
+    /// The pictures of triangles, for [`Bench::search`].
     fn triangles(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
         answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
     }
 
+    /// The pixels of lines, for [`Bench::search`].
     fn lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
@@ -467,31 +504,44 @@ impl<'a> Bench<'a> {
     fn draws_as_declared(&mut self, declared: &Declared, lines: bool) -> bool {
         let truth = Truth::of(declared);
         let check = if lines { Check::Line } else { Check::Coverage };
-        let families = adapt_case::families(&[]);
-        let is_looked_at = |name| if lines { true } else { LOOK.contains(&name) };
-        families.iter().filter(|f| adapt_case::is_lines(f) == lines && is_looked_at(f.name)).all(
-            |f| {
-                let cases = (0..LOOK_CASES).map(|index| adapt_case::case(f, SEED, index, declared));
-                let cases: Vec<_> = cases.filter(|case| !adapt_case::leaves_window(case)).collect();
-                let mut questions = Vec::new();
-                let mut ends = Vec::new();
-                for case in &cases {
-                    check.questions(case, &truth, &mut questions);
-                    ends.push(questions.len());
+        for family in adapt_case::families(&[]) {
+            let is_looked_at = lines || LOOK.contains(&family.name);
+            if adapt_case::is_lines(family) != lines || !is_looked_at {
+                continue;
+            }
+            // All cases of a family are asked at once; each has some of the questions.
+            let mut cases = Vec::new();
+            for index in 0..LOOK_CASES {
+                let case = adapt_case::case(family, SEED, index, declared);
+                if !adapt_case::leaves_window(&case) {
+                    cases.push(case);
                 }
-                let answers = self.answers(&questions);
-                let starts = std::iter::once(0).chain(ends.iter().copied());
-                answers.len() == questions.len()
-                    && cases.iter().zip(starts).zip(&ends).all(|((case, start), &end)| {
-                        !check.judge(case, &answers[start..end], &truth).is_wrong()
-                    })
-            },
-        )
+            }
+            let mut questions = Vec::new();
+            let mut ends = Vec::new();
+            for case in &cases {
+                check.questions(case, &truth, &mut questions);
+                ends.push(questions.len());
+            }
+            let answers = self.answers(&questions);
+            if answers.len() != questions.len() {
+                return false;
+            }
+            let mut start = 0;
+            for (case, end) in cases.iter().zip(ends) {
+                if check.judge(case, &answers[start..end], &truth).is_wrong() {
+                    return false;
+                }
+                start = end;
+            }
+        }
+        true
     }
 }
 
 /// The shape that is declared for what was found, where every pixel that a triangle touches is drawn.
 fn touched(found: &Diagnosis) -> Option<Shape> {
+    // A square of half a pixel around the sample: the pixel that a triangle touches.
     let by_touch =
         convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach: HALF_PIXEL, square: true };
     if found.convention.shape != by_touch || found.confidence == Confidence::Unexplained {
@@ -512,6 +562,7 @@ fn words(declared: &Declared, found: &Diagnosis) -> String {
     let Some(found) = found.declaration(&declared.convention) else { return String::new() };
     let grid =
         [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);
+    // Only the words that differ from what is declared already.
     let (declared, [x, y]) = (&declared.convention, found.sample);
     let mut out = String::new();
     if grid < 1 << declared.subpixel_bits {

@@ -29,11 +29,16 @@ struct Exchange {
 /// Somebody who is asked only what the record does not hold.
 pub struct RecordedSubject {
     asked: Box<dyn Subject>,
+    /// What the record still holds, in the order in which it will be asked.
     known: VecDeque<Exchange>,
+    /// The record as it will be saved.
     text: String,
+    /// How long the last answers took when they were recorded.
     took: Option<Duration>,
+    /// What went wrong without a single question at fault, until somebody asks for it.
     strays: Vec<Misbehaviour>,
     save: Save,
+    /// When the record was last saved.
     saved: Instant,
     save_every: Duration,
 }
@@ -53,6 +58,7 @@ impl RecordedSubject {
         save_every: Duration,
         save: Save,
     ) -> Result<Self, &'static str> {
+        // A record of other options, or of another program, would answer questions that are not asked.
         let begin = format!("{MAGIC} {of}\n");
         let mut text = if text.is_empty() { begin.clone() } else { text };
         if !text.starts_with(MAGIC) {
@@ -145,10 +151,13 @@ impl Subject for RecordedSubject {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        // The questions are told apart by a hash, together with the deaths that are allowed.
         let mut hash = 0xcbf2_9ce4_8422_2325;
         mix(&mut hash, most_deaths);
         for question in questions {
-            question.text(1).bytes().for_each(|byte| mix(&mut hash, u64::from(byte)));
+            for byte in question.text(1).bytes() {
+                mix(&mut hash, u64::from(byte));
+            }
         }
         if let Some(answers) = self.recorded(questions, hash) {
             return answers;
@@ -157,8 +166,14 @@ impl Subject for RecordedSubject {
         let answers = self.asked.ask(questions, most_deaths);
         let took = start.elapsed();
         let strays = self.asked.strays();
-        let died = strays.iter().map(|what| line(&Answer::Died(what.clone()), 1));
-        let lines: Vec<_> = answers.iter().map(|answer| line(answer, 1)).chain(died).collect();
+        let mut lines = Vec::new();
+        for answer in &answers {
+            lines.push(line(answer, 1));
+        }
+        for what in &strays {
+            lines.push(line(&Answer::Died(what.clone()), 1));
+        }
+        // An exchange is a line with its numbers, then a line for each answer.
         self.text += &format!("{hash} {} {}\n", took.as_micros(), lines.len());
         for line in &lines {
             self.text.push_str(&line.replace('\n', " "));
@@ -166,6 +181,7 @@ impl Subject for RecordedSubject {
         }
         self.strays.extend(strays);
         self.took = Some(took);
+        // The record is saved now and then, not after each answer: it is written as a whole.
         if self.saved.elapsed() >= self.save_every {
             (self.save)(&self.text);
             self.saved = Instant::now();

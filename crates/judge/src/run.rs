@@ -41,14 +41,17 @@ const BEFORE: u64 = 256;
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Row {
+    /// The name of the family, or of the check where it is over all families.
     pub name: &'static str,
     /// The check that its cases were judged by; none of polygons, and of a family that was given up before the first case.
     #[serde(skip)]
     pub check: Option<Check>,
     pub cases: u64,
+    /// Triangles, lines or corners that were compared.
     pub shapes: u64,
     /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
+    /// Cases in which anything is wrong.
     pub wrong_cases: u64,
     /// Wrong pixels as declared.
     pub tally: Tally,
@@ -60,7 +63,9 @@ pub struct Row {
     pub unscored: u64,
     /// Their pixels that are wrong as declared.
     pub unscored_wrong: u64,
+    /// Requests that the program refused.
     pub refused: u64,
+    /// Values that were compared.
     pub values: u64,
     /// Those of them that are beyond the tolerance.
     pub wrong_values: u64,
@@ -68,6 +73,7 @@ pub struct Row {
     pub worst: f64,
     /// Times the program had to be started again.
     pub deaths: u64,
+    /// Whether the family was given up before its last case.
     pub stopped: bool,
     /// Who is right, where two programs are compared and the wrong cases are those that differ.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -79,6 +85,7 @@ pub struct Row {
 pub struct Sides {
     pub first: u64,
     pub second: u64,
+    /// Both are wrong, each in its own way.
     pub neither: u64,
     /// What may be drawn either way, or is declared differently.
     pub both: u64,
@@ -87,6 +94,7 @@ pub struct Sides {
 }
 
 impl Sides {
+    /// A case, by which of both programs is right and by whether their answers differ.
     pub(super) fn of(right: [bool; 2], differ: bool) -> Self {
         let one = |is_it: bool| u64::from(is_it);
         Self {
@@ -115,11 +123,14 @@ impl Row {
         self.wrong_cases as f64 / self.cases.max(1) as f64
     }
 
+    /// A property without a case yet.
     fn new(name: &'static str, check: Option<Check>) -> Self {
         Self { name, check, ..Self::default() }
     }
 
+    /// Adds a judged case.
     fn count(&mut self, judged: &CaseJudgement) {
+        // What is counted of every case, right or wrong.
         self.cases += 1;
         self.shapes += judged.shapes;
         self.pixels += judged.pixels;
@@ -134,6 +145,7 @@ impl Row {
         self.wrong_values += judged.wrong_values;
         self.worst = self.worst.max(judged.finding.worst());
         self.deaths += judged.died.len() as u64;
+        // Who of two programs is right is known where they were compared.
         self.add_sides(judged.right.map(|right| Sides::of(right, judged.is_wrong())));
     }
 
@@ -144,16 +156,20 @@ impl Row {
     }
 }
 
+/// A failing case: where it is found again, and a fingerprint of what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
+    /// The name of its row.
     pub property: &'static str,
     pub family: &'static str,
+    /// Its number in the family, from which the seed makes it again.
     pub index: u64,
     /// Changes when what is wrong changes.
     pub fingerprint: u64,
 }
 
 impl Failing {
+    /// The failing case of a judgement.
     #[must_use]
     pub fn new(family: &Family, index: u64, check: Check, judged: &CaseJudgement) -> Self {
         let (property, fingerprint) = (check.name(family.name), judged.fingerprint());
@@ -174,6 +190,7 @@ pub struct Incident {
     pub family: &'static str,
     pub index: u64,
     pub what: Misbehaviour,
+    /// The line that was sent.
     pub request: String,
 }
 
@@ -187,9 +204,12 @@ pub struct Changing {
     pub answers: [Vec<Answer>; 2],
 }
 
+/// Everything that was found while all cases were asked.
 #[derive(Clone, Debug, Default)]
 pub struct RunFindings {
+    /// A row for each property.
     pub rows: Vec<Row>,
+    /// The failing cases that are remembered, in the order of the families.
     pub failing: Vec<Failing>,
     /// The first case of each property whose answers changed.
     pub changing: Vec<Changing>,
@@ -199,40 +219,50 @@ pub struct RunFindings {
     pub judged: Vec<(&'static str, &'static str, u64)>,
     /// Whether more failed than are remembered.
     pub forgot: bool,
+    /// What came instead of answers, the first of it.
     pub incidents: Vec<Incident>,
     /// What went wrong without a single request at fault.
     pub strays: Vec<Misbehaviour>,
+    /// Requests that were answered.
     pub answered: u64,
     /// Cases of which all was answered, and those that there are.
     pub cases: u64,
+    /// All cases that there are.
     pub of_cases: u64,
     /// Whether the time was up before all cases were judged.
     pub out_of_time: bool,
+    /// Whether the program had to be started again too often.
     pub gave_up: bool,
     pub seconds: f64,
 }
 
 impl RunFindings {
+    /// The row of a property, which is made where there is none yet.
     fn row(&mut self, name: &'static str, check: Option<Check>) -> &mut Row {
-        let at = self.rows.iter().position(|row| row.name == name).unwrap_or_else(|| {
+        let at = self.rows.iter().position(|row| row.name == name).unwrap_or(self.rows.len());
+        if at == self.rows.len() {
             self.rows.push(Row::new(name, check));
-            self.rows.len() - 1
-        });
+        }
         &mut self.rows[at]
     }
 
     /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
     pub fn unexplained(&self) -> Vec<Check> {
-        let is_explained = |row: &Row| {
-            row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
-        };
-        let is_wrong = |row: &&Row| match row.check {
-            Some(Check::Values) => row.worst > 1.0,
-            Some(Check::SampleValues) => row.wrong_cases > 0,
-            _ => row.tally.total() > 0 && !is_explained(row),
-        };
-        checks_of(self.rows.iter().filter(is_wrong))
+        let mut unexplained = Vec::new();
+        for row in &self.rows {
+            let is_explained =
+                row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0;
+            let is_wrong = match row.check {
+                Some(Check::Values) => row.worst > 1.0,
+                Some(Check::SampleValues) => row.wrong_cases > 0,
+                _ => row.tally.total() > 0 && !is_explained,
+            };
+            if is_wrong {
+                unexplained.push(row);
+            }
+        }
+        checks_of(unexplained.into_iter())
     }
 }
 
@@ -252,6 +282,7 @@ const PASSES: usize = 2;
 
 /// A program that is judged, and by what.
 struct JudgedProgram<'a> {
+    /// The families that have a request for it.
     families: Vec<&'static Family>,
     options: &'a Options,
     truth: &'a Truth,
@@ -261,6 +292,7 @@ struct JudgedProgram<'a> {
 
 /// A case and one of its checks.
 struct Job {
+    /// The number of the case in its family.
     index: u64,
     check: Check,
     case: Arc<Case>,
@@ -269,6 +301,7 @@ struct Job {
 }
 
 impl Job {
+    /// The requests of the job alone.
     fn questions(&self, truth: &Truth) -> Vec<Question> {
         let mut questions = Vec::new();
         self.check.questions(&self.case, truth, &mut questions);
@@ -294,6 +327,8 @@ struct Counts {
 }
 
 impl Counts {
+    /// Whether the program had to be started again so often that nothing more is asked. Hangs count for more, since each is waited
+    /// for.
     fn gave_up(&self) -> bool {
         // One that has never answered is given up sooner.
         let most = match self.found.answered {
@@ -312,6 +347,7 @@ impl JudgeKind for JudgedProgram<'_> {
     fn jobs(&self, place: Place, index: u64, jobs: &mut Vec<Job>) {
         let (family, truth) = (self.families[place.family], self.truth);
         let case = adapt_case::case(family, self.options.seed, index, &truth.declared);
+        // Each pass has its own cases.
         if adapt_case::leaves_window(&case) != (place.pass > 0) {
             return;
         }
@@ -334,6 +370,7 @@ impl JudgeKind for JudgedProgram<'_> {
         deaths[place.family][place.pass] += judged.died.len() as u64;
         *hangs += judged.died.iter().filter(|(_, what)| what.is_slow()).count() as u64;
         self.note(found, family, &job, judged);
+        // A program that does not repeat itself is found by asking wrong cases again, some of each property.
         let wrong = found.row(job.check.name(family.name), Some(job.check)).wrong_cases;
         let is_asked_again =
             judged.is_wrong() && judged.died.is_empty() && wrong <= MOST_ASKED_AGAIN;
@@ -347,6 +384,7 @@ impl JudgeKind for JudgedProgram<'_> {
         (job, first): &(Job, JobFound),
         again: JobFound,
     ) {
+        // The same answers twice are what is expected.
         if first.answers.iter().zip(&again.answers).all(|(first, again)| first.is_same(again)) {
             return;
         }
@@ -357,6 +395,7 @@ impl JudgeKind for JudgedProgram<'_> {
             questions: job.questions(self.truth),
             answers: [first.answers.clone(), again.answers],
         };
+        // Of each property the first case is kept, by the order of batches and not by who was faster.
         keep_first(&mut tally.changing, batch, changing, |a, b| {
             a.failing.property == b.failing.property
         });
@@ -382,6 +421,7 @@ impl JudgedProgram<'_> {
         let (most_deaths, is_again) = (batch.most_deaths, batch.is_again());
         batch.ask(self, |jobs| {
             let mut questions = Vec::new();
+            // The questions of all jobs are sent at once; where those of each end is remembered.
             let mut ends = Vec::new();
             for job in jobs {
                 job.check.questions(&job.case, self.truth, &mut questions);
@@ -408,14 +448,17 @@ impl JudgedProgram<'_> {
         })
     }
 
+    /// Adds what was found about a job to its row, to the incidents and to the failing cases that are remembered.
     fn note(&self, found: &mut RunFindings, family: &Family, job: &Job, judged: &CaseJudgement) {
         let &Job { index, check, .. } = job;
+        // A row counts every case, whatever is remembered of it.
         let (property, remember) = (check.name(family.name), self.options.terms.remember);
         found.answered += judged.answered;
         found.row(property, Some(check)).count(judged);
         if remember {
             found.judged.push((property, family.name, index));
         }
+        // What came instead of answers, with the request that it came to.
         for (at, what) in &judged.died {
             if found.incidents.len() < MOST_INCIDENTS {
                 let asked = job.questions(self.truth);
@@ -425,6 +468,7 @@ impl JudgedProgram<'_> {
             }
         }
         if judged.is_wrong() {
+            // The first failing cases of a property are remembered, and all of them for a baseline.
             let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
             if !remember && of_it >= KEPT {
                 return;
@@ -447,21 +491,25 @@ impl JudgedProgram<'_> {
 pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
     // The questions of a case depend on its family and on its number modulo 8.
     const PERIOD: u64 = 8;
-    let of_family = |family: &&Family| {
+    let mut count = 0_u64;
+    for family in asked_families(options, declared) {
         let is_asked = |index: &u64| {
             let case = adapt_case::case(family, options.seed, *index, declared);
             !Check::of(family.name, &case, *index, declared).is_empty()
         };
-        if let Some(index) = options.only {
-            return u64::from(is_asked(&index));
-        }
-        let cases = adapt_case::numbers(options, family.design()).end;
-        let (whole, rest) = (cases / PERIOD, cases % PERIOD);
-        let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
-        whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
-    };
-    let families = asked_families(options, declared);
-    families.iter().map(of_family).fold(0, u64::saturating_add)
+        let of_family = match options.only {
+            Some(index) => u64::from(is_asked(&index)),
+            None => {
+                // What is asked of one period is asked of each; the last one may be cut.
+                let cases = adapt_case::numbers(options, family.design()).end;
+                let (whole, rest) = (cases / PERIOD, cases % PERIOD);
+                let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
+                whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
+            }
+        };
+        count = count.saturating_add(of_family);
+    }
+    count
 }
 
 /// The families that have a request for a program that declares this.
@@ -480,13 +528,16 @@ pub fn run<'a>(
 ) -> RunFindings {
     let start = Instant::now();
     let families = asked_families(options, &truth.declared);
+    // Each pass has its own end: what leaves the window has the last quarter of the time.
     let end = |share: f64| options.time_limit.map(|limit| limit.mul_f64(share));
     let judged = JudgedProgram { families, options, truth, ends: [end(0.75), end(1.0)] };
     let families = judged.families.len();
+    // All copies get batches of the same size, so that what is found does not depend on which one answers.
     let at_once = askers.iter().map(|asker| asker.cases_at_once()).min().unwrap_or(1);
     let numbers =
         judged.families.iter().map(|of| adapt_case::numbers(options, of.design())).collect();
     let plan = Plan::of(options, PASSES, numbers, [at_once, at_once]);
+    // Nothing was found yet.
     let counts = Counts {
         found: RunFindings::default(),
         changing: Vec::new(),
@@ -512,8 +563,10 @@ pub fn run<'a>(
         asker.end = judged.ends[batch.place.pass].map(|end| start + end);
         judged.ask(&mut *asker, batch)
     };
+    // The driver gives batches to copies and counts what comes back in their order.
     let driver = Driver { now: &|| start.elapsed(), workers: &workers, ask: &ask, progress };
     let done = driver.drive(&judged, Judge::new(plan, counts));
+    // What is left is to gather what the copies found, and to say what was not done.
     let (is_late, gave_up) = (done.is_late, done.tally.gave_up());
     let Counts { found: mut whole, changing, deaths, .. } = done.tally;
     whole.out_of_time = is_late;
@@ -522,6 +575,7 @@ pub fn run<'a>(
         whole.out_of_time |= asker.is_late;
         whole.strays.extend(asker.strays());
     }
+    // Copies found them in any order; as they are asked, they are the same for any number of copies.
     whole.failing.sort_by_key(|f| {
         let family = judged.families.iter().position(|family| family.name == f.family);
         (family, f.index, f.property)

@@ -42,6 +42,7 @@ fn factors(triangle: &Triangle, [x_px, y_px]: [i32; 2], (x, y): Place) -> Option
     let at = [(x_px, x), (y_px, y)].map(|(px, part)| {
         i64::from(px) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16))
     });
+    // Twice the area of each of the three triangles with the place, as a share of the whole.
     let area = twice_area(&corners) as f64;
     let (mut of_depth, mut sum, mut magnitudes) = (0.0, 0.0, 0.0);
     for (i, v) in triangle.vertices.iter().enumerate() {
@@ -88,6 +89,7 @@ pub(super) fn compare(
     declared: &Declared,
 ) {
     let mut exact: Vec<(Place, Option<ExactTriangle<2>>)> = Vec::new();
+    // Exact values take long, so that some pixels are compared, and each place of a sample is computed once.
     let compared: Vec<&SampledValues> = few(drawn).collect();
     for SampledValues { mask, values } in compared {
         let Some(covered) = covered.get(values.x_px, values.y_px) else { continue };
@@ -107,6 +109,7 @@ pub(super) fn compare(
     }
 }
 
+/// Compares the values of one sample with the exact ones of the place where they are computed.
 fn compare_one(
     judged: &mut CaseJudgement,
     triangle: &Triangle,
@@ -116,6 +119,7 @@ fn compare_one(
 ) {
     let at_px = [found.x_px, found.y_px];
     let (depth, [a, b]) = exact.at(at_px[0], at_px[1]);
+    // What the exact values are decides how far the answer may be off.
     let right = [&depth, &a, &b];
     let Some(bounds) = bounds(triangle, at_px, place, right.map(Exact::to_f64), tolerance) else {
         return;

@@ -9,6 +9,7 @@ use glam::DVec2;
 use super::check::Check;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::shrink::{CaseSteps, Steps};
 use rasterproof_verify::cases::{Case, Shape, Triangle, formulas};
 
@@ -22,6 +23,7 @@ pub struct ProgramSteps<'a> {
 }
 
 impl<'a> ProgramSteps<'a> {
+    /// The steps from a case; a smaller one may have no more triangles without an area than this one has.
     pub fn new(check: Check, case: &Case, may_be: &'a dyn Fn(&Case) -> bool) -> Self {
         let most_flat = if has_depth(check) { flat(case) } else { usize::MAX };
         Self { check, most_flat, may_be }
@@ -50,14 +52,22 @@ impl Steps for ProgramSteps<'_> {
     }
 }
 
+/// Whether the check asks for depths, or for z and w, which are numbers to be made simpler.
 fn has_depth(check: Check) -> bool {
     matches!(check, Check::Depth | Check::Near | Check::Carried | Check::Wide)
 }
 
+/// Whether triangles of clip space are asked, which have no window.
+fn is_clipped(check: Check) -> bool {
+    matches!(check, Check::Near | Check::Carried)
+}
+
+/// How many triangles have no area.
 fn flat(case: &Case) -> usize {
     triangles(case).iter().filter(|t| twice_area(&t.corners()) == 0).count()
 }
 
+/// The triangles of a case; of lines and formulas there are none.
 fn triangles(case: &Case) -> &[Triangle] {
     if let Shape::Triangles { list, .. } = &case.shape { list } else { &[] }
 }
@@ -82,37 +92,41 @@ fn size(case: &Case) -> (usize, u32, u64, u64) {
             sum += number.unsigned_abs();
         }
     }
+    // A smaller window is the last thing that counts.
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
     (list.len(), bits, sum, window)
 }
 
+/// Smaller cases of triangles, those that leave out most first.
 fn candidates(case: &Case, check: Check) -> Vec<Case> {
-    let (list, w) = (triangles(case), case.window);
-    let with = |window: PixelRect, list: Vec<Triangle>| Case {
-        window,
-        shape: Shape::Triangles { list, disjoint: false },
-    };
+    let (list, window) = (triangles(case), case.window);
     let mut found = Vec::new();
+    // A triangle fewer.
     if list.len() > 1 {
-        let without = |i: usize| [&list[..i], &list[i + 1..]].concat();
-        found.extend((0..list.len()).map(|i| with(w, without(i))));
+        for i in 0..list.len() {
+            found.push(case_of(window, [&list[..i], &list[i + 1..]].concat()));
+        }
     }
-    let is_clipped = matches!(check, Check::Near | Check::Carried);
-    // What N and A ask has no window.
-    if !is_clipped {
-        let sides = [[w.x1 / 2, w.y1], [w.x1, w.y1 / 2], [w.x1 - 1, w.y1], [w.x1, w.y1 - 1]];
-        let sides = sides.into_iter().filter(|[x1, y1]| *x1 > w.x0 && *y1 > w.y0);
-        found.extend(sides.map(|[x1, y1]| with(PixelRect { x1, y1, ..w }, list.to_vec())));
+    // A smaller window; what N and A ask has none.
+    if !is_clipped(check) {
+        let PixelRect { x0, y0, x1, y1 } = window;
+        for [x1, y1] in [[x1 / 2, y1], [x1, y1 / 2], [x1 - 1, y1], [x1, y1 - 1]] {
+            if x1 > x0 && y1 > y0 {
+                found.push(case_of(PixelRect { x1, y1, ..window }, list.to_vec()));
+            }
+        }
     }
-    let moved = |by: &dyn Fn(SubpixelPoint) -> SubpixelPoint| {
-        let mut list = list.to_vec();
-        list.iter_mut().flat_map(|t| &mut t.vertices).for_each(|v| v.position = by(v.position));
-        with(w, list)
-    };
+    // All triangles nearer to the left side, or to the top.
     for (x_px, y_px) in [(4, 0), (0, 4), (1, 0), (0, 1)] {
-        let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
-        found.push(moved(&|p| SubpixelPoint::new(by(p.x, x_px), by(p.y, y_px))));
+        let mut moved = list.to_vec();
+        for v in moved.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
+            let x = v.position.x.saturating_sub(x_px * SUBPIXELS);
+            let y = v.position.y.saturating_sub(y_px * SUBPIXELS);
+            v.position = SubpixelPoint::new(x, y);
+        }
+        found.push(case_of(window, moved));
     }
+    // Each corner with a simpler coordinate.
     let mut corners = Vec::new();
     for triangle in list {
         corners.extend(triangle.corners());
@@ -120,45 +134,73 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
     corners.sort_by_key(|p: &SubpixelPoint| (p.x, p.y));
     corners.dedup();
     for corner in corners {
-        let to = |x, y| moved(&|p| if p == corner { SubpixelPoint::new(x, y) } else { p });
-        found.extend(simpler(corner.x).map(|x| to(x, corner.y)));
-        found.extend(simpler(corner.y).map(|y| to(corner.x, y)));
+        for x in simpler(corner.x) {
+            let to = SubpixelPoint::new(x, corner.y);
+            found.push(case_of(window, with_corner(list, corner, to)));
+        }
+        for y in simpler(corner.y) {
+            let to = SubpixelPoint::new(corner.x, y);
+            found.push(case_of(window, with_corner(list, corner, to)));
+        }
     }
-    // The depths of a whole triangle, then each number alone.
-    let numbers = |change: &dyn Fn(usize, usize, &mut f64, &mut DVec2)| {
-        let mut list = list.to_vec();
-        for (i, triangle) in list.iter_mut().enumerate() {
-            for (j, v) in triangle.vertices.iter_mut().enumerate() {
-                change(i, j, &mut v.depth, &mut v.varying);
-            }
-        }
-        with(w, list)
-    };
-    for (i, triangle) in list.iter().enumerate() {
+    for i in 0..list.len() {
+        // One depth for a whole triangle of a pile.
         if check == Check::Depth {
-            for all in [0.0, 1.0] {
-                found.push(numbers(&|t, _, z, _| *z = if t == i { all } else { *z }));
+            for depth in [0.0, 1.0] {
+                let mut flat = list.to_vec();
+                for v in &mut flat[i].vertices {
+                    v.depth = depth;
+                }
+                found.push(case_of(window, flat));
             }
         }
-        for (j, v) in triangle.vertices.iter().enumerate() {
-            if has_depth(check) {
-                let to = |z| {
-                    numbers(&|t, c, depth, _| *depth = if (t, c) == (i, j) { z } else { *depth })
-                };
-                found.extend(simpler_number(v.depth).map(to));
-            }
-            if is_clipped {
-                let to =
-                    |new| numbers(&|t, c, _, old| *old = if (t, c) == (i, j) { new } else { *old });
-                let DVec2 { x: w, y: a } = v.varying;
-                // At w = 0 a corner lies nowhere.
-                let ws = simpler_number(w).filter(|w| *w != 0.0);
-                found.extend(ws.map(|w| to(DVec2::new(w, a))));
-                found.extend(simpler_number(a).map(|a| to(DVec2::new(w, a))));
+        // Then each number of a corner alone.
+        for j in 0..3 {
+            for simpler in simpler_corners(&list[i].vertices[j], check) {
+                let mut changed = list.to_vec();
+                changed[i].vertices[j] = simpler;
+                found.push(case_of(window, changed));
             }
         }
     }
     found
+}
+
+/// A case of these triangles. Whether they are disjoint does not matter to one that is asked again by the same check.
+fn case_of(window: PixelRect, list: Vec<Triangle>) -> Case {
+    Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// A corner with one of its numbers simpler: its depth, or its w and its attribute in clip space.
+fn simpler_corners(corner: &ScreenVertex<DVec2>, check: Check) -> Vec<ScreenVertex<DVec2>> {
+    let mut simpler = Vec::new();
+    if has_depth(check) {
+        for depth in simpler_number(corner.depth) {
+            simpler.push(ScreenVertex { depth, ..*corner });
+        }
+    }
+    if is_clipped(check) {
+        let DVec2 { x: w, y: attribute } = corner.varying;
+        // At w = 0 a corner lies nowhere.
+        for w in simpler_number(w).filter(|w| *w != 0.0) {
+            simpler.push(ScreenVertex { varying: DVec2::new(w, attribute), ..*corner });
+        }
+        for attribute in simpler_number(attribute) {
+            simpler.push(ScreenVertex { varying: DVec2::new(w, attribute), ..*corner });
+        }
+    }
+    simpler
+}
+
+/// Triangles with a corner at another place, in all of those that share it.
+fn with_corner(list: &[Triangle], corner: SubpixelPoint, to: SubpixelPoint) -> Vec<Triangle> {
+    let mut list = list.to_vec();
+    for v in list.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
+        if v.position == corner {
+            v.position = to;
+        }
+    }
+    list
 }
 
 /// The numbers of a formula with one of them simpler, or a texel fewer, as far as the formula can be asked of these.
@@ -167,6 +209,7 @@ fn simpler_formulas(case: &Case) -> Vec<Case> {
     let mut found = Vec::new();
     for (i, &number) in numbers.iter().enumerate() {
         for simpler in simpler_number(number) {
+            // One number is simpler, all others stay.
             let mut with = numbers.clone();
             with[i] = simpler;
             found.push(with);

@@ -7,6 +7,7 @@ use rasterproof_host::text::printable_short;
 /// A decimal number, as the nearest double, or a C99 hex float that a double holds exactly. NaN and infinities are
 /// read; who asks refuses them by name.
 pub fn number(word: &str) -> Option<f64> {
+    // The sign comes first, for decimals and for hex floats alike.
     let (sign, digits) = match word.as_bytes().first()? {
         b'-' => (-1.0, &word[1..]),
         b'+' => (1.0, &word[1..]),
@@ -38,6 +39,7 @@ pub fn printable(bytes: &[u8], most: usize) -> String {
 pub struct Words<'a>(pub &'a [u8]);
 
 impl<'a> Words<'a> {
+    /// The next word, between white space.
     pub fn word(&mut self) -> Option<&'a [u8]> {
         let start = self.0.iter().position(|b| !b.is_ascii_whitespace())?;
         let rest = &self.0[start..];
@@ -52,10 +54,12 @@ impl<'a> Words<'a> {
         word.parse().ok().filter(|_| !word.starts_with('+'))
     }
 
+    /// The next word as a number, also where it is none or infinite: that is judged, and not refused.
     pub fn float(&mut self) -> Option<f64> {
         number(std::str::from_utf8(self.word()?).ok()?)
     }
 
+    /// Whether no word is left.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.iter().all(u8::is_ascii_whitespace)

@@ -23,12 +23,14 @@ pub struct Timed<'a> {
     batch: usize,
     /// Answers so far, and how long they took.
     answered: u32,
+    /// How long the last answers took.
     took: Duration,
     /// Whether something was not asked, or not answered, because the time was up.
     pub is_late: bool,
 }
 
 impl<'a> Timed<'a> {
+    /// Somebody who is asked until a time; `None` is no end.
     pub fn new(asked: &'a mut dyn Subject, end: Option<Instant>) -> Self {
         let took = Duration::ZERO;
         Self { asked, end, left: None, batch: 1, answered: 0, took, is_late: false }

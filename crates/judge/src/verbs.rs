@@ -44,10 +44,12 @@ fn options(cases: u64, families: &[&str]) -> Options {
     patient(cases, families).terms(Asking { patience: Duration::ZERO, ..Asking::default() })
 }
 
+/// What comes of somebody who is judged without a look for a convention.
 fn judged(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|_| None, &|_| ())
 }
 
+/// An engine of the registry.
 fn inside(name: &str) -> Box<dyn Subject> {
     Box::new(Inside::new(engines::find(name).unwrap()))
 }
@@ -86,6 +88,7 @@ fn answers_begin_with_known_letters() {
         Answer::Numbers(Vec::new()),
         Answer::Refused("no".to_owned()),
     ];
+    // Each letter once; none may be missing in either list.
     let begun: BTreeSet<u8> = answers.iter().map(|answer| line(answer, 1).as_bytes()[0]).collect();
     assert_eq!(begun, ANSWER_LETTERS.iter().copied().collect());
 }
@@ -103,6 +106,7 @@ fn wide(
     change: impl Fn(WideLine, WideForm) -> (WideLine, WideForm),
 ) -> Answer {
     let Asked::Wide(line) = &question.of else { return Answer::Refused(String::new()) };
+    // The line as the fault takes it, drawn rightly.
     let (line, form) = change(*line, WideForm::Rectangle);
     let window = PixelRect::window(question.width, question.height);
     let mut runs = Vec::new();
@@ -141,6 +145,7 @@ type Fault = (fn(&Question) -> Answer, &'static str);
 /// Each fault is found, on a small case, and said.
 fn are_found_and_explained(words: &str, families: &[&str], faults: &[Fault]) {
     for &(fault, wanted) in faults {
+        // The fault is found, its case is small, and the cause names it.
         let verdict = judged_answers(words, fault, &patient(200, families));
         assert!(!verdict.agrees(), "{wanted}");
         let case = &verdict.failures[0].case;
@@ -150,6 +155,7 @@ fn are_found_and_explained(words: &str, families: &[&str], faults: &[Fault]) {
     }
 }
 
+/// Widths, ends and forms that are wrong, and pixels that are lost or drawn twice.
 const WIDE_FAULTS: [Fault; 8] = [
     (|q| wide(q, |line, form| (WideLine { width: 2 * line.width, ..line }, form)), "twice as wide"),
     (
@@ -217,6 +223,7 @@ const WIDE_FAULTS: [Fault; 8] = [
     ),
 ];
 
+/// The same lines without a fault agree, so that each finding is of the fault.
 #[test]
 fn faults_of_wide_lines_are_found_and_explained() {
     let right =
@@ -282,6 +289,7 @@ fn sampled(question: &Question, n: i32) -> Answer {
     })
 }
 
+/// Whoever rounds to the nearest step agrees, and whoever declares less gets more room.
 #[test]
 fn shares_are_judged_with_a_stated_tolerance() {
     let verdict = judged(inside("area"), &options(1000, &AREA));
@@ -315,6 +323,7 @@ fn shares_are_judged_with_a_stated_tolerance() {
     );
 }
 
+/// Levels that come of another share, of another rounding, or of no share at all.
 const AREA_FAULTS: [Fault; 8] = [
     (|q| sampled(q, 4), "by 4 x 4 samples"),
     (|q| sampled(q, 1), "by the sample at the centre alone"),
@@ -345,6 +354,7 @@ const AREA_FAULTS: [Fault; 8] = [
     ),
 ];
 
+/// The same of levels.
 #[test]
 fn faults_of_shares_are_found_and_explained() {
     are_found_and_explained("area", &AREA, &AREA_FAULTS);
@@ -401,6 +411,7 @@ fn attributes(question: &Question, axis: usize) -> [f64; 3] {
     triangle.vertices.map(|v| v.varying[axis])
 }
 
+/// Values that are clamped or not corrected, and samples that are too many or lost.
 const VALUE_FAULTS: [Fault; 5] = [
     // Nothing beyond what the corners have.
     (

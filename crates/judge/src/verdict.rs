@@ -15,10 +15,13 @@ use super::windings::Windings;
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::judge::{self, LeftOut};
 
+/// What came of a property, also in the light of a baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
+    /// It holds.
     Pass,
+    /// It does not hold, and no baseline says so.
     Fail,
     /// It does not hold, as the baseline says.
     ExpectedFailure,
@@ -27,17 +30,21 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Whether nothing is to be done about it: it holds, or its failures are all known.
     #[must_use]
     pub fn is_good(self) -> bool {
         matches!(self, Self::Pass | Self::ExpectedFailure)
     }
 }
 
+/// Something that should hold of a program, and whether it does.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Property {
     pub name: &'static str,
+    /// What should hold, as a clause.
     pub about: String,
     pub outcome: Outcome,
+    /// What was counted, in words.
     pub detail: String,
 }
 
@@ -50,6 +57,7 @@ pub struct Particulars {
     pub declared: Declared,
     /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
     pub against: Option<Declared>,
+    /// Which windings were seen to be drawn.
     pub windings: Windings,
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
@@ -65,14 +73,18 @@ pub struct Particulars {
     pub complaints: Complaints,
     /// What was not done, because the time was up.
     pub left_out: LeftOut,
+    /// What holds and what does not, the protocol first.
     pub properties: Vec<Property>,
     /// How much of all that could be asked the designs asked.
     pub asked: Vec<DesignShare>,
 }
 
+/// How many pixels are wrong, of how many that are expected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Score {
+    /// Pixels that are missing, too many, drawn twice or out of order.
     pub wrong: u64,
+    /// Pixels that were expected.
     pub pixels: u64,
     /// Triangles and lines of which the convention says nothing.
     pub unscored: u64,
@@ -145,12 +157,11 @@ pub fn verdict(
     cause: Vec<Why>,
 ) -> Verdict {
     let families = adapt_case::families(&[]);
+    // Families in the order in which they are asked, then the checks over all families.
     let rank = |row: &Row| {
         let family = families.iter().position(|f| f.name == row.name);
-        family.unwrap_or_else(|| {
-            let place = CHECKS.iter().position(|(check, _)| row.check == Some(*check));
-            families.len() + place.unwrap_or(0)
-        })
+        let check = CHECKS.iter().position(|(check, _)| row.check == Some(*check));
+        family.unwrap_or(families.len() + check.unwrap_or(0))
     };
     let mut rows = std::mem::take(&mut of.found.rows);
     rows.sort_by_key(rank);
@@ -164,6 +175,7 @@ pub fn verdict(
     Verdict { options: options.clone(), families: rows, failures, cause, more: of }
 }
 
+/// The properties of a verdict: the protocol first, then whether it draws at all, then a property for each row.
 fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
     let property = |name, about: &str, holds: bool, detail: String| Property {
         name,
@@ -177,6 +189,7 @@ fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
         keeps_protocol(&of.found),
         manners(&of.found),
     )];
+    // Whether it draws at all comes before all that it draws wrongly.
     if of.windings.is_known() {
         let w = &of.windings;
         let counts = format!(
@@ -204,7 +217,9 @@ fn keeps_protocol(found: &RunFindings) -> bool {
     found.incidents.is_empty() && found.strays.is_empty() && !found.gave_up
 }
 
+/// How a program kept the protocol, in words: each breach once, and how many answers there were.
 fn manners(found: &RunFindings) -> String {
+    // Each breach is said once, in the order of the alphabet.
     let whats = found.incidents.iter().map(|i| &i.what).chain(&found.strays);
     let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
     words.sort_unstable();
@@ -223,11 +238,13 @@ pub trait Scores {
     /// How often each of two programs is right, summed over all rows.
     #[must_use]
     fn sides(&self) -> Sides {
-        let sides = self.verdict().families.iter().filter_map(|row| row.sides);
-        sides.fold(Sides::default(), |mut sum, sides| {
-            sum += sides;
-            sum
-        })
+        let mut sum = Sides::default();
+        for row in &self.verdict().families {
+            if let Some(sides) = row.sides {
+                sum += sides;
+            }
+        }
+        sum
     }
 
     /// Whether nothing is to be done. Where nothing could be asked, nothing agrees.
@@ -241,6 +258,7 @@ pub trait Scores {
     #[must_use]
     fn judged_nothing(&self) -> Option<String> {
         let Verdict { families, options, more, .. } = self.verdict();
+        // A program that draws nothing agrees with everything where nothing is expected.
         let expects = more.windings.is_known() || families.iter().any(|r| r.pixels > 0);
         let is_blank = self.agrees() && !expects;
         let is_empty = families.is_empty();
@@ -267,6 +285,7 @@ pub trait Scores {
     /// How many shapes were judged, such as '12 triangles and 3 lines'. Triangles and lines are named even where there are none, but
     /// where something else was judged.
     fn judged_shapes(&self) -> String {
+        // Triangles and lines are named where nothing else was judged, also where there are none.
         let counts = Shapes::ALL.map(|kind| (kind, self.shapes(kind)));
         let is_usual = |kind: Shapes| matches!(kind, Shapes::Triangles | Shapes::Lines);
         let has_others = counts.iter().any(|(kind, count)| *count > 0 && !is_usual(*kind));
@@ -289,19 +308,11 @@ pub trait Scores {
     #[must_use]
     fn counts(&self) -> Vec<Count> {
         let mut counts: Vec<Count> = Vec::new();
-        let mut add = |what: Counted, wrong: u64, pixels: u64| {
-            let at = counts.iter().position(|count| count.what == what).unwrap_or_else(|| {
-                counts.push(Count { what, score: Score::default() });
-                counts.len() - 1
-            });
-            counts[at].score.wrong += wrong;
-            counts[at].score.pixels += pixels;
-        };
         for row in &self.verdict().families {
             let Some(check) = row.check else { continue };
-            add(check.counted(), row.tally.total(), row.pixels);
+            add(&mut counts, check.counted(), row.tally.total(), row.pixels);
             if matches!(check, Check::Values | Check::SampleValues) {
-                add(Counted::Values, row.wrong_values, row.values);
+                add(&mut counts, Counted::Values, row.wrong_values, row.values);
             }
         }
         counts.sort_by_key(|count| count.what as usize);
@@ -310,16 +321,14 @@ pub trait Scores {
 
     #[must_use]
     fn as_declared(&self) -> Score {
-        self.score(None, |row| (row.tally.total(), row.pixels, 0))
+        self.score(None, &as_declared)
     }
 
     /// The score by the convention that was recognised; nothing where nothing was, or is explained.
     #[must_use]
     fn by_convention(&self) -> Option<Score> {
-        let score = || {
-            self.score(None, |row| (row.recognised.total(), row.recognised_pixels, row.unscored))
-        };
-        self.verdict().more.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
+        let said = self.verdict().more.recognised.as_ref()?;
+        said.is_explained.then(|| self.score(None, &by_convention))
     }
 
     /// Pixels that are wrong as declared, of the shapes of which the recognised convention says nothing.
@@ -330,18 +339,42 @@ pub trait Scores {
 
     /// Sums over the rows, those of one kind of shape alone where that is asked.
     #[must_use]
-    fn score(&self, shapes: Option<Shapes>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
-        let is_asked = |check: Check| shapes.is_none_or(|kind| Shapes::of(Some(check)) == kind);
-        // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
-        let is_of_pixels = |check: Check| check.counted() == Counted::Pixels && is_asked(check);
-        let rows = self.verdict().families.iter();
-        let rows = rows.filter(|row| row.check.is_some_and(is_of_pixels));
-        rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
-            wrong: sum.wrong + wrong,
-            pixels: sum.pixels + pixels,
-            unscored: sum.unscored + unscored,
-        })
+    fn score(&self, shapes: Option<Shapes>, of: &dyn Fn(&Row) -> Score) -> Score {
+        let mut sum = Score::default();
+        for row in &self.verdict().families {
+            let Some(check) = row.check else { continue };
+            // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
+            let is_asked = shapes.is_none_or(|kind| Shapes::of(Some(check)) == kind);
+            if check.counted() == Counted::Pixels && is_asked {
+                let Score { wrong, pixels, unscored } = of(row);
+                sum.wrong += wrong;
+                sum.pixels += pixels;
+                sum.unscored += unscored;
+            }
+        }
+        sum
     }
+}
+
+/// What a row counts as declared.
+pub fn as_declared(row: &Row) -> Score {
+    Score { wrong: row.tally.total(), pixels: row.pixels, unscored: 0 }
+}
+
+/// What a row counts by the convention that was recognised.
+pub fn by_convention(row: &Row) -> Score {
+    let (pixels, unscored) = (row.recognised_pixels, row.unscored);
+    Score { wrong: row.recognised.total(), pixels, unscored }
+}
+
+/// Adds to the count of one kind of thing.
+fn add(counts: &mut Vec<Count>, what: Counted, wrong: u64, pixels: u64) {
+    let at = counts.iter().position(|count| count.what == what).unwrap_or(counts.len());
+    if at == counts.len() {
+        counts.push(Count { what, score: Score::default() });
+    }
+    counts[at].score.wrong += wrong;
+    counts[at].score.pixels += pixels;
 }
 
 impl Scores for Verdict {
@@ -350,6 +383,7 @@ impl Scores for Verdict {
     }
 }
 
+/// What a row is about: of checks over all families their sentence, else what the family holds.
 fn about(row: &Row) -> String {
     if let Some((_, about)) = CHECKS.iter().find(|(check, _)| row.check == Some(*check)) {
         return (*about).to_owned();
@@ -358,18 +392,22 @@ fn about(row: &Row) -> String {
     family.map_or_else(String::new, |f| format!("as expected: {}", f.about))
 }
 
+/// A row in words: how many cases agree, then whatever is wrong in parts of the sentence.
 pub fn sentence(row: &Row) -> String {
+    // How many cases are wrong, of how many.
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),
         n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
         n => format!("wrong in {n} of {} cases", row.cases),
     };
+    // Then what is wrong with them, in the words of the check.
     for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {
         out += &format!(", {count}");
     }
-    let counts = [(row.refused, "refused"), (row.deaths, "without an answer")];
-    for (n, what) in counts.iter().filter(|(n, _)| *n > 0) {
-        out += &format!(", {n} {what}");
+    for (n, what) in [(row.refused, "refused"), (row.deaths, "without an answer")] {
+        if n > 0 {
+            out += &format!(", {n} {what}");
+        }
     }
     if row.values > 0 {
         out += &format!(", worst value at {:.2e} of the tolerance", row.worst);

@@ -36,6 +36,7 @@ impl Windings {
         Self::drawn(self.clockwise) || Self::drawn(self.counter_clockwise)
     }
 
+    /// Whether plain triangles of both windings were answered.
     #[must_use]
     pub fn is_known(&self) -> bool {
         self.clockwise[1] > 0 && self.counter_clockwise[1] > 0
@@ -52,6 +53,7 @@ impl Windings {
     }
 }
 
+/// Asks for plain triangles of both windings, and counts which of them are drawn.
 pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
     let declared = program.declared().clone();
     let mut windings = Windings::default();
@@ -75,6 +77,7 @@ pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
             questions.push(Question { width, height, of: Asked::Coverage(corners) });
         }
     }
+    // Each answer counts for the winding of its triangle.
     for (question, answer) in questions.iter().zip(program.ask(&questions, super::run::MOST_DEATHS))
     {
         let Asked::Coverage(corners) = &question.of else { continue };
@@ -84,6 +87,7 @@ pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
     windings
 }
 
+/// Whether a triangle has so many pixels, of whichever winding it is, that its winding can be told from them.
 fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
     let any = declared.convention.winding(Winding::Both);
     any.picture(corners, window).is_some_and(|picture| {
@@ -92,6 +96,7 @@ fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
     })
 }
 
+/// Counts an answer for the winding of its triangle.
 fn count(windings: &mut Windings, corners: &Corners, window: PixelRect, answer: &Answer) {
     let Some(drawn) = picture_of(answer, window) else { return };
     let of = if twice_area(corners) > 0 {

@@ -29,10 +29,12 @@ use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Vari
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::oracle::formula::Formula;
 
+/// Bytes that are read at once.
 const READ_BYTES: usize = 1 << 16;
 /// Triangles of a request for depth order.
 const MOST_LAYERS: usize = 64;
 
+/// Answers requests until the input ends.
 pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io::Result<()> {
     let mut input = BufReader::with_capacity(READ_BYTES, input);
     let mut line = Vec::new();
@@ -44,6 +46,7 @@ pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io:
         if !read_line(&mut input, &mut line)? {
             return Ok(());
         }
+        // A request that cannot be read is answered, and the engine goes on.
         let request = match std::str::from_utf8(&line) {
             _ if line.len() as u64 > limits::REQUEST_BYTES => {
                 Err(format!("- a request has at most {REQUEST_BYTES} bytes"))
@@ -70,10 +73,12 @@ pub fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()>
 
 /// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
 fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<bool> {
+    // One byte more than a request may have is read, so that an overlong one is known.
     line.clear();
     if (&mut *input).take(limits::REQUEST_BYTES + 1).read_until(b'\n', line)? == 0 {
         return Ok(false);
     }
+    // The rest of an overlong line belongs to no request.
     if line.last() == Some(&b'\n') {
         line.pop();
     } else if line.len() as u64 > limits::REQUEST_BYTES {
@@ -92,6 +97,7 @@ fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<boo
     Ok(true)
 }
 
+/// Why a request has no answer, or an answer no end.
 enum Stop {
     /// `id reason`.
     Refused(String),
@@ -104,7 +110,9 @@ impl From<std::io::Error> for Stop {
     }
 }
 
+/// Writes the answer to a request. The verb decides how many numbers follow, and which part of the engine is asked.
 fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+    // The first word is the verb, the second the id, which every answer repeats.
     let words: Vec<&str> = text.split_whitespace().collect();
     let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
     if verb == "HELLO" {
@@ -121,6 +129,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         }
         return Ok(writeln!(out)?);
     }
+    // Whether the engine has such a request, and how many numbers it takes.
     let (speaks, count) = match verb {
         "T" => (declared.coverage, 6),
         "S" => (declared.samples4, 6),
@@ -161,6 +170,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         _ => window(rest[1], rest[2]).map_err(refused)?,
     };
     let numbers = read_numbers(&rest[first..]).map_err(refused)?;
+    // The part of the engine that answers the verb.
     let reply = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
         ("T", Some(engine), ..) => cover(engine, window, &numbers),
         ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
@@ -178,12 +188,14 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         }
         _ => published::answer(entry, verb, window, &numbers),
     };
+    // An answer is written when all of it is there, since its count comes first.
     let (letter, n, runs) = reply.map_err(refused)?;
     write!(out, "{letter} {id} {n}")?;
     out.write_all(&runs)?;
     Ok(out.write_all(b"\n")?)
 }
 
+/// The numbers of a request; the first that cannot be read is named by its place.
 fn read_numbers(words: &[&str]) -> Result<Vec<f64>, String> {
     let read = |(i, word): (usize, &&str)| {
         number(word).ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
@@ -191,6 +203,7 @@ fn read_numbers(words: &[&str]) -> Result<Vec<f64>, String> {
     words.iter().enumerate().map(read).collect()
 }
 
+/// What the engine says of itself, in the words of the version that is spoken.
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
     let declared = Declared::from(entry);
     match rest {
@@ -219,6 +232,7 @@ fn formula(declared: &Declared, rest: &[&str]) -> Result<Vec<f64>, String> {
     if !declared.formulas {
         return Err("unsupported".to_owned());
     }
+    // A formula is asked by its name, then come its numbers.
     let [_, name, words @ ..] = rest else {
         return Err("Q takes an id, a name and numbers".to_owned());
     };
@@ -236,6 +250,7 @@ fn printable(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(40).collect()
 }
 
+/// The window of a request, from the origin.
 fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     let side = |name: &str, word: &str| {
         word.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE_PX).contains(side)).ok_or_else(|| {
@@ -245,6 +260,7 @@ fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     Ok(PixelRect::window(side("width", width)?, side("height", height)?))
 }
 
+/// Corner `i` of a request, snapped to the lattice.
 fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     let snap = |value: f64, axis: &str| {
         rasterproof_core::grid::snap(value).map_err(named(&format!("{axis}{i}")))
@@ -264,6 +280,7 @@ fn vertex(
         .map_err(|(name, refusal)| named(&format!("{name}{i}"))(refusal))
 }
 
+/// T: the runs of a triangle, as the engine makes them.
 fn cover(engine: impl Rasterize, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
@@ -306,6 +323,7 @@ fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
         return Err("unsupported".to_owned());
     };
     let ends = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?];
+    // The width is snapped as the ends are.
     let width = rasterproof_core::grid::snap(numbers[4]).map_err(named("the width"))?;
     if !(1..=WIDEST_PX * SUBPIXELS).contains(&width) {
         return Err(format!("the width {:e} is not from 1/256 to {WIDEST_PX} px", numbers[4]));
@@ -318,9 +336,11 @@ fn wide(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('C', n, runs))
 }
 
+/// Samples are tested in triangles that are moved by up to half a pixel, which has to stay in the domain.
 const NO_PLACE: &str =
     "a corner lies within half a pixel of the domain's end, where samples have no place";
 
+/// S: the runs of pixels with the same samples covered.
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let masks = multisample::masks(&engine, corners, window).ok_or(NO_PLACE)?;
@@ -335,6 +355,7 @@ fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('M', n, runs))
 }
 
+/// D: the runs of pixels that show the same triangle.
 fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let mut list = Vec::new();
     for (number, of_one) in numbers.chunks_exact(9).enumerate() {
@@ -345,6 +366,7 @@ fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
         };
         list.push(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] });
     }
+    // The triangles go through the depth buffer of the pipeline.
     let seen = pipeline::seen(engine, &list, window)?;
     let mut runs = Vec::new();
     for (span, number) in &seen {
@@ -363,6 +385,7 @@ fn near(numbers: &[f64], carries: bool) -> Reply {
     }
     let corner =
         |i: usize| [0, 1, 2, 3, 4].map(|k| if k < size { numbers[size * i + k] } else { 0.0 });
+    // The clipper of the pipeline, which is right for both verbs.
     let polygon = pipeline::clipped([corner(0), corner(1), corner(2)]);
     let mut corners = Vec::new();
     for number in polygon.iter().flat_map(|corner| &corner[..size]) {
@@ -372,6 +395,7 @@ fn near(numbers: &[f64], carries: bool) -> Reply {
     Ok((if carries { 'B' } else { 'G' }, polygon.len(), corners))
 }
 
+/// T of engines that take positions as they are, not snapped.
 fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     for (i, &px) in numbers.iter().enumerate() {
         let axis = if i % 2 == 0 { 'x' } else { 'y' };
@@ -389,6 +413,7 @@ fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply
 
 /// The pixel that holds a position, after snapping to the lattice: the floor.
 fn pixel(value: f64, name: &str) -> Result<i32, String> {
+    // A position is snapped first, as those of triangles are, so that both agree on the pixel.
     let scale = f64::from(SUBPIXELS);
     let floor = ((value * scale).round_ties_even() / scale).floor();
     if value.is_nan() {
@@ -403,6 +428,7 @@ fn pixel(value: f64, name: &str) -> Result<i32, String> {
     }
 }
 
+/// L: the pixels of a line in drawing order.
 fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     let end = |i: usize| -> Result<_, String> {
         let x = pixel(numbers[2 * i], &format!("x{i}"))?;
@@ -417,6 +443,7 @@ fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('P', n, pixels))
 }
 
+/// A triangle with values, and how many fragments it has.
 type Values = (ScreenTriangle<DVec2>, u64);
 
 /// The triangle of an `I` or `X` request.
@@ -483,6 +510,7 @@ fn write_fragments(
     out: &mut dyn Write,
 ) -> Result<(), Stop> {
     write!(out, "F {id} {n}")?;
+    // The engine cannot be stopped, so that the first failure to write is kept and the rest is not written.
     let mut result = Ok(());
     engine.fragments(triangle, window, |f| {
         if result.is_ok() {

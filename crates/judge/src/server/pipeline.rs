@@ -26,6 +26,7 @@ pub(super) fn covered_at_most(
     window: PixelRect,
     most: u64,
 ) -> Option<u64> {
+    /// Rows of a band: few enough that a window of any width is counted soon.
     const BAND_PX: i32 = 64;
     let mut pixels = 0;
     for y0 in (window.y0..window.y1).step_by(BAND_PX as usize) {
@@ -58,6 +59,7 @@ pub(crate) fn seen(
         };
         pixels += covered;
     }
+    // A depth buffer that holds only the pixels that are drawn, in the order of rows.
     let mut buffer: BTreeMap<(i32, i32), (f64, u8)> = BTreeMap::new();
     for (number, triangle) in (0..).zip(list) {
         engine.fragments(triangle, window, |f| {
@@ -72,6 +74,7 @@ pub(crate) fn seen(
     Ok(runs)
 }
 
+/// The corners that the clipper of the pipeline leaves, with the attribute in the first of two places.
 pub(crate) fn clipped(corners: [ClipCorner; 3]) -> Vec<ClipCorner> {
     let vertex = |[x, y, z, w, a]: ClipCorner| ClipVertex {
         position: DVec4::new(x, y, z, w),

@@ -34,6 +34,7 @@ pub(crate) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f6
     }
 }
 
+/// Corner `i` of a request, as it is: a specimen takes every finite number.
 fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
     for (value, axis) in numbers.iter().zip(["x", "y"]) {
         let name = format!("{axis}{i}");
@@ -46,6 +47,7 @@ fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
     Ok([numbers[0], numbers[1]])
 }
 
+/// T: the runs of a triangle, of which the first so many are kept.
 fn cover(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(numbers, 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
@@ -60,6 +62,7 @@ fn cover(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply 
     whole('C', n, runs)
 }
 
+/// L: the pixels of a line, of which the first so many are kept.
 fn line(specimen: &dyn PublishedLine, window: PixelRect, numbers: &[f64]) -> Reply {
     let ends = [point(numbers, 0)?, point(&numbers[2..], 1)?];
     let (mut pixels, mut n) = (Vec::new(), 0);
@@ -74,6 +77,7 @@ fn line(specimen: &dyn PublishedLine, window: PixelRect, numbers: &[f64]) -> Rep
     whole('P', n, pixels)
 }
 
+/// I: the fragments of a triangle, which are counted before they are computed.
 fn values(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply {
     let vertex = |i: usize| -> Result<RealVertex, String> {
         let [_, _, depth, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
@@ -90,7 +94,9 @@ fn values(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply
         let position_px = point(&numbers[6 * i..], i)?.into();
         Ok(RealVertex { position_px, depth, w, varying: DVec2::new(a, b) })
     };
+    // The pixels are counted first, so that a request that has too many costs no memory.
     let triangle: RealTriangle = [vertex(0)?, vertex(1)?, vertex(2)?];
+    // Overlapping runs count as often as they come.
     let mut pixels = 0;
     specimen
         .cover(&triangle, window, &mut |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))

@@ -8,6 +8,7 @@ use rasterproof_core::triangle::{Span, refused_number};
 /// The letter of an answer, its count and what is counted; or the reason why there is none.
 pub type Reply = Result<(char, usize, Vec<u8>), String>;
 
+/// A refusal of a number, with the name of the number before it.
 pub fn named(name: &str) -> impl FnOnce(Refusal) -> String {
     move |refusal| refused_number(name, refusal)
 }
@@ -20,6 +21,7 @@ pub fn write_words<const N: usize>(out: &mut Vec<u8>, words: [i32; N]) {
     }
 }
 
+/// Appends a run in the order of the protocol.
 pub fn write_run(out: &mut Vec<u8>, span: Span) {
     write_words(out, [span.y_px, span.x0_px, span.x1_px]);
 }

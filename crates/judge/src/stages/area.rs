@@ -1,7 +1,7 @@
 //! The level of a pixel by the share of it that a triangle covers, computed by somebody who may be mistaken.
 
 use super::grids::on_grid;
-use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::pixels::painted;
@@ -49,6 +49,7 @@ impl Sampling {
         match self {
             Self::Exact => share(corners, x_px, y_px),
             Self::Samples(columns, rows) => {
+                // Each row of samples begins and ends where its middle crosses the edges.
                 let mut covered = 0;
                 for row in 0..rows {
                     let Some([left, right]) = across(corners, y_px, row, rows) else { continue };
@@ -73,14 +74,17 @@ impl Sampling {
 
 /// Where the middle of one of the rows of a pixel enters a triangle and leaves it, in pixels.
 fn across(corners: &Corners, y_px: i32, row: i32, rows: i32) -> Option<[f64; 2]> {
+    // The middle of the row.
     let y = f64::from(y_px) + (f64::from(row) + 0.5) / f64::from(rows);
     let mut found: Option<[f64; 2]> = None;
     for i in 0..3 {
         let (ax, ay) = corners[i].to_px();
         let (bx, by) = corners[(i + 1) % 3].to_px();
+        // An edge that the row does not cross.
         if (ay <= y) == (by <= y) {
             continue;
         }
+        // Where it crosses, in doubles: programs that sample do no better.
         let x = ax + (y - ay) * (bx - ax) / (by - ay);
         let [left, right] = found.unwrap_or([x, x]);
         found = Some([left.min(x), right.max(x)]);
@@ -127,6 +131,7 @@ choices! {
 }
 
 impl Tone {
+    /// What becomes of a share between 0 and 1.
     fn of(self, share: f64) -> f64 {
         match self {
             Self::Linear => share,
@@ -181,23 +186,20 @@ choices! {
 pub struct AreaPixel<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
+    /// The level that was answered, 0 where there was none.
     pub(super) drawn: u8,
     /// How much of it the triangle covers, exactly: 0 where the winding is not drawn.
     pub(super) share: f64,
+    /// The level of a pixel that is covered whole.
     levels: f64,
     /// How many steps the level may be off.
     tolerance: f64,
 }
 
-impl AsRef<Spot> for AreaPixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 impl AreaDrawn {
     /// The level that is drawn, not rounded, and how far it may be off.
     fn level(&self, pixel: &AreaPixel<'_>) -> [f64; 2] {
+        // The share as it is sampled, then as it is changed, in steps of a level.
         let share = match (self.corners == CornerGrid::default(), self.sampling) {
             (true, Sampling::Exact) => pixel.share,
             _ => self.sampling.share(&self.corners.0.snap(pixel.corners), pixel.spot.at),
@@ -207,6 +209,7 @@ impl AreaDrawn {
             AreaGate::Never => 0.0,
             AreaGate::Whole => f64::from(u8::from(share > 0.0)),
         };
+        // A whole pixel has the declared number of steps, or another one.
         let steps = self.steps.0.map_or(pixel.levels, f64::from) * share;
         // A hair on either side, for roundings of floats.
         let level = match self.rounding {
@@ -237,6 +240,7 @@ impl Stage for AreaDrawn {
         };
         let window = PixelRect::window(question.width, question.height);
         let is_clockwise = twice_area(corners) > 0;
+        // Every pixel of the window has a level, 0 where nothing was drawn.
         let (levels, tolerance) = (declared.levels.into(), declared.steps_off());
         let mut parts = Vec::new();
         for (y, row) in painted(runs, window, 0, |here, level| *here = level).rows() {
@@ -254,9 +258,9 @@ impl Stage for AreaDrawn {
         (f64::from(part.drawn) - level).abs() <= tolerance
     }
 
-    fn quantities<'a>() -> Vec<Quantity<AreaPixel<'a>>> {
-        let mut all = of_pixels::<AreaPixel<'a>>();
-        all.push(Quantity::number("the share of the pixel that is covered", |pixel| pixel.share));
+    fn quantities(pixel: &AreaPixel<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the share of the pixel that is covered", pixel.share));
         all
     }
 

@@ -1,6 +1,6 @@
 //! Which of several triangles is seen, as a test of depth that may be mistaken.
 
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use crate::expected::Expect as _;
@@ -36,6 +36,7 @@ pub enum Place {
     At([f64; 2], &'static str),
     /// So far from the first pixel of a block of so many.
     Block(i32, f64),
+    /// In the first pixel of the row, for all of it.
     FirstOfRow,
 }
 
@@ -72,16 +73,25 @@ impl Field for Place {
 pub enum Key {
     #[default]
     Depth,
+    /// The depth with its other sign, as an area with a wrong sign makes it.
     Negated,
+    /// The same number for the whole triangle: the mean depth of its corners.
     Mean,
+    /// That of its nearest corner.
     Nearest,
+    /// That of the corner between both others.
     Middle,
+    /// That of its farthest corner.
     Farthest,
+    /// That of a corner by its place in the request.
     Corner(usize),
+    /// The weighted sum before it is divided by the area.
     TimesArea,
+    /// How far the depth lies from 1/2.
     FromHalf,
 }
 
+/// What repairs a program that sorts whole triangles: no order of these is right where they cross.
 const SORTED: &str = "compare depths at every pixel";
 /// The numbers, with their words and the repair.
 const KEYS: [(Key, &str, &str); 10] = [
@@ -133,10 +143,13 @@ impl Field for Key {
 /// A number that is added to the depth, once for each of something.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bias {
+    /// The number that is read off, in units of depth.
     by: f64,
+    /// What it is added for.
     of: BiasOf,
 }
 
+/// What a bias is added for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum BiasOf {
     #[default]
@@ -145,6 +158,7 @@ enum BiasOf {
     Number,
     /// Only while it is compared with what is there.
     New,
+    /// For each unit by which depth changes to the next pixel.
     Slope,
 }
 
@@ -160,6 +174,7 @@ impl Field for Bias {
         let Self { by, of } = *self;
         let (does, to) = if by > 0.0 { ("adds", "to") } else { ("takes", "off") };
         let size = format!("{:e}", by.abs());
+        // What is added, for what, and whether it brings a triangle nearer or farther.
         let does = match of {
             BiasOf::Triangle => format!("{does} {size} {to} the depth of a triangle"),
             BiasOf::Number => {
@@ -239,6 +254,7 @@ impl Field for Store {
     }
 }
 
+/// The bits of the orders that a new number may have against the one that is kept.
 const LESS: u8 = 1;
 const EQUAL: u8 = 2;
 const GREATER: u8 = 4;
@@ -253,6 +269,7 @@ impl Default for Compare {
     }
 }
 
+/// The repairs of comparisons that keep the wrong end, and of programs that compare nothing.
 const TURNED: &str =
     "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth";
 const COMPARED: &str = "compare depths before a pixel is written";
@@ -289,7 +306,9 @@ impl Field for Compare {
 pub enum Write {
     #[default]
     WhenShown,
+    /// The depth of the first triangle stays.
     Never,
+    /// Also where the test fails.
     Always,
 }
 
@@ -329,6 +348,7 @@ pub enum Whose {
 }
 
 impl Whose {
+    /// Whether the triangle of a layer is one of those that are treated wrongly.
     fn holds(self, layer: &Layer<'_>) -> bool {
         let [a, b, c] = depths(layer.triangle);
         match self {
@@ -359,17 +379,21 @@ const MOST_LAYERS: usize = 64;
 /// What may be shown, and the layer whose depth may be kept meanwhile.
 #[derive(Clone, Copy, PartialEq)]
 struct DepthState {
+    /// The place of the triangle among those that are drawn at the pixel.
     shown: usize,
+    /// The place of the triangle whose depth the buffer holds.
     buffer: usize,
 }
 
 /// A triangle at a pixel.
 pub struct Layer<'a> {
+    /// The place of the triangle in the list, from 0.
     pub(super) number: usize,
     /// The depth of the triangle at the sample of the pixel.
     pub(super) depth: f64,
     /// The first pixel of its row, and the one after the last.
     pub(super) first: i32,
+    /// The column after the last pixel of its row.
     pub(super) end: i32,
     pub(super) triangle: &'a Triangle,
 }
@@ -378,37 +402,48 @@ pub struct Layer<'a> {
 pub struct Pile<'a> {
     pub(super) spot: Spot,
     pub(super) layers: Vec<Layer<'a>>,
+    /// The number of the triangle that is shown and one, or 0 where none is.
     pub(super) shown: usize,
+    /// How far rounding may move a depth, as a share of it.
     noise: f64,
-}
-
-impl AsRef<Spot> for Pile<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
 }
 
 /// How fast depth changes along x or y, whichever is faster.
 fn slope(t: &Triangle) -> f64 {
-    let at = |place| sum(weights(&t.corners(), place), depths(t));
-    let from = at([0.0, 0.0]);
-    (at([1.0, 0.0]) - from).abs().max((at([0.0, 1.0]) - from).abs())
+    let from = depth_at(t, [0.0, 0.0]);
+    let along_x = (depth_at(t, [1.0, 0.0]) - from).abs();
+    let along_y = (depth_at(t, [0.0, 1.0]) - from).abs();
+    along_x.max(along_y)
+}
+
+/// The depth of the plane of a triangle at a place, in pixels.
+fn depth_at(t: &Triangle, place: [f64; 2]) -> f64 {
+    sum(weights(&t.corners(), place), depths(t))
+}
+
+/// States that are the same come to the same, so each is followed once.
+fn add_once(states: &mut Vec<DepthState>, state: DepthState) {
+    if !states.contains(&state) {
+        states.push(state);
+    }
 }
 
 impl DepthTest {
     /// The number that is compared, before it is brought to a format.
     fn key(&self, layer: &Layer<'_>, [x, y]: [i32; 2]) -> f64 {
+        // A triangle that is treated rightly is compared by its depth.
         let t = layer.triangle;
         if !self.whose.holds(layer) {
             return layer.depth;
         }
-        let at = |place| sum(weights(&t.corners(), place), depths(t));
+        let at = |place| depth_at(t, place);
         let depth = match self.place {
             Place::Centre => layer.depth,
             Place::At([dx, dy], _) => at([f64::from(x) + dx, f64::from(y) + dy]),
             Place::Block(side, by) => at([x, y].map(|v| f64::from(v / side * side) + by)),
             Place::FirstOfRow => at([f64::from(layer.first) + 0.5, f64::from(y) + 0.5]),
         };
+        // What is compared for a whole triangle is taken from its corners.
         let [a, b, c] = depths(t);
         let (least, most) = (a.min(b).min(c), a.max(b).max(c));
         match self.key {
@@ -436,11 +471,13 @@ impl DepthTest {
 
     /// The least and the greatest number that may be compared, as far as rounding goes.
     fn compared(&self, layer: &Layer<'_>, pile: &Pile<'_>, is_new: bool) -> [f64; 2] {
+        // The number, with a bias where there is one.
         let mut key = self.key(layer, pile.spot.at);
         let is_changed = self.whose.holds(layer);
         if is_changed && self.bias.by != 0.0 {
             key += self.bias.by * Self::biased(self.bias.of, layer, is_new);
         }
+        // As far as rounding goes, in the format in which it is kept.
         let noise = pile.noise * key.abs().max(1.0);
         let [a, b] = [key - noise, key + noise].map(|v| match is_changed {
             true => self.store.0.of(self.wrap.0.of(v)),
@@ -453,13 +490,15 @@ impl DepthTest {
     /// The triangles that may be shown, one bit each.
     pub(super) fn shown(&self, pile: &Pile<'_>) -> u128 {
         let Range([least, most]) = self.range;
-        let is_drawn = |layer: &&Layer<'_>| {
+        let mut drawn: Vec<&Layer<'_>> = pile.layers.iter().collect();
+        drawn.retain(|layer| {
             !self.whose.holds(layer) || (layer.depth >= least && layer.depth < most)
-        };
-        let drawn = || pile.layers.iter().filter(is_drawn).take(MOST_LAYERS);
+        });
+        drawn.truncate(MOST_LAYERS);
+        // Rounding leaves open which of two depths is less, so that several triangles may be shown and several depths be kept.
         let mut kept = [[0.0; 2]; MOST_LAYERS];
         let mut states = Vec::new();
-        for (i, layer) in drawn().enumerate() {
+        for (i, layer) in drawn.iter().enumerate() {
             kept[i] = self.compared(layer, pile, false);
             if i == 0 {
                 states.push(DepthState { shown: 0, buffer: 0 });
@@ -468,96 +507,123 @@ impl DepthTest {
             let new = self.compared(layer, pile, true);
             let compare = if self.whose.holds(layer) { self.compare.0 } else { LESS };
             let mut next = Vec::new();
-            let mut add = |may_be: bool, state: DepthState| {
-                if may_be && !next.contains(&state) {
-                    next.push(state);
-                }
-            };
             for DepthState { shown, buffer } in states {
                 let order = orders(new, kept[buffer]);
                 let passed = if self.write == Write::Never { buffer } else { i };
                 let failed = if self.write == Write::Always { i } else { buffer };
-                add(order & compare != 0, DepthState { shown: i, buffer: passed });
-                add(order & !compare != 0, DepthState { shown, buffer: failed });
+                if order & compare != 0 {
+                    add_once(&mut next, DepthState { shown: i, buffer: passed });
+                }
+                if order & !compare != 0 {
+                    add_once(&mut next, DepthState { shown, buffer: failed });
+                }
             }
             states = next;
         }
         if states.is_empty() {
             return 1;
         }
-        let may_be = |i: usize| states.iter().any(|state| state.shown == i);
-        let seen = drawn().enumerate().filter(|(i, _)| may_be(*i));
-        seen.fold(0, |all, (_, layer)| all | 2_u128.checked_shl(layer.number as u32).unwrap_or(0))
+        let mut seen = 0;
+        for DepthState { shown, .. } in states {
+            seen |= 2_u128.checked_shl(drawn[shown].number as u32).unwrap_or(0);
+        }
+        seen
     }
 
     /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.
     fn with_bias(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
+        // A bias says something only where less, or greater, is nearer.
         let sign = match self.compare.0 {
             LESS | 3 => 1.0,
             GREATER | 6 => -1.0,
             _ => return Vec::new(),
         };
+        // Each kind of bias of the triangles that are wrong here, and one number for each of some triangles alone.
+        let mut kinds = Vec::new();
+        for of in [BiasOf::Number, BiasOf::New, BiasOf::Slope] {
+            kinds.push((of, self.whose));
+        }
+        for whose in Whose::options() {
+            kinds.push((BiasOf::Triangle, whose));
+        }
         let mut all = Vec::new();
-        let some = Whose::options().into_iter().map(|whose| (BiasOf::Triangle, whose));
-        let kinds = [BiasOf::Number, BiasOf::New, BiasOf::Slope].map(|of| (of, self.whose));
-        for (of, whose) in kinds.into_iter().chain(some) {
-            let (mut least, mut most) = (f64::MIN, f64::MAX);
-            for pile in parts {
-                if least > most {
-                    break;
-                }
-                let Some(shown) = pile.layers.iter().position(|l| l.number + 1 == pile.shown)
-                else {
-                    continue;
-                };
-                // Of more than two, what is compared depends on what went before.
-                if of == BiasOf::New && pile.layers.len() > 2 {
-                    continue;
-                }
-                let key = |i: usize| self.key(&pile.layers[i], pile.spot.at);
-                let times = |i: usize| match whose.holds(&pile.layers[i]) {
-                    true => Self::biased(of, &pile.layers[i], i > 0),
-                    false => 0.0,
-                };
-                for other in (0..pile.layers.len()).filter(|other| *other != shown) {
-                    let room = sign * (key(other) - key(shown));
-                    let by = sign * (times(shown) - times(other));
-                    if by > 0.0 {
-                        most = most.min(room / by);
-                    } else if by < 0.0 {
-                        least = least.max(room / by);
-                    }
-                }
-            }
-            if let Some(by) = between(least, most) {
+        for (of, whose) in kinds {
+            let [least, most] = self.bias_range(parts, of, whose, sign);
+            if let Some(by) = simplest_between(least, most) {
                 all.push(Self { bias: Bias { by, of }, whose, ..self.clone() });
             }
         }
         all
     }
 
+    /// The least and the greatest bias with which all is as it is shown; the least is greater where there is none. The sign is -1
+    /// where greater depths are nearer.
+    fn bias_range(&self, parts: &[&Pile<'_>], of: BiasOf, whose: Whose, sign: f64) -> [f64; 2] {
+        let (mut least, mut most) = (f64::MIN, f64::MAX);
+        for pile in parts {
+            if least > most {
+                break;
+            }
+            let Some(shown) = pile.layers.iter().position(|l| l.number + 1 == pile.shown) else {
+                continue;
+            };
+            // Of more than two, what is compared depends on what went before.
+            if of == BiasOf::New && pile.layers.len() > 2 {
+                continue;
+            }
+            let key = |i: usize| self.key(&pile.layers[i], pile.spot.at);
+            let times = |i: usize| match whose.holds(&pile.layers[i]) {
+                true => Self::biased(of, &pile.layers[i], i > 0),
+                false => 0.0,
+            };
+            // What is shown lies before each other triangle: that limits the bias by the room between both.
+            for other in (0..pile.layers.len()).filter(|other| *other != shown) {
+                let room = sign * (key(other) - key(shown));
+                let by = sign * (times(shown) - times(other));
+                if by > 0.0 {
+                    most = most.min(room / by);
+                } else if by < 0.0 {
+                    least = least.max(room / by);
+                }
+            }
+        }
+        [least, most]
+    }
+
     /// The depths beyond which nothing is shown.
     fn with_range(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
-        let (mut seen, mut lost) = (Vec::new(), Vec::new());
+        // The range of depths that are seen, and the depths that should be seen and are not.
+        let (mut least, mut most) = (f64::MAX, f64::MIN);
+        let mut lost = Vec::new();
         for pile in parts {
             let shown = pile.layers.iter().find(|layer| layer.number + 1 == pile.shown);
-            seen.extend(shown.map(|shown| shown.depth));
-            let is_lost = |depth: &f64| shown.is_none_or(|shown| *depth < shown.depth);
-            lost.extend(pile.layers.iter().map(|layer| layer.depth).filter(is_lost));
+            if let Some(shown) = shown {
+                (least, most) = (least.min(shown.depth), most.max(shown.depth));
+            }
+            for layer in &pile.layers {
+                if shown.is_none_or(|shown| layer.depth < shown.depth) {
+                    lost.push(layer.depth);
+                }
+            }
         }
-        let (least, most) =
-            seen.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        // A limit lies between what is seen and the nearest of what is lost on that side.
         let nearer = lost.iter().copied().filter(|v| *v < least).reduce(f64::max);
         let farther = lost.iter().copied().filter(|v| *v > most).reduce(f64::min);
-        let low = nearer.map(|nearer| [values::simplest(nearer, least), f64::MAX]);
-        let high = farther.map(|farther| [f64::MIN, values::simplest(farther, most)]);
-        let ranges = [low, high].into_iter().flatten();
-        ranges.map(|range| Self { range: Range(range), ..self.clone() }).collect()
+        let mut all = Vec::new();
+        if let Some(nearer) = nearer {
+            let range = Range([values::simplest(nearer, least), f64::MAX]);
+            all.push(Self { range, ..self.clone() });
+        }
+        if let Some(farther) = farther {
+            let range = Range([f64::MIN, values::simplest(farther, most)]);
+            all.push(Self { range, ..self.clone() });
+        }
+        all
     }
 }
 
 /// The simplest number that is not 0 and lies between two, of which one may be missing.
-fn between(least: f64, most: f64) -> Option<f64> {
+fn simplest_between(least: f64, most: f64) -> Option<f64> {
     // A number that is added at its limit makes depths equal.
     if least > most || (least <= 0.0 && most >= 0.0) {
         return None;
@@ -576,8 +642,14 @@ fn orders(new: [f64; 2], kept: [f64; 2]) -> u8 {
         return EQUAL;
     }
     let is_any = new[0] <= kept[1] && kept[0] <= new[1];
-    let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
-    bit(new[0] < kept[1], LESS) | bit(is_any, EQUAL) | bit(new[1] > kept[0], GREATER)
+    let mut orders = if is_any { EQUAL } else { 0 };
+    if new[0] < kept[1] {
+        orders |= LESS;
+    }
+    if new[1] > kept[0] {
+        orders |= GREATER;
+    }
+    orders
 }
 
 impl Stage for DepthTest {
@@ -597,6 +669,7 @@ impl Stage for DepthTest {
             return Vec::new();
         };
         let window = PixelRect::window(question.width, question.height);
+        // A number for each triangle from 1 on, so that 0 is nothing.
         let numbers: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
         let mut piles = Vec::new();
         for (y, row) in masks_of(&numbers, window).rows() {
@@ -606,6 +679,7 @@ impl Stage for DepthTest {
                 piles.push(Pile { spot, layers: Vec::new(), shown, noise });
             }
         }
+        // Then the triangles that cover each pixel, in drawing order.
         let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
         let place = |x: i32, y: i32| {
             (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize
@@ -633,6 +707,7 @@ impl Stage for DepthTest {
                 }
             }
         }
+        // A pixel has the winding of its nearest triangle.
         for pile in &mut piles {
             let nearest = pile.layers.iter().min_by(|a, b| a.depth.total_cmp(&b.depth));
             pile.spot.is_clockwise = nearest.is_some_and(|l| twice_area(&l.triangle.corners()) > 0);
@@ -654,10 +729,10 @@ impl Stage for DepthTest {
         all
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Pile<'a>>> {
-        let mut all = of_pixels();
-        let of: fn(&Pile<'a>) -> f64 = |pile| pile.layers.len() as f64;
-        all.push(Quantity { of, says: Says::Number("the number of triangles at a pixel") });
+    fn quantities(pile: &Pile<'_>) -> Vec<Quantity> {
+        let mut all = pile.spot.quantities();
+        let count = pile.layers.len() as f64;
+        all.push(Quantity::number("the number of triangles at a pixel", count));
         all
     }
 

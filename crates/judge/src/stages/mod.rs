@@ -18,6 +18,7 @@ mod tests;
 mod wide;
 
 use std::cell::RefCell;
+use std::ops::Range;
 
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question, Subject as _};
@@ -34,16 +35,16 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Fragment;
 use rasterproof_verify::ask::{Asker, Search};
-use rasterproof_verify::cases::facts::{self, TOPICS};
+use rasterproof_verify::cases::facts::{self, TOPICS, Topic};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::pixels::few;
-use rasterproof_verify::mistakes::values::{self, ValueHypothesis};
+use rasterproof_verify::mistakes::values;
 use rasterproof_verify::mistakes::{
     ENOUGH_WRONG, Explanation, Hypothesis, MistakeId, Mistakes, chosen_by, of_answers,
 };
 use sample_values::SampleShading;
 use samples::SampleMask;
-use search::{Mistake, Quantity, Says, Spot, Stage, common, of_pixels};
+use search::{AnswerParts, Quantity, Spot, common, explains_all, no_parts};
 use wide::WideDrawn;
 
 /// A case with its answers, and whether they are wrong.
@@ -66,6 +67,7 @@ const SEED: u64 = 7;
 /// Asks the program that is judged, for the search of its mistake.
 type StageAsker = Asker<Question, Answer>;
 
+/// Asks cases of some families until enough answers are wrong, and judges the answers.
 async fn answered(
     asker: &StageAsker,
     check: Check,
@@ -73,49 +75,59 @@ async fn answered(
     truth: &Truth,
 ) -> Vec<Answered> {
     let mut all: Vec<Answered> = Vec::new();
-    let mut deaths = 0;
-    for (seed, name) in
-        (SEED..SEED + MOST_ROUNDS).flat_map(|seed| families.iter().map(move |name| (seed, name)))
-    {
-        // Where few answers are wrong, some more are needed.
-        let wrong = all.iter().filter(|a| a.is_wrong).count();
-        if seed > SEED && (wrong == 0 || wrong >= ENOUGH_WRONG) {
-            break;
-        }
-        let family = adapt_case::family(name);
-        let mut rng = Rng::new(name, seed, 0);
-        // Deep piles take long to look at.
-        let count = if family.is_some_and(|f| f.name == PILES) { PILES_ASKED } else { CASES };
-        for index in 0..count / families.len() as u64 {
-            if deaths >= MOST_DEATHS {
+    let (mut wrong, mut deaths) = (0, 0);
+    for seed in SEED..SEED + MOST_ROUNDS {
+        for &name in families {
+            // After the first round, only where few answers are wrong some more are needed.
+            if seed > SEED && (wrong == 0 || wrong >= ENOUGH_WRONG) {
                 return all;
             }
-            let case: Case = match (family, TOPICS.iter().find(|topic| topic.name == *name)) {
-                // Questions like those of the design, which itself takes seconds.
-                (_, Some(topic)) => adapt_case::put(topic.any(&mut rng), &truth.declared),
-                (Some(family), _) => adapt_case::case(family, seed, index, &truth.declared),
-                _ => break,
-            };
-            let mut questions = Vec::new();
-            check.questions(&case, truth, &mut questions);
-            let answers = asker.ask(&questions).await;
-            deaths += answers.iter().filter(|answer| answer.is_death()).count() as u64;
-            if answers.len() < questions.len()
-                || answers.iter().any(|a| matches!(a, Answer::Refused(_) | Answer::Died(_)))
-            {
-                continue;
+            let (family, topic) = (adapt_case::family(name), topic(name));
+            let mut rng = Rng::new(name, seed, 0);
+            // Deep piles take long to look at.
+            let is_deep = family.is_some_and(|family| family.name == PILES);
+            let count = if is_deep { PILES_ASKED } else { CASES };
+            for index in 0..count / families.len() as u64 {
+                if deaths >= MOST_DEATHS {
+                    return all;
+                }
+                let case: Case = match (family, topic) {
+                    // Questions like those of the design, which itself takes seconds.
+                    (_, Some(topic)) => adapt_case::put(topic.any(&mut rng), &truth.declared),
+                    (Some(family), _) => adapt_case::case(family, seed, index, &truth.declared),
+                    _ => break,
+                };
+                let mut questions = Vec::new();
+                check.questions(&case, truth, &mut questions);
+                let answers = asker.ask(&questions).await;
+                deaths += answers.iter().filter(|answer| answer.is_death()).count() as u64;
+                // Where an answer is missing, the case cannot be judged.
+                if answers.len() < questions.len() || answers.iter().any(is_missing) {
+                    continue;
+                }
+                let judged = check.judge(&case, &answers, truth);
+                let is_wrong = match check {
+                    // Their pixels are judged as coverage.
+                    Check::Values => judged.finding.worst() > 1.0,
+                    Check::SampleValues => judged.is_wrong(),
+                    _ => judged.finding.tally.total() > 0,
+                };
+                wrong += usize::from(is_wrong);
+                all.push(Answered { questions, answers, is_wrong });
             }
-            let judged = check.judge(&case, &answers, truth);
-            let is_wrong = match check {
-                // Their pixels are judged as coverage.
-                Check::Values => judged.finding.worst() > 1.0,
-                Check::SampleValues => judged.is_wrong(),
-                _ => judged.finding.tally.total() > 0,
-            };
-            all.push(Answered { questions, answers, is_wrong });
         }
     }
     all
+}
+
+/// The kind of question with this name.
+fn topic(name: &str) -> Option<&'static Topic> {
+    TOPICS.iter().find(|topic| topic.name == name)
+}
+
+/// Whether nothing can be judged in place of an answer.
+fn is_missing(answer: &Answer) -> bool {
+    matches!(answer, Answer::Refused(_) | Answer::Died(_))
 }
 
 /// The families in which the mistakes of a check differ.
@@ -142,6 +154,7 @@ pub fn mistakes<'a>(
     Search::new(async move |asker| known_or_learned(&asker, check, truth, programs).await)
 }
 
+/// The mistake of those that are known, or what is learned where none of them predicts every answer.
 async fn known_or_learned(
     asker: &StageAsker,
     check: Check,
@@ -152,6 +165,7 @@ async fn known_or_learned(
     if families(check).is_empty() {
         return None;
     }
+    // What is known is tried first, by cases of the families.
     let mut all = answered(asker, check, families(check), truth).await;
     // Piles of many triangles are those of the design alone.
     if check == Check::Depth {
@@ -161,6 +175,7 @@ async fn known_or_learned(
     if found.as_ref().is_some_and(Mistakes::is_known) {
         return found;
     }
+    // Then the learner asks questions of its own.
     let learned = learn::learn(asker, check, truth).await;
     // None of the answers so far may be wrong where others are.
     let found = found.or_else(|| {
@@ -181,14 +196,22 @@ fn known(
 ) -> Option<Mistakes> {
     match check {
         Check::Values => of_values(all, &truth.declared, programs),
-        Check::Samples => of_stage::<SampleMask>(all, &truth.declared, programs),
-        Check::SampleValues => of_stage::<SampleShading>(all, &truth.declared, programs),
-        Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
-        Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
-        Check::Wide => of_stage::<WideDrawn>(all, &truth.declared, programs),
-        Check::Area => of_stage::<AreaDrawn>(all, &truth.declared, programs),
-        _ => None,
+        _ => of_stage(check, all, &truth.declared, programs),
     }
+}
+
+/// The stage that a check judges, with no parts yet; nothing of values, whose mistakes are the recipes of
+/// [`values`](rasterproof_verify::mistakes::values), and of other checks.
+fn stage_of<'a>(check: Check) -> Option<Box<dyn AnswerParts<'a> + 'a>> {
+    Some(match check {
+        Check::Samples => no_parts::<SampleMask>(),
+        Check::SampleValues => no_parts::<SampleShading>(),
+        Check::Depth => no_parts::<DepthTest>(),
+        Check::Near | Check::Carried => no_parts::<NearCut>(),
+        Check::Wide => no_parts::<WideDrawn>(),
+        Check::Area => no_parts::<AreaDrawn>(),
+        _ => return None,
+    })
 }
 
 /// The mistakes that predict every one of these answers, of those that have an identifier.
@@ -201,90 +224,108 @@ pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeI
     match check {
         Check::Values => {
             let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
-            let known = hypotheses_of_values(all, &is_wrong, truth.declared.tolerance);
-            let explains = |known: &Hypothesis<'_>| (0..all.len()).all(|i| (known.predicts)(i));
-            let known = known.into_iter().filter(explains);
-            known.filter_map(|known| MistakeId::of(&known.says.does)).collect()
+            let mut found = Vec::new();
+            for known in hypotheses_of_values(all, &is_wrong, truth.declared.tolerance) {
+                if (0..all.len()).all(|i| (known.predicts)(i)) {
+                    found.extend(MistakeId::of(&known.says.does));
+                }
+            }
+            found
         }
-        Check::Samples => identified::<SampleMask>(all, &truth.declared),
-        Check::SampleValues => identified::<SampleShading>(all, &truth.declared),
-        Check::Depth => identified::<DepthTest>(all, &truth.declared),
-        Check::Near | Check::Carried => identified::<NearCut>(all, &truth.declared),
-        Check::Wide => identified::<WideDrawn>(all, &truth.declared),
-        Check::Area => identified::<AreaDrawn>(all, &truth.declared),
-        _ => Vec::new(),
+        _ => identified(check, all, &truth.declared),
     }
 }
 
+/// Whether no answer shows anything.
 fn is_blank(all: &[Answered]) -> bool {
     !all.is_empty() && all.iter().flat_map(|a| &a.answers).all(Answer::is_blank)
 }
 
-/// What is answered in each case.
-fn parts<'a, S: Stage>(
-    all: &'a [Answered],
-    declared: &Declared,
-    noise: f64,
-) -> Vec<Vec<S::Part<'a>>> {
-    let of_case = |a: &'a Answered| {
-        let questions = a.questions.iter().zip(&a.answers);
-        questions
-            .flat_map(|(question, answer)| S::parts(question, answer, declared, noise))
-            .collect()
-    };
-    all.iter().map(of_case).collect()
+/// The parts of all answers, and which of them are those of each case.
+struct PartsByCase<'a> {
+    parts: Box<dyn AnswerParts<'a> + 'a>,
+    /// The places of the parts of each case.
+    cases: Vec<Range<usize>>,
 }
 
-fn identified<S: Stage>(all: &[Answered], declared: &Declared) -> Vec<MistakeId> {
+impl<'a> PartsByCase<'a> {
+    /// The parts of all answers for a check; nothing of checks that have no stage.
+    fn new(check: Check, all: &'a [Answered], declared: &Declared, noise: f64) -> Option<Self> {
+        let mut parts = stage_of(check)?;
+        let mut cases = Vec::new();
+        for answered in all {
+            let first = parts.count();
+            for (question, answer) in answered.questions.iter().zip(&answered.answers) {
+                parts.add(question, answer, declared, noise);
+            }
+            cases.push(first..parts.count());
+        }
+        Some(Self { parts, cases })
+    }
+
+    /// The places of all parts.
+    fn places(&self) -> Vec<usize> {
+        (0..self.parts.count()).collect()
+    }
+}
+
+/// The mistakes of one field that explain every part, of those that have an identifier.
+fn identified(check: Check, all: &[Answered], declared: &Declared) -> Vec<MistakeId> {
     let mut found = Vec::new();
-    for noise in S::NOISE {
-        let parts = parts::<S>(all, declared, *noise);
-        let parts: Vec<_> = parts.iter().flatten().collect();
-        let singles = search::singles::<S>(&parts).into_iter();
-        let explaining = singles.filter(|value| parts.iter().all(|part| value.explains(part)));
-        found.extend(
-            explaining.filter_map(|value| MistakeId::of(&Mistake::plain(value).says().does)),
-        );
+    let Some(stage) = stage_of(check) else { return found };
+    for noise in stage.noises() {
+        let Some(by_case) = PartsByCase::new(check, all, declared, *noise) else { break };
+        let (parts, places) = (&*by_case.parts, by_case.places());
+        for value in parts.singles(&places) {
+            if explains_all(parts, &value, &places) {
+                found.extend(MistakeId::of(&parts.says(&value, "").does));
+            }
+        }
     }
     found
 }
 
 /// The mistake in a stage, with the least noise of numbers that explains it.
-fn of_stage<S: Stage>(
+fn of_stage(
+    check: Check,
     all: &[Answered],
     declared: &Declared,
     programs: &[(RefCell<Inside>, String)],
 ) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
+    // Less noise explains less, so that what is found with the least is most certain.
     let mut found = None;
-    for noise in S::NOISE {
-        let cases = parts::<S>(all, declared, *noise);
-        let mistakes =
-            if is_blank(all) { Vec::new() } else { search::search::<S>(&cases, &is_wrong) };
-        let hypotheses = mistakes.into_iter().map(|mistake| weighed(mistake, &cases)).collect();
+    for noise in stage_of(check)?.noises() {
+        let PartsByCase { parts, cases } = PartsByCase::new(check, all, declared, *noise)?;
+        let parts = &*parts;
+        // Where nothing is drawn, every mistake that may draw nothing explains it.
+        let mut hypotheses = Vec::new();
+        if !is_blank(all) {
+            for mistake in search::search(parts, &cases, &is_wrong) {
+                let says = mistake.says(parts);
+                let cases = &cases;
+                let predicts =
+                    move |i: usize| cases[i].clone().all(|place| mistake.explains(parts, place));
+                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+            }
+        }
         found = concluded(hypotheses, all, &is_wrong, declared, programs);
         if found.as_ref().is_some_and(Mistakes::is_known) {
             return found;
         }
-        let right = S::default();
-        let wrong: Vec<_> = cases.iter().flatten().filter(|part| !right.explains(part)).collect();
+        // Without a mistake that explains all, it is said what the wrong parts have in common.
         if let Some(found) = &mut found {
-            found.common = common(S::WHOM, &wrong, S::observations());
+            let right = parts.right();
+            let mut wrong = Vec::new();
+            for place in 0..parts.count() {
+                if !parts.explains(&right, place) {
+                    wrong.push(parts.observations(place));
+                }
+            }
+            found.common = common(parts.whom(), &wrong);
         }
     }
     found
-}
-
-fn weighed<'c, 'a, S: Stage>(
-    mistake: Mistake<'a, S>,
-    cases: &'c [Vec<S::Part<'a>>],
-) -> Hypothesis<'c>
-where
-    'a: 'c,
-{
-    let says = mistake.says();
-    let predicts = move |i: usize| cases[i].iter().all(|part| mistake.explains(part));
-    Hypothesis { predicts: Box::new(predicts), says }
 }
 
 /// What is found by hypotheses and programs. A mistake that does not predict every answer is none.
@@ -295,6 +336,7 @@ fn concluded<'a>(
     declared: &Declared,
     programs: &'a [(RefCell<Inside>, String)],
 ) -> Option<Mistakes> {
+    // The planted faults and the published algorithms are hypotheses, too: each answers the same questions.
     let tolerance = declared.tolerance;
     for (known, about) in programs {
         let says = Explanation::of_program(known.borrow().name(), about.clone());
@@ -304,6 +346,7 @@ fn concluded<'a>(
         }));
     }
     let mut found = of_answers(hypotheses, is_wrong)?;
+    // A cause that misses an answer leads on at most, since something else must be wrong.
     let misses = |cause: &Explanation| {
         cause.wrong.drawn < cause.wrong.of || cause.right.drawn < cause.right.of
     };
@@ -353,6 +396,7 @@ fn are_near(
     predict: &dyn Fn((i32, i32)) -> Option<[f64; 3]>,
     tolerance: f64,
 ) -> bool {
+    // A value may be off by the tolerance, as a share of the largest one of its kind.
     let v = &triangle.vertices;
     let sizes = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
     let allowed = |predicted: [f64; 3]| {
@@ -363,6 +407,7 @@ fn are_near(
     };
     values::are_explained(triangle, &mut few(answer), predict, &allowed)
 }
+
 /// The mistake in values.
 fn of_values(
     all: &[Answered],
@@ -375,32 +420,21 @@ fn of_values(
         false => hypotheses_of_values(all, &is_wrong, declared.tolerance),
     };
     let mut found = concluded(hypotheses, all, &is_wrong, declared, programs)?;
+    // Without a mistake that explains all, it is said what the wrong pixels have in common.
     if !found.is_known() {
-        let mut pixels = Vec::new();
-        for Answered { questions, answers, .. } in all.iter().filter(|a| a.is_wrong) {
-            for (question, answer) in questions.iter().zip(answers) {
-                let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer)
-                else {
-                    continue;
-                };
+        let mut wrong = Vec::new();
+        for answered in all.iter().filter(|answered| answered.is_wrong) {
+            for (question, triangle, fragments) in answered.of_values() {
                 let window = PixelRect::window(question.width, question.height);
-                pixels.extend(
-                    fragments
-                        .iter()
-                        .map(|f| ValuedPixel::new(triangle, f, window, declared.tolerance)),
-                );
+                for fragment in fragments {
+                    let pixel = ValuedPixel::new(triangle, fragment, window, declared.tolerance);
+                    if pixel.is_right != [true; 3] {
+                        wrong.push(pixel.quantities());
+                    }
+                }
             }
         }
-        let wrong: Vec<_> = pixels.iter().filter(|pixel| pixel.is_right != [true; 3]).collect();
-        let whether =
-            |of: fn(&ValuedPixel) -> f64, yes| Quantity { of, says: Says::Whether([yes, ""]) };
-        let mut quantities = of_pixels::<ValuedPixel>();
-        quantities.extend([
-            whether(|p| f64::from(u8::from(p.is_right[0])), "of right depth"),
-            whether(|p| f64::from(u8::from(p.is_right[1])), "of a right first attribute"),
-            whether(|p| f64::from(u8::from(p.is_right[2])), "of a right second attribute"),
-        ]);
-        found.common = common("pixels", &wrong, quantities);
+        found.common = common("pixels", &wrong);
     }
     Some(found)
 }
@@ -408,17 +442,24 @@ fn of_values(
 /// A pixel with the values that are right in it: depth and both attributes.
 struct ValuedPixel {
     spot: Spot,
+    /// Depth and both attributes.
     is_right: [bool; 3],
 }
 
-impl AsRef<Spot> for ValuedPixel {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 impl ValuedPixel {
+    /// What may be said of it, beside its place: which of its values are right.
+    fn quantities(&self) -> Vec<Quantity> {
+        let mut all = self.spot.quantities();
+        let [depth, first, second] = self.is_right;
+        all.push(Quantity::whether(depth, "of right depth", ""));
+        all.push(Quantity::whether(first, "of a right first attribute", ""));
+        all.push(Quantity::whether(second, "of a right second attribute", ""));
+        all
+    }
+
+    /// A pixel, with each of its values looked at alone: the other two are taken to be right.
     fn new(t: &Triangle, f: &Fragment<DVec2>, window: PixelRect, tolerance: f64) -> Self {
+        // Each value is looked at in a pixel whose other values are right.
         let [right, given] = values::pixel_of(t, f);
         let is_right = [0, 1, 2].map(|i| {
             let mut others = right;
@@ -434,39 +475,48 @@ impl ValuedPixel {
     }
 }
 
+/// A question about the values of a triangle, with the fragments of its answer.
+type ValuesAnswered<'a> = (&'a Question, &'a Triangle, &'a [Fragment<DVec2>]);
+
+impl Answered {
+    /// Its questions about values that were answered.
+    fn of_values(&self) -> Vec<ValuesAnswered<'_>> {
+        let mut found = Vec::new();
+        for (question, answer) in self.questions.iter().zip(&self.answers) {
+            if let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer) {
+                found.push((question, triangle, &fragments[..]));
+            }
+        }
+        found
+    }
+}
+
+/// The mistakes in values that may explain these answers: the recipes with the numbers that are read off some of them.
 fn hypotheses_of_values<'a>(
     all: &'a [Answered],
     is_wrong: &[bool],
     tolerance: f64,
 ) -> Vec<Hypothesis<'a>> {
-    let mut pixels = Vec::new();
-    for answered in chosen_by(is_wrong).into_iter().map(|i| &all[i]) {
-        for (question, answer) in answered.questions.iter().zip(&answered.answers) {
-            if let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer) {
-                pixels.extend(fragments.iter().take(2).map(|f| values::pixel_of(triangle, f)));
-            }
+    // Of the chosen cases, two pixels of each triangle, and whether the triangle has a wrong value.
+    let (mut pixels, mut triangles) = (Vec::new(), Vec::new());
+    for chosen in chosen_by(is_wrong) {
+        for (_, triangle, fragments) in all[chosen].of_values() {
+            pixels.extend(fragments.iter().take(2).map(|f| values::pixel_of(triangle, f)));
+            let right = |pixel| Some(values::right_at(triangle, pixel));
+            triangles.push((triangle, !are_near(triangle, fragments, &right, tolerance)));
         }
     }
-    let of = |known: ValueHypothesis| {
-        hypothesis(all, known.says.clone(), move |question, answer| match (&question.of, answer) {
+    let mut hypotheses = Vec::new();
+    for recipe in values::of_values(values::scaled(&pixels), &triangles) {
+        let says = recipe.says.clone();
+        let predicts = move |question: &Question, answer: &Answer| match (&question.of, answer) {
             (Asked::Values(triangle), Answer::Values(fragments)) => {
-                let predict = |pixel| known.predict(triangle, pixel);
+                let predict = |pixel| recipe.predict(triangle, pixel);
                 are_near(triangle, fragments, &predict, tolerance)
             }
             _ => true,
-        })
-    };
-    let chosen = chosen_by(is_wrong).into_iter().map(|i| &all[i]);
-    let triangles: Vec<_> = chosen
-        .flat_map(|a| a.questions.iter().zip(&a.answers))
-        .filter_map(|(question, answer)| {
-            let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer)
-            else {
-                return None;
-            };
-            let right = |pixel| Some(values::right_at(triangle, pixel));
-            Some((triangle, !are_near(triangle, fragments, &right, tolerance)))
-        })
-        .collect();
-    values::of_values(values::scaled(&pixels), &triangles).into_iter().map(of).collect()
+        };
+        hypotheses.push(hypothesis(all, says, predicts));
+    }
+    hypotheses
 }

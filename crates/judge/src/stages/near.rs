@@ -1,6 +1,6 @@
 //! What the near plane leaves of a triangle, as a clipper that may be mistaken.
 
-use super::search::{Composed as _, Field, Quantity, Says, Stage, choices, composed};
+use super::search::{Composed as _, Field, Quantity, Stage, choices, composed};
 use crate::ask::{Answer, Question};
 use crate::declared::Declared;
 use crate::near_plane::{asked, bounds, is_round};
@@ -37,12 +37,14 @@ pub enum Plane {
     /// The one that is declared.
     #[default]
     Near,
+    /// Any plane, by its three coefficients.
     At([f64; 3]),
     /// z = -|w|.
     Unsigned,
 }
 
 impl Plane {
+    /// How far a corner lies before the plane, below 0 behind it. `is_zero` says which plane is declared.
     fn distance(self, [_, _, z, w, _]: ClipCorner, is_zero: bool) -> f64 {
         match self {
             Self::Near => z + if is_zero { 0.0 } else { w },
@@ -56,13 +58,19 @@ impl Field for Plane {
     const NAME: &'static str = "the near plane";
 
     fn options() -> Vec<Self> {
-        let signs = (0..27).map(|k| [k / 9, k / 3 % 3, k % 3].map(|digit| f64::from(digit - 1)));
-        let planes = signs.filter(|[z, w, _]| *z != 0.0 || *w != 0.0);
         // z = -w and z = 0 may be the one that is declared, and differ from it where they are not.
-        [Self::Unsigned].into_iter().chain(planes.map(Self::At)).collect()
+        let mut all = vec![Self::Unsigned];
+        for k in 0..27 {
+            let [z, w, one] = [k / 9, k / 3 % 3, k % 3].map(|digit| f64::from(digit - 1));
+            if z != 0.0 || w != 0.0 {
+                all.push(Self::At([z, w, one]));
+            }
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
+        // Whatever plane it is, the repair is the same.
         let repair = "clip at the near plane that is declared";
         let [z, w, c] = match *self {
             Self::Near => return None,
@@ -74,9 +82,11 @@ impl Field for Plane {
             }
             Self::At(plane) => plane,
         };
+        // The plane is said by z, or by w where z has no part in it.
         let (of, by) = if z == 0.0 { ("w", w) } else { ("z", z) };
         let sign = if by > 0.0 { ">=" } else { "<=" };
         let rest = |v: f64| (-v / by * 1e6).round() / 1e6 + 0.0;
+        // What it is compared with: a multiple of w and a number.
         let times_w = match rest(w) {
             _ if z == 0.0 => None,
             0.0 => None,
@@ -89,6 +99,7 @@ impl Field for Plane {
             (Some(w), 0.0) => w,
             (Some(w), c) => format!("{w} {} {}", if c < 0.0 { "-" } else { "+" }, c.abs()),
         };
+        // The planes that people take by mistake have names.
         let known = match *self {
             Self::At([1.0, 0.0, 0.0]) => ", as Direct3D and Vulkan have it",
             Self::At([1.0, 1.0, 0.0]) => ", as OpenGL has it",
@@ -105,16 +116,16 @@ impl Field for Plane {
 pub enum KeptCorners {
     #[default]
     Clipped,
+    /// Nothing is cut, and nothing dropped.
     All,
+    /// Every triangle is dropped.
     Nothing,
     /// What has no corner behind.
     Whole,
     /// What has a corner before.
     Seen,
     /// Corners behind are moved onto the plane; what lies wholly behind is left out, or not.
-    Clamped {
-        is_culled: bool,
-    },
+    Clamped { is_culled: bool },
 }
 
 /// What becomes of triangles, with its words and the repair.
@@ -152,6 +163,7 @@ impl Field for KeptCorners {
     }
 }
 
+/// What repairs a new corner, whichever of its numbers is wrong.
 const NEW_REPAIR: &str = "a new corner divides the edge as the distances of its ends do, in all of x, y, z, w and attributes";
 
 /// The part of the way from the corner that stays to the one that goes.
@@ -159,10 +171,15 @@ const NEW_REPAIR: &str = "a new corner divides the edge as the distances of its 
 pub enum Part {
     #[default]
     Right,
+    /// The right part in fewer bits.
     Kept(Format),
+    /// Counted from the other end.
     Back,
+    /// The square of the right part, which is smaller.
     Squared,
+    /// The right part, or 1/2 where it is more.
     AtMostHalf,
+    /// The right part, or 1/2 where it is less.
     AtLeastHalf,
     /// Of the sum of the distances.
     OfSum,
@@ -215,22 +232,39 @@ choices! {
 pub enum New {
     #[default]
     Right,
+    /// The number of the corner that stays.
     Kept,
+    /// The number of the corner that is cut off.
     Lost,
+    /// That of the first end of the edge, whichever stays.
     First,
+    /// That of the second end.
     Second,
+    /// Halfway between both ends, wherever the plane cuts the edge.
     Mean,
+    /// As pixels interpolate attributes, which is right after the division by w alone.
     Perspective,
+    /// Divided by w at both ends, interpolated, and left like that.
     OverW,
+    /// The same, multiplied by the w of the new corner.
     OverWAndBack,
+    /// Multiplied by w at both ends, and divided by the w of the new corner.
     TimesWAndBack,
+    /// The right number divided by the w of the new corner.
     DividedByW,
+    /// The right number times the w of the new corner.
     TimesW,
+    /// x and y exchanged.
     Exchanged,
+    /// Always the same number.
     Is(f64),
+    /// The right number without its sign.
     Unsigned,
+    /// The right number, raised to a least one.
     AtLeast(f64),
+    /// The right number, clamped to 0 to 1.
     InUnit,
+    /// The right number in fewer bits.
     Format(Format),
 }
 
@@ -238,37 +272,25 @@ impl New {
     /// A number of the new corner of an edge, with that of its place.
     fn of(self, edge: &Edge, k: usize) -> f64 {
         let Edge { kept, lost, t, is_forward } = *edge;
-        let at = |k: usize| kept[k] + (lost[k] - kept[k]) * t;
-        let over_w = || kept[k] / kept[3] + (lost[k] / lost[3] - kept[k] / kept[3]) * t;
+        // The right number, and the same of numbers that are divided by w.
+        let at = |k: usize| interpolated(kept[k], lost[k], t);
+        let over_w = interpolated(kept[k] / kept[3], lost[k] / lost[3], t);
         match self {
             Self::Right => at(k),
             Self::Kept => kept[k],
             Self::Lost => lost[k],
-            Self::First => {
-                if is_forward {
-                    kept[k]
-                } else {
-                    lost[k]
-                }
-            }
-            Self::Second => {
-                if is_forward {
-                    lost[k]
-                } else {
-                    kept[k]
-                }
-            }
+            Self::First if is_forward => kept[k],
+            Self::First => lost[k],
+            Self::Second if is_forward => lost[k],
+            Self::Second => kept[k],
             Self::Mean => (kept[k] + lost[k]) / 2.0,
             Self::Perspective => {
                 let (a, b) = ((1.0 - t) / kept[3], t / lost[3]);
                 (a * kept[k] + b * lost[k]) / (a + b)
             }
-            Self::OverW => over_w(),
-            Self::OverWAndBack => over_w() * at(3),
-            Self::TimesWAndBack => {
-                let (a, b) = (kept[k] * kept[3], lost[k] * lost[3]);
-                (a + (b - a) * t) / at(3)
-            }
+            Self::OverW => over_w,
+            Self::OverWAndBack => over_w * at(3),
+            Self::TimesWAndBack => interpolated(kept[k] * kept[3], lost[k] * lost[3], t) / at(3),
             Self::DividedByW => at(k) / at(3),
             Self::TimesW => at(k) * at(3),
             Self::Exchanged => at([1, 0, 2, 3, 4][k]),
@@ -279,6 +301,11 @@ impl New {
             Self::Format(format) => format.of(at(k)),
         }
     }
+}
+
+/// The number at a part of the way from one number to another.
+fn interpolated(from: f64, to: f64, t: f64) -> f64 {
+    from + (to - from) * t
 }
 
 /// What a new corner gets, with its words.
@@ -335,8 +362,11 @@ impl Field for New {
 pub enum Order {
     #[default]
     Right,
+    /// The corners go round the other way.
     Reversed,
+    /// Two corners of a quadrilateral are exchanged.
     Crossed,
+    /// What comes after the third corner is dropped.
     AtMostThree,
     /// A quadrilateral loses a corner.
     Lost(usize),
@@ -348,12 +378,16 @@ impl Field for Order {
     const NAME: &'static str = "the corners that are left";
 
     fn options() -> Vec<Self> {
-        let some = (0..3).flat_map(|i| [Self::Lost(i), Self::Uncut(i)]);
-        [Self::AtMostThree, Self::Reversed, Self::Crossed].into_iter().chain(some).collect()
+        let mut all = vec![Self::AtMostThree, Self::Reversed, Self::Crossed];
+        for i in 0..3 {
+            all.extend([Self::Lost(i), Self::Uncut(i)]);
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
         let names = ["first", "second", "third", "first"];
+        // What repairs a lost corner.
         let quadrilateral = "a triangle that is cut can have four corners";
         Some(match *self {
             Self::Right => return None,
@@ -414,7 +448,9 @@ impl Field for Numbers {
 pub enum Edges {
     #[default]
     All,
+    /// Those whose second end is cut off.
     Leaving,
+    /// Those whose first end is cut off.
     Back,
 }
 
@@ -440,15 +476,30 @@ pub(super) struct Edge {
     pub(super) is_forward: bool,
 }
 
+impl Edge {
+    /// The edge between two corners at these distances from the plane, where it is cut.
+    fn cut(from: ClipCorner, to: ClipCorner, a: f64, b: f64) -> Option<Self> {
+        match (a >= 0.0, b >= 0.0) {
+            (true, false) => Some(Self { kept: from, lost: to, t: a / (a - b), is_forward: true }),
+            (false, true) => Some(Self { kept: to, lost: from, t: b / (b - a), is_forward: false }),
+            _ => None,
+        }
+    }
+}
+
 /// The coefficients of a plane that is read off are multiples of this: each is off by half of it, and what is less is 0.
 const STEP: f64 = 1e-6;
 
 /// A triangle and what was left of it.
 #[derive(Clone)]
 pub struct Cut<'a> {
+    /// The corners as they were asked.
     pub(super) corners: [ClipCorner; 3],
+    /// The polygon that was answered.
     pub(super) left: &'a [ClipCorner],
+    /// Whether the declared plane is z = 0.
     is_zero: bool,
+    /// How far a number may be off, as a share of the largest one asked.
     tolerance: f64,
 }
 
@@ -456,6 +507,7 @@ pub struct Cut<'a> {
 pub(super) struct NewCorner {
     /// Its place in what is left, by the right clipper.
     pub(super) place: usize,
+    /// The number of the edge, from the corner of the same number to the next one.
     pub(super) number: usize,
     pub(super) edge: Edge,
 }
@@ -474,6 +526,7 @@ impl Cut<'_> {
     /// The same, where some numbers may be anything.
     fn is_but_for(&self, polygon: &[ClipCorner], times: f64, free: [bool; 5]) -> bool {
         let tolerance = times * self.tolerance;
+        // A number may be off by its bound, and by its own size times the tolerance.
         let bounds = bounds(&self.corners, tolerance);
         let near = |p: &ClipCorner, q: &ClipCorner| {
             // Wrong numbers may be larger than those of the corners.
@@ -481,7 +534,7 @@ impl Cut<'_> {
         };
         let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
         (!has_area(polygon) && !has_area(self.left))
-            || is_round(polygon.len(), self.left.len(), |i, j| near(&polygon[i], &self.left[j]))
+            || is_round(polygon.len(), self.left.len(), &|i, j| near(&polygon[i], &self.left[j]))
     }
 
     /// The corners that are left by the right clipper, each with the one that is given in its place; nothing where there are
@@ -492,38 +545,38 @@ impl Cut<'_> {
         if count < 3 || self.left.len() != count {
             return None;
         }
+        // What is given may begin at any corner. The corners of the triangle have to have their places; of the turns in which they do,
+        // the one is kept with most of the new corners in theirs, and of equal ones the last.
         let bounds = bounds(&self.corners, self.tolerance);
-        let near =
-            |p: &ClipCorner, q: &ClipCorner| (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
-        let is_old = |p: &&ClipCorner| self.corners.iter().any(|corner| corner == *p);
-        let turned = (0..count).map(|turn| [&self.left[turn..], &self.left[..turn]].concat());
-        let fit = |given: &Vec<ClipCorner>| {
-            let both = right.iter().zip(given);
-            both.clone().filter(|(p, _)| is_old(p)).all(|(p, q)| near(p, q))
-        };
-        let matching =
-            |given: &Vec<ClipCorner>| right.iter().zip(given).filter(|(p, q)| near(p, q)).count();
-        turned.filter(fit).max_by_key(matching)
+        let mut best = None;
+        let mut most = 0;
+        for turn in 0..count {
+            let given = [&self.left[turn..], &self.left[..turn]].concat();
+            let (mut matching, mut fits) = (0, true);
+            for (p, q) in right.iter().zip(&given) {
+                let is_near = (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
+                matching += usize::from(is_near);
+                fits &= is_near || !self.corners.contains(p);
+            }
+            if fits && matching >= most {
+                (best, most) = (Some(given), matching);
+            }
+        }
+        best
     }
 
     /// The new corners of the right clipper.
     pub(super) fn new_of_right(&self) -> Vec<NewCorner> {
         let mut all = Vec::new();
         let mut place = 0;
-        let distance = |p: ClipCorner| Plane::Near.distance(p, self.is_zero);
         for number in 0..3 {
             let [from, to] = [number, (number + 1) % 3].map(|i| self.corners[i]);
-            let [a, b] = [from, to].map(distance);
+            let a = Plane::Near.distance(from, self.is_zero);
+            let b = Plane::Near.distance(to, self.is_zero);
+            // A corner that is kept has its own place, before the new one of the edge that begins at it.
             place += usize::from(a >= 0.0);
-            if (a >= 0.0) != (b >= 0.0) {
-                let is_forward = a >= 0.0;
-                let (kept, lost, a, b) =
-                    if is_forward { (from, to, a, b) } else { (to, from, b, a) };
-                all.push(NewCorner {
-                    place,
-                    number,
-                    edge: Edge { kept, lost, t: a / (a - b), is_forward },
-                });
+            if let Some(edge) = Edge::cut(from, to, a, b) {
+                all.push(NewCorner { place, number, edge });
                 place += 1;
             }
         }
@@ -546,6 +599,7 @@ impl NearCut {
     /// What is left; a corner in the plane may be given once more as a new one with the numbers of that, or not.
     pub(super) fn polygon(&self, cut: &Cut<'_>, is_twice: bool) -> Vec<ClipCorner> {
         let by_w = |[x, y, z, w, a]: ClipCorner| [x / w, y / w, z / w, 1.0, a];
+        // What is clipped, and by which distances.
         let corners = match self.divided {
             Divided::Before => cut.corners.map(by_w),
             _ => cut.corners,
@@ -563,6 +617,7 @@ impl NearCut {
             KeptCorners::All | KeptCorners::Whole | KeptCorners::Seen => corners.to_vec(),
             KeptCorners::Clamped { .. } => corners.map(clamped).to_vec(),
         };
+        // Then the order of the corners that are left.
         let is_quadrilateral = left.len() > 3;
         match self.order {
             Order::Reversed => left.reverse(),
@@ -573,6 +628,7 @@ impl NearCut {
             }
             _ => {}
         }
+        // And the division, where it comes too early for the stage after the clipper.
         if self.divided == Divided::After {
             left = left.into_iter().map(by_w).collect();
         }
@@ -588,35 +644,43 @@ impl NearCut {
             if a >= 0.0 {
                 left.push(from);
             }
-            if (a >= 0.0) == (b >= 0.0) || self.order == Order::Uncut(i) {
+            let Some(right) = Edge::cut(from, to, a, b).filter(|_| self.order != Order::Uncut(i))
+            else {
                 continue;
-            }
-            let is_forward = a >= 0.0;
-            let ((kept, lost), (a, b)) =
-                if is_forward { ((from, to), (a, b)) } else { ((to, from), (b, a)) };
-            let right = Edge { kept, lost, t: a / (a - b), is_forward };
+            };
+            let is_forward = right.is_forward;
             let is_changed = match self.edges {
                 Edges::All => true,
                 Edges::Leaving => is_forward,
                 Edges::Back => !is_forward,
             };
+            // The numbers that are wrong are computed by the wrong part of the edge, the others by the right one.
             let wrong = Edge { t: self.part_of(&right), ..right };
-            left.push([0, 1, 2, 3, 4].map(|k| {
-                match is_changed && self.numbers.0[k] && (is_twice || right.t > 0.0) {
+            let mut corner = [0.0; 5];
+            for (k, number) in corner.iter_mut().enumerate() {
+                *number = match is_changed && self.numbers.0[k] && (is_twice || right.t > 0.0) {
                     true => self.new.of(&wrong, k),
                     false => New::Right.of(&right, k),
-                }
-            }));
+                };
+            }
+            left.push(corner);
         }
         left
     }
 
+    /// The part of an edge at which the new corner is made, counted from the corner that is kept.
     fn part_of(&self, edge: &Edge) -> f64 {
-        let by = |distance: fn(ClipCorner) -> f64| {
-            let [a, b] = [edge.kept, edge.lost].map(distance);
-            a / (a - b)
-        };
-        let of = |t: f64| match self.part {
+        match self.counted {
+            EdgeStart::FromFirst if !edge.is_forward => 1.0 - self.part_at(edge, 1.0 - edge.t),
+            _ => self.part_at(edge, edge.t),
+        }
+    }
+
+    /// What becomes of the right part `t`.
+    fn part_at(&self, edge: &Edge, t: f64) -> f64 {
+        // Some parts are of other distances than those from the plane.
+        let Edge { kept, lost, .. } = edge;
+        match self.part {
             Part::Right => t,
             Part::Kept(format) => format.of(t),
             Part::Back => 1.0 - t,
@@ -624,13 +688,9 @@ impl NearCut {
             Part::AtMostHalf => t.min(0.5),
             Part::AtLeastHalf => t.max(0.5),
             Part::OfSum => t / (2.0 * t - 1.0),
-            Part::ByZ => by(|p| p[2]),
-            Part::ByW => by(|p| p[3]),
-            Part::Divided => by(|p| p[2] / p[3] + 1.0),
-        };
-        match self.counted {
-            EdgeStart::FromFirst if !edge.is_forward => 1.0 - of(1.0 - edge.t),
-            _ => of(edge.t),
+            Part::ByZ => part_by(kept[2], lost[2]),
+            Part::ByW => part_by(kept[3], lost[3]),
+            Part::Divided => part_by(kept[2] / kept[3] + 1.0, lost[2] / lost[3] + 1.0),
         }
     }
 
@@ -638,9 +698,11 @@ impl NearCut {
     fn with_plane(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
         let new: Vec<_> = parts.iter().flat_map(|cut| cut.new_corners()).collect();
         let Some(first) = new.first() else { return Vec::new() };
+        // The plane goes through the first new corner and the one that lies farthest from it.
         let away = |p: &ClipCorner| (p[2] - first[2]).abs() + (p[3] - first[3]).abs();
         let far = new.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(far) = far.filter(|far| away(far) > 0.0) else { return Vec::new() };
+        // Its coefficients, the larger one of z and w 1 or less, each rounded to a multiple of the step.
         let (z, w) = (first[3] - far[3], far[2] - first[2]);
         let size = z.abs().max(w.abs());
         let [z, w] = [z, w].map(|v| if v.abs() < STEP * size { 0.0 } else { v / size });
@@ -665,14 +727,27 @@ impl NearCut {
 
     /// The fewest numbers of new corners that are wrong, where all others are right.
     fn wrong_numbers(parts: &[&Cut<'_>]) -> Option<Numbers> {
-        let mut sets: Vec<_> =
-            (1..31).map(|set| Numbers([0, 1, 2, 3, 4].map(|k| set >> k & 1 == 1))).collect();
-        sets.sort_by_key(|set| set.0.iter().filter(|is_wrong| **is_wrong).count());
         let right = Self::default();
-        sets.into_iter().find(|set| {
-            parts.iter().all(|cut| cut.is_but_for(&right.polygon(cut, false), 1.0, set.0))
-        })
+        let predicted: Vec<_> = parts.iter().map(|cut| right.polygon(cut, false)).collect();
+        // Sets of one number first, then of two, and so on: a set has a bit for each number, and none has all of them.
+        for count in 1..5 {
+            for set in 1..31_u32 {
+                let numbers = Numbers([0, 1, 2, 3, 4].map(|k| set >> k & 1 == 1));
+                let explains = |(cut, polygon): (&&Cut<'_>, &Vec<ClipCorner>)| {
+                    cut.is_but_for(polygon, 1.0, numbers.0)
+                };
+                if set.count_ones() == count && parts.iter().zip(&predicted).all(explains) {
+                    return Some(numbers);
+                }
+            }
+        }
+        None
     }
+}
+
+/// The part of an edge by the distances of its ends.
+fn part_by(kept: f64, lost: f64) -> f64 {
+    kept / (kept - lost)
 }
 
 impl Stage for NearCut {
@@ -714,6 +789,7 @@ impl Stage for NearCut {
     }
 
     fn solved(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
+        // Planes are read off as all else is here, and wrong numbers where all else is right.
         let mut all = self.with_plane(parts);
         let numbers = if *self == Self::default() { Self::wrong_numbers(parts) } else { None };
         if let Some(numbers) = numbers {
@@ -723,18 +799,18 @@ impl Stage for NearCut {
         all
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Cut<'a>>> {
-        let of: fn(&Cut<'a>) -> f64 = |cut| cut.behind() as f64;
-        let behind =
-            Quantity { of, says: Says::Number("the number of corners behind the near plane") };
-        let whether = |of, yes| Quantity { of, says: Says::Whether([yes, ""]) };
-        let is_negative: fn(&Cut<'a>) -> f64 =
-            |cut| f64::from(u8::from(cut.corners.iter().any(|corner| corner[3] < 0.0)));
-        vec![behind, whether(is_negative, "where a corner has a negative w")]
+    fn quantities(cut: &Cut<'_>) -> Vec<Quantity> {
+        let behind = cut.behind() as f64;
+        let is_negative = cut.corners.iter().any(|corner| corner[3] < 0.0);
+        vec![
+            Quantity::number("the number of corners behind the near plane", behind),
+            Quantity::whether(is_negative, "where a corner has a negative w", ""),
+        ]
     }
 
     fn filled(&self, does: &str) -> String {
         let names = ["x", "y", "z", "w", "attributes"];
+        // The numbers that are wrong, as a list in words.
         let some: Vec<_> = (0..5).filter(|k| self.numbers.0[*k]).map(|k| names[k]).collect();
         let numbers = match some[..] {
             [_, _, _, _, _] => "all numbers".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::search::{Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question, SampledValues};
 use crate::declared::Declared;
 use crate::sample_values::{CENTRE, Place, bounds, place};
@@ -75,31 +75,36 @@ pub struct ShadedPixel<'a> {
     /// The samples that are covered, as a mask.
     pub(super) right: u8,
     pub(super) is_centre_covered: bool,
+    /// Where values belong by what the program declares.
     declared: ValuePlace,
+    /// How far a value may be off, as a share of the largest one at the corners.
     tolerance: f64,
 }
 
-impl AsRef<Spot> for ShadedPixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
+/// All four samples where something holds, and else none.
+fn all_where(holds: bool) -> u8 {
+    if holds { 0b1111 } else { 0 }
+}
+
+/// A place of a pixel as floats.
+fn float((x, y): Place) -> [f64; 2] {
+    [f64::from(x), f64::from(y)]
 }
 
 impl SampleShading {
+    /// The samples that are drawn.
     fn mask(&self, pixel: &ShadedPixel<'_>) -> u8 {
-        let whole = |is: bool| if is { 0b1111 } else { 0 };
         match self.masks {
             SampleGate::Covered => pixel.right,
             SampleGate::Never => 0,
-            SampleGate::Whole => whole(pixel.right != 0),
-            SampleGate::CentreAlone => pixel.right & whole(pixel.is_centre_covered),
-            SampleGate::ByCentre => whole(pixel.is_centre_covered),
+            SampleGate::Whole => all_where(pixel.right != 0),
+            SampleGate::CentreAlone => pixel.right & all_where(pixel.is_centre_covered),
+            SampleGate::ByCentre => all_where(pixel.is_centre_covered),
         }
     }
 
     /// Where a sample gets its value, in 1/16 px.
     fn place(&self, pixel: &ShadedPixel<'_>, sample: usize) -> [f64; 2] {
-        let float = |(x, y): Place| [f64::from(x), f64::from(y)];
         let covered = pixel.right;
         match self.at {
             At::Declared => float(place(pixel.declared, covered, sample)),
@@ -110,11 +115,16 @@ impl SampleShading {
             At::First => float(SAMPLES[0]),
             At::Last => float(SAMPLES[covered.checked_ilog2().unwrap_or(0) as usize % 4]),
             At::Mean => {
-                let of =
-                    (0..4).filter(|bit| covered >> bit & 1 == 1).map(|bit| float(SAMPLES[bit]));
-                let count = f64::from(covered.count_ones().max(1));
-                let [x, y] = of.fold([0.0; 2], |[x, y], [a, b]| [x + a, y + b]);
-                [x / count, y / count]
+                let (mut sum, mut count) = ([0.0; 2], 0.0_f64);
+                for (bit, place) in SAMPLES.into_iter().enumerate() {
+                    if covered >> bit & 1 == 1 {
+                        let [x, y] = float(place);
+                        sum = [sum[0] + x, sum[1] + y];
+                        count += 1.0;
+                    }
+                }
+                // Without a sample it is the corner, as 0 divided by anything.
+                sum.map(|v| v / count.max(1.0))
             }
         }
     }
@@ -122,20 +132,23 @@ impl SampleShading {
     /// Depth and both attributes at a place of a pixel.
     fn values(&self, pixel: &ShadedPixel<'_>, place: [f64; 2]) -> [f64; 3] {
         let t = pixel.triangle;
-        let px = [0, 1].map(|k| f64::from(pixel.spot.at[k]) + place[k] / 16.0);
+        // The weights of the corners there: each is twice the area of the triangle with the other two, as a share of the whole.
         let corners = t.corners();
-        let points = corners.map(|c| [f64::from(c.x), f64::from(c.y)]);
+        let px = [0, 1].map(|k| f64::from(pixel.spot.at[k]) + place[k] / 16.0);
         let at = px.map(|v| v * f64::from(SUBPIXELS));
+        let ways = corners.map(|c| [f64::from(c.x) - at[0], f64::from(c.y) - at[1]]);
         let area = twice_area(&corners) as f64;
-        let mut weights = [0, 1, 2].map(|i| {
-            let [p, q] = [1, 2].map(|k| points[(i + k) % 3]).map(|p| [p[0] - at[0], p[1] - at[1]]);
-            (p[0] * q[1] - p[1] * q[0]) / area
-        });
+        let mut weights = [0.0; 3];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let (p, q) = (ways[(i + 1) % 3], ways[(i + 2) % 3]);
+            *weight = (p[0] * q[1] - p[1] * q[0]) / area;
+        }
         if self.range == Limit::Weights {
             weights = weights.map(|weight| weight.clamp(0.0, 1.0));
             let sum: f64 = weights.iter().sum();
             weights = weights.map(|weight| weight / sum);
         }
+        // An attribute is a sum of value / w over a sum of 1 / w.
         let over_w =
             t.vertices.map(|v| if self.correction == Correction::Linear { 1.0 } else { v.inv_w });
         let divisor: f64 = (0..3).map(|i| weights[i] * over_w[i]).sum();
@@ -161,6 +174,7 @@ impl SampleShading {
 
     /// Whether a sample has these values.
     fn has_values(&self, pixel: &ShadedPixel<'_>, sample: usize, found: [f64; 3]) -> bool {
+        // Where a value is extrapolated, more of an error is allowed.
         let at = self.place(pixel, sample);
         let [x, y] = at.map(|v| v.round() as i32);
         let right = self.values(pixel, at);
@@ -189,10 +203,12 @@ impl Stage for SampleShading {
         };
         let window = PixelRect::window(question.width, question.height);
         let corners = triangle.corners();
+        // What is covered exactly, by samples and by centres.
         let Some(right) = masks(&Oracle, corners, window) else { return Vec::new() };
         let Some(centres) = masks_at(&Oracle, corners, window, &[CENTRE]) else {
             return Vec::new();
         };
+        // What was answered of each pixel: samples with the same values come together.
         let mut drawn: BTreeMap<[i32; 2], Vec<&SampledValues>> = BTreeMap::new();
         for one in list.iter().filter(|one| window.contains(one.values.x_px, one.values.y_px)) {
             drawn.entry([one.values.x_px, one.values.y_px]).or_default().push(one);
@@ -220,25 +236,26 @@ impl Stage for SampleShading {
     }
 
     fn explains(&self, part: &ShadedPixel<'_>) -> bool {
+        // No sample may come twice, and those that come have to be those of the mask.
         let mut seen = 0;
         for SampledValues { mask, values } in &part.drawn {
             let found = [values.depth, values.varying.x, values.varying.y];
-            let are_right = (0..4)
-                .filter(|sample| mask >> sample & 1 == 1)
-                .all(|sample| self.has_values(part, sample, found));
-            if seen & mask != 0 || !are_right {
+            if seen & mask != 0 {
                 return false;
+            }
+            for sample in 0..4 {
+                if mask >> sample & 1 == 1 && !self.has_values(part, sample, found) {
+                    return false;
+                }
             }
             seen |= mask;
         }
         seen == self.mask(part)
     }
 
-    fn quantities<'a>() -> Vec<Quantity<ShadedPixel<'a>>> {
-        let mut all = of_pixels::<ShadedPixel<'a>>();
-        all.push(Quantity::number("the number of covered samples", |pixel| {
-            pixel.right.count_ones().into()
-        }));
+    fn quantities(pixel: &ShadedPixel<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the number of covered samples", pixel.right.count_ones()));
         all
     }
 

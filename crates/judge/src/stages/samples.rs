@@ -1,10 +1,11 @@
 //! Which of the four samples of a pixel are covered, as a mask that may be mistaken.
 
 use crate::declared::Declared;
+use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
 use super::grids::on_grid;
-use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::pixels::masks_of;
 use rasterproof_core::geometry::twice_area;
@@ -37,24 +38,32 @@ impl Default for Pattern {
     }
 }
 
+/// A place of a sample in place of the right one.
+type MovedPlace = fn((i32, i32)) -> (i32, i32);
+/// The rules by which all places may be moved, with their words.
+const MOVED: [(MovedPlace, &str); 7] = [
+    (|_| (8, 8), "tests {} at the centre"),
+    (|(x, y)| (16 - x, y), "tests {} mirrored left to right"),
+    (|(x, y)| (x, 16 - y), "tests {} mirrored upside down"),
+    (|(x, y)| (y, x), "tests {} with x and y exchanged"),
+    (|(x, y)| (x - 8, y - 8), "tests {} around the upper left corner of the pixel"),
+    (|(x, _)| (x, 8), "tests {} at the height of the centre"),
+    (|(_, y)| (8, y), "tests {} in the column of the centre"),
+];
+
 impl Field for Pattern {
     const NAME: &'static str = "places of the samples";
 
     fn options() -> Vec<Self> {
-        let of = |said, moved: fn((i32, i32)) -> (i32, i32)| Self(SAMPLES.map(moved), Some(said));
-        vec![
-            of("tests {} at the centre", |_| (8, 8)),
-            Self(
-                [(4, 4), (12, 4), (4, 12), (12, 12)],
-                Some("tests {} two by two, at quarters of the pixel"),
-            ),
-            of("tests {} mirrored left to right", |(x, y)| (16 - x, y)),
-            of("tests {} mirrored upside down", |(x, y)| (x, 16 - y)),
-            of("tests {} with x and y exchanged", |(x, y)| (y, x)),
-            of("tests {} around the upper left corner of the pixel", |(x, y)| (x - 8, y - 8)),
-            of("tests {} at the height of the centre", |(x, _)| (x, 8)),
-            of("tests {} in the column of the centre", |(_, y)| (8, y)),
-        ]
+        // The right places, each moved by one rule, and one other pattern.
+        let mut all = Vec::new();
+        for (moved, said) in MOVED {
+            all.push(Self(SAMPLES.map(moved), Some(said)));
+        }
+        let by_quarters = [(4, 4), (12, 4), (4, 12), (12, 12)];
+        let said = "tests {} two by two, at quarters of the pixel";
+        all.insert(1, Self(by_quarters, Some(said)));
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
@@ -78,10 +87,17 @@ impl Field for Order {
     const NAME: &'static str = "order of the samples";
 
     fn options() -> Vec<Self> {
-        let codes = (0..256).map(|code| [code >> 6, code >> 4, code >> 2, code].map(|v| v % 4));
-        // Each number once.
-        let is_order = |order: &[usize; 4]| order.iter().fold(0, |seen, n| seen | 1 << n) == 15;
-        codes.filter(is_order).map(Self).filter(|order| *order != Self::default()).collect()
+        let mut all = Vec::new();
+        // Two bits of the code for each number; it is an order where each number comes once.
+        for code in 0..256_usize {
+            let order = [code >> 6, code >> 4 & 3, code >> 2 & 3, code & 3];
+            let [a, b, c, d] = order;
+            let numbers = 1 << a | 1 << b | 1 << c | 1 << d;
+            if numbers == 0b1111 && Self(order) != Self::default() {
+                all.push(Self(order));
+            }
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
@@ -112,11 +128,20 @@ impl Field for Rule {
     const NAME: &'static str = "rule for samples";
 
     fn options() -> Vec<Self> {
-        let both = (0..TIES.len()).flat_map(|a| (0..TIES.len()).map(move |b| Self([a, b])));
-        both.filter(|rule| *rule != Self::default()).collect()
+        let mut all = Vec::new();
+        for clockwise in 0..TIES.len() {
+            for other in 0..TIES.len() {
+                let rule = Self([clockwise, other]);
+                if rule != Self::default() {
+                    all.push(rule);
+                }
+            }
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
+        // One rule for both windings is said once.
         let [clockwise, other] = self.0.map(|rule| RULES[rule]);
         let does = match clockwise == other {
             true => format!("follows the {clockwise} rule for {{}} on edges"),
@@ -154,51 +179,47 @@ pub(super) const POINTS: [((i32, i32), &str); 8] = [
     ((8, 16), "the middle of the lower side"),
 ];
 
+/// What may have to hold of a pixel before its samples are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum If {
+    /// The centre is covered, by whatever rule the samples follow.
     Centre,
     /// The point of this number in [`POINTS`] is covered, wherever the samples lie.
     Point(usize),
     /// So many samples at least are covered.
     Covered(u32),
     /// The centre lies within these sides of the box around the corners, or also on them.
-    Box {
-        sides: u8,
-        is_open: bool,
-    },
+    Box { sides: u8, is_open: bool },
 }
 
 impl If {
+    /// Whether it holds of a pixel, of whose samples those in the mask are covered.
     fn holds(self, mask: u8, pixel: &Masked<'_>) -> bool {
         match self {
             Self::Centre => pixel.is_centre_covered,
             Self::Point(point) => pixel.has_point(POINTS[point].0),
             Self::Covered(least) => mask.count_ones() >= least,
             Self::Box { sides, is_open } => {
-                (0..4).filter(|side| sides >> side & 1 == 1).all(|side| {
-                    let of = |v: i32| if side < 2 { i64::from(v) } else { -i64::from(v) };
-                    let axis = side % 2;
-                    let centre = of(pixel.spot.at[axis] * SUBPIXELS + SUBPIXELS / 2);
-                    let mut corners = pixel.corners.iter().map(|c| of([c.x, c.y][axis]));
-                    corners.any(|v| v < centre || (!is_open && v == centre))
-                })
+                has_bits(sides).into_iter().all(|side| is_within_side(pixel, side, is_open))
             }
         }
     }
 
+    /// What is said of it, after a pixel.
     fn words(self) -> String {
         match self {
             Self::Centre => "whose centre is covered".to_owned(),
             Self::Point(point) => format!("of which {} is covered", POINTS[point].1),
             Self::Covered(0) => "of any kind".to_owned(),
             Self::Covered(least) => {
+                // From one sample on.
                 let least = ["any is", "two are", "three are", "all four are"][least as usize - 1];
                 format!("where {least} covered")
             }
             Self::Box { sides, is_open } => {
+                // In the order of the bits of the sides.
                 let names = ["left", "upper", "right", "lower"];
-                let sides: Vec<_> =
-                    (0..4).filter(|side| sides >> side & 1 == 1).map(|side| names[side]).collect();
+                let sides: Vec<_> = has_bits(sides).into_iter().map(|side| names[side]).collect();
                 let border = if is_open { "in" } else { "in, or on the border of," };
                 format!(
                     "whose centre lies {border} the box around the triangle ({} side)",
@@ -207,6 +228,31 @@ impl If {
             }
         }
     }
+}
+
+/// The numbers of the bits that a mask of four has.
+fn has_bits(mask: u8) -> Vec<usize> {
+    let mut bits = Vec::new();
+    for bit in 0..4 {
+        if mask >> bit & 1 == 1 {
+            bits.push(bit);
+        }
+    }
+    bits
+}
+
+/// Whether the centre of a pixel lies within one side of the box around the corners of its triangle, or also on it. The sides are
+/// left, top, right and bottom: of the last two everything is turned round, so that each is the least coordinate of a corner.
+fn is_within_side(pixel: &Masked<'_>, side: usize, is_open: bool) -> bool {
+    let (axis, sign) = (side % 2, if side < 2 { 1 } else { -1 });
+    let centre = sign * i64::from(pixel.spot.at[axis] * SUBPIXELS + SUBPIXELS / 2);
+    for corner in pixel.corners {
+        let corner = sign * i64::from([corner.x, corner.y][axis]);
+        if corner < centre || (!is_open && corner == centre) {
+            return true;
+        }
+    }
+    false
 }
 
 impl Field for Gate {
@@ -219,10 +265,15 @@ impl Field for Gate {
         for is_open in [false, true] {
             tests.extend((1..16).map(|sides| If::Box { sides, is_open }));
         }
-        let kinds: [fn(If) -> Self; 4] = [Self::Only, Self::Whole, Self::WholeToo, Self::Not];
-        let all = tests.into_iter().flat_map(|test| kinds.map(|of| of(test)));
-        // What holds of every pixel decides nothing, but that samples may be drawn always or never.
-        all.filter(|gate| *gate != Self::Only(If::Covered(0))).collect()
+        let mut all = Vec::new();
+        for test in tests {
+            // What holds of every pixel decides nothing, but that samples may be drawn always or never.
+            if test != If::Covered(0) {
+                all.push(Self::Only(test));
+            }
+            all.extend([Self::Whole(test), Self::WholeToo(test), Self::Not(test)]);
+        }
+        all
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
@@ -262,26 +313,33 @@ impl Field for Table {
 
     fn says(&self) -> Option<(String, &'static str)> {
         let repair = "draw the samples that are covered";
-        let is_lost =
-            |bit: &u8| (0..16).all(|right: u8| self.0[usize::from(right)] == right & !(1 << bit));
-        if let Some(bit) = (0..4).find(is_lost) {
-            return Some((format!("never draws the sample with the number {bit}"), repair));
+        // A sample that is never drawn is said in one word, whatever else the table holds.
+        for bit in 0..4 {
+            if (0..16_u8).all(|right| self.0[usize::from(right)] == right & !(1 << bit)) {
+                return Some((format!("never draws the sample with the number {bit}"), repair));
+            }
         }
-        let samples = |mask: u8| -> String {
-            let bits = (0..4).filter(|bit| mask >> bit & 1 == 1).map(|bit: u8| bit.to_string());
-            let bits: Vec<_> = bits.collect();
-            if bits.is_empty() { "none".to_owned() } else { bits.join(" and ") }
-        };
-        let changed = (0..16).filter(|right| self.0[usize::from(*right)] != *right);
-        let changed: Vec<_> = changed
-            .map(|right| format!("{} for {}", samples(self.0[usize::from(right)]), samples(right)))
-            .collect();
+        let mut changed = Vec::new();
+        for right in 0..16_u8 {
+            let drawn = self.0[usize::from(right)];
+            if drawn != right {
+                changed.push(format!("{} for {}", numbers_of(drawn), numbers_of(right)));
+            }
+        }
         let more = match changed.len().saturating_sub(3) {
             0 => String::new(),
             more => format!(", and {more} others"),
         };
-        let first = changed[..changed.len().min(3)].join(", ");
-        Some((format!("draws samples {first}{more}, whatever the place"), repair))
+        changed.truncate(3);
+        Some((format!("draws samples {}{more}, whatever the place", changed.join(", ")), repair))
+    }
+}
+
+/// The numbers of the samples of a mask, in words.
+fn numbers_of(mask: u8) -> String {
+    match &has_bits(mask)[..] {
+        [] => "none".to_owned(),
+        bits => bits.iter().map(usize::to_string).collect::<Vec<_>>().join(" and "),
     }
 }
 
@@ -305,7 +363,9 @@ impl Field for Only {
 pub struct Masked<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
+    /// The samples that were answered.
     pub(super) drawn: u8,
+    /// The samples that are covered.
     pub(super) right: u8,
     pub(super) is_centre_covered: bool,
 }
@@ -321,6 +381,7 @@ impl Masked<'_> {
         let (x, y) = SAMPLES[usize::from(bit)];
         let at = [(self.spot.at[0], x), (self.spot.at[1], y)]
             .map(|(v, part)| i64::from(v * SUBPIXELS + part * (SUBPIXELS / 16)));
+        // Edges are walked clockwise, so that the inside lies on the same hand of each.
         let turn = i64::from(twice_area(self.corners).signum() as i8);
         let (mut nearest, mut is_on) = (i64::MAX, false);
         for i in 0..3 {
@@ -333,12 +394,6 @@ impl Masked<'_> {
             is_on |= side == 0;
         }
         (nearest, is_on && nearest >= 0)
-    }
-}
-
-impl AsRef<Spot> for Masked<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
     }
 }
 
@@ -360,6 +415,7 @@ pub(super) fn facing(direction: [i64; 2]) -> usize {
 fn covers(corners: &Corners, pixel: [i32; 2], (x, y): (i32, i32), ties: &Ties) -> bool {
     let at = [(pixel[0], x), (pixel[1], y)]
         .map(|(v, part)| i64::from(v) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16)));
+    // In exact integers: a sample lies inside where it is on the inner side of each edge, or on one that the rule draws.
     let turn = i64::from(twice_area(corners).signum() as i8);
     for i in 0..3 {
         let [a, b] = [corners[i], corners[(i + 1) % 3]].map(|c| [i64::from(c.x), i64::from(c.y)]);
@@ -381,27 +437,37 @@ impl SampleMask {
             && self.grid == Grid::default()
             && self.rule == Rule::default()
         {
-            return (0..4)
-                .fold(0, |mask, bit| mask | (pixel.right >> self.order.0[bit] & 1) << bit);
+            // Where nothing else is wrong, the right samples are there already, in another order.
+            let mut mask = 0;
+            for (bit, number) in self.order.0.into_iter().enumerate() {
+                mask |= (pixel.right >> number & 1) << bit;
+            }
+            return mask;
         }
         let corners = self.corners(pixel);
         let ties = self.ties(&corners);
-        (0..4).fold(0, |mask, bit| {
-            let place = self.pattern.0[self.order.0[bit]];
-            mask | u8::from(covers(&corners, pixel.spot.at, place, ties)) << bit
-        })
+        let mut mask = 0;
+        for (bit, number) in self.order.0.into_iter().enumerate() {
+            let is_covered = covers(&corners, pixel.spot.at, self.pattern.0[number], ties);
+            mask |= u8::from(is_covered) << bit;
+        }
+        mask
     }
 
+    /// The corners of the triangle on the grid.
     fn corners(&self, pixel: &Masked<'_>) -> Corners {
         self.grid.0.snap(pixel.corners)
     }
 
+    /// The rule of a triangle, by its winding.
     fn ties(&self, corners: &Corners) -> &'static Ties {
         &TIES[self.rule.0[usize::from(twice_area(corners) < 0)]]
     }
 
     /// The mask that is drawn.
     pub(super) fn mask(&self, pixel: &Masked<'_>) -> u8 {
+        // The gate decides by what is covered; the table changes whatever is left, and a single wrong sample leaves the others
+        // right.
         let covered = self.covered(pixel);
         let mask = match self.gate {
             Gate::None => covered,
@@ -420,10 +486,18 @@ impl SampleMask {
 
     /// The places at which the samples seem to be tested, each on its own.
     fn with_pattern(&self, parts: &[&Masked<'_>]) -> Option<Self> {
-        let mut places: Vec<_> = (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
-        // The right places of the pixels around it, too.
-        let around = (0..9).map(|k| (k % 3 * 16 - 16, k / 3 * 16 - 16)).filter(|by| *by != (0, 0));
-        places.extend(around.flat_map(|(dx, dy)| SAMPLES.map(|(x, y)| (x + dx, y + dy))));
+        // Every place in the pixel, and the right places of the eight pixels around it.
+        let mut places = Vec::new();
+        for y in 0..=16 {
+            for x in 0..=16 {
+                places.push((x, y));
+            }
+        }
+        for k in (0..9).filter(|k| *k != 4) {
+            let (dx, dy) = (k % 3 * 16 - 16, k / 3 * 16 - 16);
+            places.extend(SAMPLES.map(|(x, y)| (x + dx, y + dy)));
+        }
+        // Of each place the samples that are drawn wherever it is covered, and nowhere else; a place without one is left out.
         let mut left: Vec<_> = places.into_iter().map(|place| (place, 15_u8)).collect();
         for pixel in parts.iter().take(SOLVED_BY) {
             let corners = self.corners(pixel);
@@ -434,14 +508,18 @@ impl SampleMask {
             }
             left.retain(|(_, bits)| *bits > 0);
         }
-        let of =
-            |bit: u8| left.iter().find(|(_, bits)| bits >> bit & 1 == 1).map(|(place, _)| *place);
-        let pattern = Pattern([of(0)?, of(1)?, of(2)?, of(3)?], None);
+        // Each sample is tested at the first place that is left for it.
+        let mut found = [(0, 0); 4];
+        for (bit, found) in found.iter_mut().enumerate() {
+            (*found, _) = *left.iter().find(|(_, bits)| bits >> bit & 1 == 1)?;
+        }
+        let pattern = Pattern(found, None);
         (pattern.0 != SAMPLES).then(|| Self { pattern, order: Order::default(), ..self.clone() })
     }
 
     /// The mask that is drawn for each one, where there is such a table; as it is where none was seen.
     fn with_table(&self, parts: &[&Masked<'_>]) -> Option<Self> {
+        // Each mask must be drawn in one way wherever it comes.
         let mut table: [Option<u8>; 16] = [None; 16];
         for pixel in parts {
             let mask = usize::from(self.mask(pixel));
@@ -462,6 +540,12 @@ const AROUND_PX: i32 = 2;
 /// Pixels by which places are told apart.
 const SOLVED_BY: usize = 4_000;
 
+/// The columns, or the rows, from some before the first corner to some behind the last one.
+fn around([a, b, c]: [i32; 3]) -> RangeInclusive<i32> {
+    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+    least.div_euclid(SUBPIXELS) - AROUND_PX..=most.div_euclid(SUBPIXELS) + AROUND_PX
+}
+
 impl Stage for SampleMask {
     type Part<'a> = Masked<'a>;
     const PAGE: &'static str = "games101";
@@ -478,29 +562,29 @@ impl Stage for SampleMask {
         let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
             return Vec::new();
         };
+        // Every pixel in and around the triangle: mistakes move samples by a pixel or two.
         let window = PixelRect::window(question.width, question.height);
         let mut parts = Vec::new();
         let (ties, is_clockwise) = (&TIES[0], twice_area(corners) > 0);
-        let [xs, ys] = [corners.map(|c| c.x), corners.map(|c| c.y)].map(|v| {
-            let (least, most) = (v.iter().min().unwrap_or(&0), v.iter().max().unwrap_or(&0));
-            least.div_euclid(SUBPIXELS) - AROUND_PX..=most.div_euclid(SUBPIXELS) + AROUND_PX
-        });
+        let (xs, ys) = (around(corners.map(|c| c.x)), around(corners.map(|c| c.y)));
         for (y, row) in masks_of(runs, window).rows() {
             for (x, &drawn) in (window.x0..).zip(row) {
                 // Nothing is drawn there by any of the mistakes.
                 if drawn == 0 && !(xs.contains(&x) && ys.contains(&y)) {
                     continue;
                 }
-                let covers = |place| covers(corners, [x, y], place, ties);
-                let right =
-                    (0..4).fold(0, |mask, bit| mask | u8::from(covers(SAMPLES[bit])) << bit);
+                let is_covered = |place| covers(corners, [x, y], place, ties);
+                let mut right = 0;
+                for (bit, place) in SAMPLES.into_iter().enumerate() {
+                    right |= u8::from(is_covered(place)) << bit;
+                }
                 let spot = Spot { at: [x, y], is_clockwise, window };
                 parts.push(Masked {
                     spot,
                     corners,
                     drawn,
                     right,
-                    is_centre_covered: covers((8, 8)),
+                    is_centre_covered: is_covered((8, 8)),
                 });
             }
         }
@@ -512,6 +596,7 @@ impl Stage for SampleMask {
     }
 
     fn solved(&self, parts: &[&Masked<'_>]) -> Vec<Self> {
+        // Places are read off masks as they are covered, so that neither a gate nor a table may lie between.
         let is_open = self.gate == Gate::None
             && self.table == Table::default()
             && self.only == Only::default();
@@ -519,32 +604,23 @@ impl Stage for SampleMask {
         pattern.into_iter().chain(self.with_table(parts)).collect()
     }
 
-    fn quantities<'a>() -> Vec<Quantity<Masked<'a>>> {
-        let mut all = of_pixels::<Masked<'a>>();
-        all.push(Quantity::number("the number of covered samples", |pixel| {
-            pixel.right.count_ones().into()
-        }));
+    fn quantities(pixel: &Masked<'_>) -> Vec<Quantity> {
+        let mut all = pixel.spot.quantities();
+        all.push(Quantity::number("the number of covered samples", pixel.right.count_ones()));
         all
     }
 
-    fn observations<'a>() -> Vec<Quantity<Masked<'a>>> {
-        let whether =
-            |of: fn(&Masked<'a>) -> f64, yes| Quantity { of, says: Says::Whether([yes, ""]) };
-        let mut all = Self::quantities();
-        all.push(whether(
-            |p| f64::from(u8::from(p.drawn & !p.right == 0)),
-            "without some samples, and have none too many",
-        ));
-        all.push(whether(
-            |p| f64::from(u8::from(p.right & !p.drawn == 0)),
-            "with samples too many, and lack none",
-        ));
-        all.push(Quantity::number("the number of the wrong sample", |p| {
-            (p.right ^ p.drawn)
-                .checked_ilog2()
-                .filter(|_| (p.right ^ p.drawn).is_power_of_two())
-                .map_or(f64::NAN, f64::from)
-        }));
+    fn observations(pixel: &Masked<'_>) -> Vec<Quantity> {
+        let (drawn, right) = (pixel.drawn, pixel.right);
+        let mut all = Self::quantities(pixel);
+        let lacks_some = "without some samples, and have none too many";
+        all.push(Quantity::whether(drawn & !right == 0, lacks_some, ""));
+        let has_more = "with samples too many, and lack none";
+        all.push(Quantity::whether(right & !drawn == 0, has_more, ""));
+        // Where several samples are wrong, no number passes a test.
+        let wrong = right ^ drawn;
+        let number = if wrong.is_power_of_two() { f64::from(wrong.ilog2()) } else { f64::NAN };
+        all.push(Quantity::number("the number of the wrong sample", number));
         all
     }
 

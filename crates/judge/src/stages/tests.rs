@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::search::{Stage, said_of};
 use super::*;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Span;
@@ -107,14 +108,14 @@ fn shares<S: DrawnAtRandom>(changes: usize, count: u64) -> Shares {
             shares.unseen += 1;
             continue;
         }
-        let found = of_stage::<S>(&all, &declared, &[]);
+        let found = of_stage(S::CHECK, &all, &declared, &[]);
         match found.is_some_and(|found| found.is_known()) {
             true => shares.explained += 1,
             false => {
                 shares.missed += 1;
                 let fields: Vec<_> = value.said().iter().map(|said| said.name).collect();
                 *shares.of_fields.entry(fields.join(" + ")).or_default() += 1;
-                println!("missed: {}", Mistake::plain(value).says().does);
+                println!("missed: {}", said_of(&value, "").does);
             }
         }
     }

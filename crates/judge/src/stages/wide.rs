@@ -2,7 +2,7 @@
 
 use super::grids::{on_grid, unit};
 use super::samples::{TIES, facing};
-use super::search::{Field, Quantity, Spot, Stage, choices, composed, of_pixels};
+use super::search::{Field, Quantity, Spot, Stage, choices, composed};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -51,6 +51,7 @@ impl Thickness {
     /// The width that is drawn for one that is asked.
     fn of(self, width: i32) -> i32 {
         let px = SUBPIXELS;
+        // A width below 0 is none.
         let drawn = match self {
             Self::Right => width,
             Self::Double => 2 * width,
@@ -143,12 +144,6 @@ pub struct WidePixel<'a> {
     pub(super) right: [bool; 2],
 }
 
-impl AsRef<Spot> for WidePixel<'_> {
-    fn as_ref(&self) -> &Spot {
-        &self.spot
-    }
-}
-
 /// A vector in subpixels.
 type Vector = [f64; 2];
 
@@ -188,6 +183,7 @@ impl WidePixel<'_> {
 impl WideDrawn {
     /// Whether the pixel is drawn, where each edge owns its samples as this says.
     fn covers(&self, pixel: &WidePixel<'_>, owns: &dyn Fn([i64; 2]) -> bool) -> bool {
+        // The ends and the width as the program takes them.
         let [a, b] = pixel.line.ends;
         let [a, b, _] = self.ends.0.snap(&[a, b, b]);
         let width = self.thickness.of(pixel.line.width);
@@ -195,6 +191,7 @@ impl WideDrawn {
         if width == 0 {
             return false;
         }
+        // Forms without rounded corners are decided exactly.
         let of = |form| wide::covers(&line, form, sample, owns);
         if self.corners != CornerGrid::default() || matches!(self.caps, Caps::AlongX | Caps::AlongY)
         {
@@ -220,6 +217,7 @@ impl WideDrawn {
 
     /// From an end to the corner right of it, as seen from the first end towards the second with y down.
     fn across(&self, [dx, dy]: Vector, form: WideForm, width: f64) -> Vector {
+        // Half the width at right angles to the line, or along the axis that the form is as wide along.
         let along_x = [-width / 2.0 * dy.signum(), 0.0];
         let along_y = [0.0, width / 2.0 * dx.signum()];
         let length = (dx * dx + dy * dy).sqrt();
@@ -245,6 +243,7 @@ impl WideDrawn {
         if by == [0.0; 2] {
             return false;
         }
+        // The four corners, each half the width from an end, on the lattice.
         let half = self.across(by, form, line.width.into());
         let step = f64::from((2 * self.corners.0).max(1));
         // From the first end; the lattice is that of the window.
@@ -260,6 +259,7 @@ impl WideDrawn {
             i128::from(p[0]) * i128::from(q[1]) - i128::from(p[1]) * i128::from(q[0])
         };
         let minus = |p: [i64; 2], q: [i64; 2]| [p[0] - q[0], p[1] - q[1]];
+        // The sample lies inside where it is on the inner side of all four sides.
         let has_area = product(minus(corners[1], corners[0]), minus(corners[3], corners[0])) > 0;
         has_area
             && (0..4).all(|i| {
@@ -271,6 +271,7 @@ impl WideDrawn {
 
     /// Whether it has to be drawn, and whether it may be.
     pub(super) fn draws(&self, pixel: &WidePixel<'_>) -> [bool; 2] {
+        // A gate decides before the border, and a border rule before what is declared.
         match (self.gate, self.border.0) {
             (LineGate::Never, _) => [false; 2],
             (LineGate::Always, _) => [true; 2],
@@ -307,6 +308,7 @@ impl Stage for WideDrawn {
             return Vec::new();
         };
         let window = PixelRect::window(question.width, question.height);
+        // Every pixel of the window, as far as any mistake might draw it.
         let (convention, form) = (declared.convention, declared.wide);
         let mut parts = Vec::new();
         for (y, row) in hits(runs, window).0.rows() {
@@ -332,24 +334,20 @@ impl Stage for WideDrawn {
     }
 
     fn explains(&self, part: &WidePixel<'_>) -> bool {
+        // On the border a pixel may be drawn or not, unless a rule says which.
         let [must, may] = self.draws(part);
         let times = if self.gate == LineGate::Twice { 2 } else { 1 };
         if part.hits > 0 { may && part.hits == times } else { !must }
     }
 
-    fn quantities<'a>() -> Vec<Quantity<WidePixel<'a>>> {
-        let mut all = of_pixels::<WidePixel<'a>>();
-        // That of windings is about triangles.
-        all.remove(0);
-        all.push(Quantity::number("the width of the line in px", |p| {
-            f64::from(p.line.width) / f64::from(SUBPIXELS)
-        }));
-        all.push(Quantity::number("the columns from the first end to the second, in px", |p| {
-            p.by_px(0)
-        }));
-        all.push(Quantity::number("the rows from the first end to the second, in px", |p| {
-            p.by_px(1)
-        }));
+    fn quantities(pixel: &WidePixel<'_>) -> Vec<Quantity> {
+        // A line has no winding.
+        let mut all = pixel.spot.place();
+        let width = f64::from(pixel.line.width) / f64::from(SUBPIXELS);
+        all.push(Quantity::number("the width of the line in px", width));
+        let [columns, rows] = [pixel.by_px(0), pixel.by_px(1)];
+        all.push(Quantity::number("the columns from the first end to the second, in px", columns));
+        all.push(Quantity::number("the rows from the first end to the second, in px", rows));
         all
     }
 

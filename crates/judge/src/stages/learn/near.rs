@@ -2,16 +2,17 @@
 
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::declared::Declared;
 use crate::stages::near::{Cut, Edge, NearCut};
-use crate::stages::search::{Composed as _, Mistake, Stage as _, singles};
+use crate::stages::search::{Stage as _, both, said_of, singles};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, near};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::learn::rows::{NONE, Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
+/// The polygons that the near plane leaves.
 pub struct Polygons;
 
 /// A polygon, or one number of a new corner of it.
@@ -22,27 +23,33 @@ pub struct PartOfPolygon<'a> {
 
 /// A number of a new corner.
 struct NewNumber {
+    /// The place of the corner in the right polygon.
     place: usize,
+    /// The number of the edge that the corner divides.
     of_edge: usize,
     edge: Edge,
     /// Of x, y, z, w and the attribute.
     which: usize,
     /// The right polygon.
     polygon: Rc<[ClipCorner]>,
+    /// The number that was answered.
     given: f64,
 }
 
+/// The corners of the triangle, in words.
 const ORDINALS: [&str; 3] = ["first", "second", "third"];
+/// The numbers of a corner, in words.
 const NUMBERS: [&str; 5] = ["x", "y", "z", "w", "the attribute"];
 
 impl Learnable for Polygons {
     type Part<'a> = PartOfPolygon<'a>;
     type Change = NearCut;
-    const TOPIC: Topic = near::TOPIC;
+    const TOPIC: &'static Topic = &near::TOPIC;
     const PART: &'static str = "corner";
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(triangle) = case.triangles().first() else { return };
+        // Each number of each corner, and what clippers compute of them.
         let corners = clip_corners(triangle);
         for (corner, ordinal) in corners.iter().zip(ORDINALS) {
             for (number, name) in corner.iter().zip(NUMBERS) {
@@ -56,6 +63,7 @@ impl Learnable for Polygons {
                 );
             }
         }
+        // Then how many corners are cut off, and the range of what decides it.
         let behind = corners.map(|corner| corner[2] + corner[3] < 0.0);
         let count = behind.iter().filter(|is| **is).count() as i64;
         out.number(Unit::Count, count, &["the number of corners behind z = -w"]);
@@ -74,6 +82,7 @@ impl Learnable for Polygons {
         let Some(cut) = NearCut::parts(&asked.question, &asked.answer, declared, 0.0).pop() else {
             return Vec::new();
         };
+        // Where the polygon has the right corners, each number of a new one is a part.
         let mut parts = Vec::new();
         let aligned = cut.aligned();
         if let Some(given) = &aligned {
@@ -105,6 +114,7 @@ impl Learnable for Polygons {
 
     fn explains(change: &NearCut, part: &PartOfPolygon<'_>) -> bool {
         let Some(new) = &part.new else { return change.explains(&part.cut) };
+        // The change must leave the same corners, so that the number has its place.
         let predicted = change.polygon(&part.cut, true);
         // Another polygon has no such corner.
         let is_aligned = predicted.len() == new.polygon.len()
@@ -116,12 +126,14 @@ impl Learnable for Polygons {
     }
 
     fn of_part(part: &PartOfPolygon<'_>, _: Option<&NearCut>, out: &mut Quantities) {
+        // Which number is compared; of a whole polygon none is.
         let new = part.new.as_ref();
         out.flag(new.is_some(), &["it is a new corner"], "it is a whole polygon");
         let which = new.map_or(5, |new| new.which);
         for (k, name) in NUMBERS.iter().enumerate() {
             out.holds(which == k, name, [" is compared", " is not compared"]);
         }
+        // The edge that the corner divides, and both of its ends.
         let of_edge = out.values.len();
         let edge = new.map(|new| &new.edge);
         let number = new.map_or(0, |new| new.of_edge as i64 + 1);
@@ -153,17 +165,17 @@ impl Learnable for Polygons {
     }
 
     fn both(a: &NearCut, b: &NearCut) -> Option<NearCut> {
-        let both = a.with(b);
-        (both != *b).then_some(both)
+        both(a, b)
     }
 
     fn says(change: &NearCut) -> String {
-        Mistake::plain(change.clone()).says().does
+        said_of(change, "").does
     }
 }
 
 /// What is computed of a corner, with its name.
 type Combined = (&'static str, fn(ClipCorner) -> f64);
+/// What clippers compute of a corner on the way.
 const COMBINED: [Combined; 4] = [
     ("z + w", |p| p[2] + p[3]),
     ("z / w", |p| p[2] / p[3]),

@@ -2,11 +2,11 @@
 
 use std::marker::PhantomData;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::declared::Declared;
 use crate::stages::area::{AreaDrawn, AreaPixel};
 use crate::stages::sample_values::{SampleShading, ShadedPixel};
-use crate::stages::search::{Spot, Stage, singles};
+use crate::stages::search::{Spot, Stage, both, singles};
 use crate::stages::wide::{WideDrawn, WidePixel};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, area, values, wide};
@@ -16,7 +16,7 @@ use rasterproof_verify::learn::trial::Work;
 /// A stage whose parts are pixels of a window, each answered on its own.
 pub trait PixelStage: Stage {
     /// The kind of question, with its facts.
-    const TOPIC: Topic;
+    const TOPIC: &'static Topic;
 
     /// What rules may be about, beside the facts of the question.
     fn of_pixel(pixel: &Self::Part<'_>, out: &mut Quantities);
@@ -28,7 +28,7 @@ pub struct Pixels<S>(PhantomData<S>);
 impl<S: PixelStage> Learnable for Pixels<S> {
     type Part<'a> = S::Part<'a>;
     type Change = S;
-    const TOPIC: Topic = S::TOPIC;
+    const TOPIC: &'static Topic = S::TOPIC;
     const PART: &'static str = "pixel";
 
     fn of_question(_: &Case, _: &mut Quantities) {}
@@ -55,8 +55,7 @@ impl<S: PixelStage> Learnable for Pixels<S> {
     }
 
     fn both(a: &S, b: &S) -> Option<S> {
-        let both = a.with(b);
-        (both != *b).then_some(both)
+        both(a, b)
     }
 
     fn says(change: &S) -> String {
@@ -66,10 +65,11 @@ impl<S: PixelStage> Learnable for Pixels<S> {
 }
 
 impl PixelStage for WideDrawn {
-    const TOPIC: Topic = wide::TOPIC;
+    const TOPIC: &'static Topic = &wide::TOPIC;
 
     fn of_pixel(pixel: &WidePixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);
+        // Rounded up to whole subpixels, so that what is on the border is 0.
         let [beside, beyond] = pixel.outside().map(|v| v.ceil() as i64);
         out.number(
             Unit::Subpixels,
@@ -86,7 +86,7 @@ impl PixelStage for WideDrawn {
 }
 
 impl PixelStage for AreaDrawn {
-    const TOPIC: Topic = area::TOPIC;
+    const TOPIC: &'static Topic = &area::TOPIC;
 
     fn of_pixel(pixel: &AreaPixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);
@@ -100,7 +100,7 @@ impl PixelStage for AreaDrawn {
 }
 
 impl PixelStage for SampleShading {
-    const TOPIC: Topic = values::TOPIC;
+    const TOPIC: &'static Topic = &values::TOPIC;
 
     fn of_pixel(pixel: &ShadedPixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);

@@ -77,6 +77,7 @@ fn without(
     is_kept: &dyn Fn(usize, &Triangle) -> bool,
 ) -> Answer {
     let Asked::Depth(list) = &question.of else { panic!("depth") };
+    // The others are asked alone, and get their own numbers back.
     let kept: Vec<usize> = (0..list.len()).filter(|&i| is_kept(i, &list[i])).collect();
     if kept.is_empty() {
         return Answer::Seen(Vec::new());
@@ -101,6 +102,7 @@ fn each_value(answer: &mut Answer, alter: &dyn Fn(usize, [i32; 2], f64) -> f64) 
     }
 }
 
+/// A list with a fixed length, whose end is lost.
 #[test]
 fn triangles_from_the_seventeenth_on_are_not_drawn() {
     let alter: Alter = |question, answer, engine| {
@@ -113,6 +115,7 @@ fn triangles_from_the_seventeenth_on_are_not_drawn() {
     );
 }
 
+/// A tiled renderer whose bins are too small: what comes too late in a tile is lost there alone.
 #[test]
 fn bins_of_tiles_hold_five_triangles() {
     const SIDE: i32 = 16;
@@ -156,6 +159,7 @@ fn bins_of_tiles_hold_five_triangles() {
     );
 }
 
+/// Fragments outside of the triangle must not end the search.
 #[test]
 fn values_below_the_triangle_are_looked_at() {
     let alter: Alter = |_, answer, _| {
@@ -165,6 +169,7 @@ fn values_below_the_triangle_are_looked_at() {
     assert!(!learned(Check::Values, alter).sentences().is_empty());
 }
 
+/// A word that is too short, which matters for large triangles alone.
 #[test]
 fn twice_the_area_wraps_in_16_bits() {
     let alter: Alter = |question, answer, _| {
@@ -180,6 +185,7 @@ fn twice_the_area_wraps_in_16_bits() {
     );
 }
 
+/// Values computed once for four columns, and only where a triangle is high.
 #[test]
 fn values_are_those_of_blocks_in_high_triangles() {
     let alter: Alter = |question, answer, _| {
@@ -207,6 +213,7 @@ fn values_are_those_of_blocks_in_high_triangles() {
     explains(Check::Values, alter, "the right value of the first of its 4 columns");
 }
 
+/// No test of depth, where the window is wide.
 #[test]
 fn the_last_triangle_is_shown_in_wide_windows() {
     let alter: Alter = |question, answer, engine| {
@@ -230,6 +237,7 @@ fn the_last_triangle_is_shown_in_wide_windows() {
     explains(Check::Depth, alter, "the width of the window");
 }
 
+/// A mask that loses a bit in every second row.
 #[test]
 fn the_last_sample_is_lost_in_odd_rows() {
     let alter: Alter = |question, answer, _| {
@@ -249,6 +257,7 @@ fn the_last_sample_is_lost_in_odd_rows() {
     explains(Check::Samples, alter, "its row is odd");
 }
 
+/// A clipper that takes a negative w for a reason to drop.
 #[test]
 fn a_triangle_with_one_corner_behind_is_dropped_where_w_is_negative() {
     let alter: Alter = |question, answer, _| {
@@ -260,6 +269,7 @@ fn a_triangle_with_one_corner_behind_is_dropped_where_w_is_negative() {
     explains(Check::Near, alter, "w of the second corner");
 }
 
+/// One attribute in place of another, where the column is odd.
 #[test]
 fn the_second_attribute_is_the_first_in_odd_columns() {
     let alter: Alter = |_, answer, _| {
@@ -271,6 +281,7 @@ fn the_second_attribute_is_the_first_in_odd_columns() {
     explains(Check::Values, alter, "gives the first attribute");
 }
 
+/// A number that is added, and a place with a limit.
 #[test]
 fn a_fraction_of_depth_is_added_in_the_right_half() {
     let alter: Alter = |_, answer, _| {
@@ -301,6 +312,7 @@ impl Conventional {
                 Answer::Seen(pile.map_or_else(Vec::new, |pile| pile.runs()))
             }
             Asked::Values(triangle) => {
+                // Every pixel that has to be drawn, with its exact values.
                 let covered = self.0.picture(&triangle.corners(), window);
                 let exact = exact_values(triangle, &self.0);
                 let mut fragments = Vec::new();
@@ -355,12 +367,14 @@ fn right_samples_and_polygons_are_not_explained() {
 
 /// A number that depends on all of an answer and on a place in it, as no rule does.
 fn noise(answer: &Answer, place: usize) -> u64 {
+    // A hash of the text, so that equal answers are changed alike.
     let text = format!("{answer:?}{place}");
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     }) >> 20
 }
 
+/// What follows no rule is not explained by one, but something is said of it.
 #[test]
 fn what_is_random_is_not_explained() {
     let in_values: Alter = |_, answer, _| {

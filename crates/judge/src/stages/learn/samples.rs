@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::ask::Asked;
 use crate::declared::Declared;
 use crate::stages::samples::{Masked, POINTS, SampleMask};
-use crate::stages::search::{Composed as _, Stage as _, singles};
+use crate::stages::search::{Composed as _, Stage as _, both, singles};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::multisample::SAMPLES;
@@ -15,11 +15,13 @@ use rasterproof_verify::cases::facts::{Topic, triangles};
 use rasterproof_verify::learn::rows::{Quantities, TriangleInWindow, Unit};
 use rasterproof_verify::learn::trial::Work;
 
+/// The four samples of each pixel.
 pub struct Samples;
 
 /// A sample of a pixel.
 pub struct Sample<'a> {
     pixel: Rc<Masked<'a>>,
+    /// The number of the sample, and of its bit in masks.
     bit: u8,
     triangle: Rc<TriangleInWindow>,
 }
@@ -27,7 +29,7 @@ pub struct Sample<'a> {
 impl Learnable for Samples {
     type Part<'a> = Sample<'a>;
     type Change = SampleMask;
-    const TOPIC: Topic = triangles::TOPIC;
+    const TOPIC: &'static Topic = &triangles::TOPIC;
     const PART: &'static str = "sample";
 
     fn of_question(case: &Case, out: &mut Quantities) {
@@ -38,6 +40,7 @@ impl Learnable for Samples {
 
     fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<Sample<'a>> {
         let Asked::Samples(corners) = &asked.question.of else { return Vec::new() };
+        // The pixels of the answer, shared by the four samples of each.
         let pixels: Vec<Rc<Masked<'a>>> =
             SampleMask::parts(&asked.question, &asked.answer, declared, 0.0)
                 .into_iter()
@@ -45,6 +48,7 @@ impl Learnable for Samples {
                 .collect();
         let window = PixelRect::window(asked.question.width, asked.question.height);
         let covered = pixels.iter().filter(|pixel| pixel.right > 0).map(|pixel| pixel.spot.at);
+        // The triangle is the same for all of them.
         let triangle = Rc::new(TriangleInWindow::new(corners, window, &mut { covered }));
         let of = |pixel: &Rc<Masked<'a>>| {
             [0, 1, 2, 3].map(|bit| Sample {
@@ -65,6 +69,7 @@ impl Learnable for Samples {
     }
 
     fn of_part(part: &Sample<'_>, _: Option<&SampleMask>, out: &mut Quantities) {
+        // The pixel, then its samples, then points beside the sample that a program may test in its place.
         part.triangle.of_pixel(part.pixel.spot.at, out);
         let Masked { right, is_centre_covered, .. } = *part.pixel;
         let has = |bit: u8| right >> bit & 1 == 1;
@@ -96,6 +101,7 @@ impl Learnable for Samples {
         ] {
             out.holds(part.pixel.has_point(at), name, [" is covered", " is not covered"]);
         }
+        // How near the sample lies to an edge: rounding matters there.
         let (inside, is_on) = part.pixel.inside(part.bit);
         out.flag(
             is_on,
@@ -112,8 +118,7 @@ impl Learnable for Samples {
     }
 
     fn both(a: &SampleMask, b: &SampleMask) -> Option<SampleMask> {
-        let both = a.with(b);
-        (both != *b).then_some(both)
+        both(a, b)
     }
 
     fn says(change: &SampleMask) -> String {

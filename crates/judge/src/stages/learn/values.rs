@@ -6,7 +6,7 @@
 use std::fmt;
 use std::rc::Rc;
 
-use super::{Learnable, LearnedCase};
+use super::learnable::{Learnable, LearnedCase};
 use crate::ask::{Answer, Asked};
 use crate::declared::Declared;
 use crate::expected::value_bounds;
@@ -19,6 +19,7 @@ use rasterproof_verify::learn::rows::{NONE, Quantities, TriangleInWindow, Unit, 
 use rasterproof_verify::learn::trial::Work;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, sum, weights};
 
+/// Depth and both attributes of each pixel.
 pub struct Values;
 
 /// A triangle with what is the same in all of its pixels.
@@ -36,35 +37,50 @@ struct TriangleOfValues<'a> {
 /// A value of a pixel.
 pub struct ValueOfPixel<'a> {
     of: Rc<TriangleOfValues<'a>>,
+    /// The column and the row.
     at: [i32; 2],
     /// 0 is depth, 1 and 2 are the attributes.
     which: usize,
+    /// The value that was answered.
     given: f64,
+    /// All three right values, since one may be given in place of another.
     right: [f64; 3],
+    /// How far the value may be off.
     allowed: f64,
 }
 
 /// What a program has at hand in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Term {
+    /// A number alone.
     One,
+    /// The exact value of the pixel.
     Right,
     /// Another one of the three values.
     Other(usize),
     /// Depth corrected for perspective; an attribute that is not.
     Uncorrected,
+    /// The value of a corner by its place in the request.
     Corner(usize),
+    /// The least value of the corners.
     Least,
+    /// The greatest value of the corners.
     Most,
+    /// The mean of the values of the corners.
     Mean,
     /// How the value changes to the next pixel along x or y.
     Slope(usize),
     /// The same for each pixel from the left side of the window, or from the top.
     SlopeFromSide(usize),
+    /// w at the pixel.
     W,
+    /// 1 / w at the pixel.
     InverseW,
+    /// The right value times w.
     TimesW,
+    /// The right value divided by w.
     OverW,
+    /// The right value times itself.
     Squared,
     /// The place of the sample, in pixels.
     Place(usize),
@@ -103,6 +119,7 @@ const STEPS: [([[f64; 2]; 2], &str); 7] = [
 /// Pixels of a row between two exact values, between which values are straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
+    /// How many pixels it has.
     side: i32,
     /// Whether it is counted from the first pixel in the window, else from that of the whole row.
     is_in_window: bool,
@@ -113,7 +130,9 @@ pub struct Stretch {
 /// A word in which twice the area wraps around.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaWord {
+    /// How many bits the word has.
     bits: u32,
+    /// Whether the greatest bit is a sign.
     is_signed: bool,
     /// Whether the fraction is cut first: square pixels instead of square subpixels.
     is_whole: bool,
@@ -122,6 +141,7 @@ pub struct AreaWord {
 impl AreaWord {
     /// By what the weights grow; nothing finite where the word is 0.
     fn growth(self, corners: &Corners) -> f64 {
+        // The area in the unit of the word, cut to its bits and read as the word would be.
         let fraction = if self.is_whole { 2 * SUBPIXELS.trailing_zeros() } else { 0 };
         let area = twice_area(corners);
         let wrapped = (area >> fraction).rem_euclid(1 << self.bits);
@@ -139,6 +159,7 @@ impl fmt::Display for AreaWord {
     }
 }
 
+/// The terms that are tried with every base, those first that say least.
 const TERMS: [Term; 22] = [
     Term::Right,
     Term::One,
@@ -167,6 +188,7 @@ const TERMS: [Term; 22] = [
 /// Terms that take the place of the right value and are added to nothing: other formats, other places and straight stretches.
 fn replacements() -> Vec<Term> {
     let mut terms = Vec::new();
+    // Words that are too short for twice the area.
     for bits in [16, 32] {
         for is_whole in [true, false] {
             for is_signed in [true, false] {
@@ -175,15 +197,19 @@ fn replacements() -> Vec<Term> {
         }
     }
     terms.extend([0, 1].map(|axis| Term::At(Place::Uncut(axis))));
+    // The first and the last pixel of a row or a column.
     for axis in [0, 1] {
         terms.extend([false, true].map(|is_last| Term::At(Place::End(axis, is_last))));
     }
+    // Blocks whose first pixel gives the value.
     for axes in [[true, false], [false, true], [true, true]] {
         terms.extend([2, 4, 8, 16].map(|side| Term::At(Place::Block(axes, side))));
     }
+    // Steps from a corner that are counted wrongly.
     for corner in [0, 1, 2] {
         terms.extend((0..STEPS.len()).map(|steps| Term::At(Place::FromCorner(corner, steps))));
     }
+    // Straight stretches between exact values.
     for side in [4, 8, 16, 32] {
         for is_cut in [true, false] {
             for is_in_window in [true, false] {
@@ -204,33 +230,38 @@ const ROUNDING: f64 = 24.0 * f64::EPSILON / 2.0;
 /// What a term is added to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Base {
+    /// The term is the whole value.
     Nothing,
+    /// The right value.
     Right,
     /// The right value with its other sign.
     Negated,
+    /// The value interpolated the other way: see [`Term::Uncorrected`].
     Uncorrected,
 }
 
+/// What a program may do in place of interpolating a value.
 #[derive(Clone)]
 pub enum Change {
-    Relation {
-        base: Base,
-        by: f64,
-        term: Term,
-    },
+    /// The base, and a number times the term.
+    Relation { base: Base, by: f64, term: Term },
     /// No number: not finite.
     NoNumber,
+    /// One of the mistakes of the course.
     Recipe(Rc<ValueHypothesis>),
 }
 
+/// Which value a part is, as facts have it: what holds, and what does not.
 const IS: [[&str; 2]; 3] = [
     [" is depth", " is not depth"],
     [" is the first attribute", " is not the first attribute"],
     [" is the second attribute", " is not the second attribute"],
 ];
+/// The three values, in words.
 const NAMES: [&str; 3] = ["depth", "the first attribute", "the second attribute"];
 
 impl Place {
+    /// What is said of a place, as the value that is taken there.
     fn words(self) -> String {
         let line = |axis: usize| ["row", "column"][axis];
         let of = match self {
@@ -255,6 +286,13 @@ impl Place {
     }
 }
 
+/// The same place in the next pixel along an axis.
+fn next(mut at: [f64; 2], axis: usize) -> [f64; 2] {
+    at[axis] += 1.0;
+    at
+}
+
+/// A coordinate in subpixels as pixels, exactly.
 fn in_px(subpixels: i32) -> f64 {
     f64::from(subpixels) / f64::from(SUBPIXELS)
 }
@@ -262,6 +300,7 @@ fn in_px(subpixels: i32) -> f64 {
 impl TriangleOfValues<'_> {
     /// Values at a place, in pixels.
     fn values(&self, at: [f64; 2]) -> [f64; 3] {
+        // Depth is linear in the window; attributes are linear in space, so that they are divided by w and back.
         let linear = weights(&self.triangle.corners(), at);
         let parts = [0, 1, 2].map(|i| linear[i] * self.triangle.vertices[i].inv_w);
         let whole: f64 = parts.iter().sum();
@@ -269,28 +308,28 @@ impl TriangleOfValues<'_> {
         [0, 1, 2].map(|k| sum(if k == 0 { linear } else { corrected }, self.corners[k]))
     }
 
+    /// 1 / w at a place, which is linear in the window.
     fn inverse_w(&self, at: [f64; 2]) -> f64 {
         sum(weights(&self.triangle.corners(), at), self.triangle.vertices.map(|v| v.inv_w))
     }
 }
 
 impl ValueOfPixel<'_> {
+    /// The sample of the pixel, in pixels.
     fn place(&self) -> [f64; 2] {
         [0, 1].map(|axis| f64::from(self.at[axis]) + self.of.sample[axis])
     }
 
+    /// The right value of those that this part is one of.
     fn right(&self) -> f64 {
         self.right[self.which]
     }
 
+    /// What a term comes to at the pixel.
     fn term(&self, term: Term) -> f64 {
         let corners = self.of.corners[self.which];
         let at = self.place();
-        let slope = |axis: usize| {
-            let mut next = at;
-            next[axis] += 1.0;
-            self.of.values(next)[self.which] - self.right()
-        };
+        let slope = |axis: usize| self.of.values(next(at, axis))[self.which] - self.right();
         match term {
             Term::One => 1.0,
             Term::Right => self.right(),
@@ -326,6 +365,7 @@ impl ValueOfPixel<'_> {
 
     /// The sample of another pixel, in pixels.
     fn other_place(&self, place: Place) -> [f64; 2] {
+        // Most of these places are the sample of another pixel.
         let mut at = self.at;
         match place {
             Place::Uncut(axis) => at[axis] += self.ends(axis)[0].min(0),
@@ -350,7 +390,9 @@ impl ValueOfPixel<'_> {
         [0, 1].map(|axis| f64::from(at[axis]) + self.of.sample[axis])
     }
 
+    /// The value on the straight line between the exact ones at both ends of a stretch of the row.
     fn straight(&self, Stretch { side, is_in_window, is_cut }: Stretch) -> f64 {
+        // The stretch that the pixel lies in, counted from the first pixel of the row.
         let [first, last] = self.ends(0);
         let first = if is_in_window { first.max(0) } else { first };
         let last = if is_in_window { last.min(self.of.window[0] - 1) } else { last };
@@ -363,6 +405,7 @@ impl ValueOfPixel<'_> {
             let place = [f64::from(x) + self.of.sample[0], self.place()[1]];
             self.of.values(place)[self.which]
         };
+        // Between its two ends the value is straight.
         let share = f64::from(self.at[0] - start) / f64::from(end - start);
         value(start) * (1.0 - share) + value(end) * share
     }
@@ -371,6 +414,7 @@ impl ValueOfPixel<'_> {
     /// or not, as far as doubles tell.
     fn ends(&self, axis: usize) -> [i32; 2] {
         let corners = self.of.triangle.corners().map(|c| [c.x, c.y].map(in_px));
+        // The line through the samples of the row crosses two edges, or passes a corner.
         let height = self.place()[1 - axis];
         let (mut least, mut most) = (f64::MAX, f64::MIN);
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
@@ -391,6 +435,7 @@ impl ValueOfPixel<'_> {
         [(least - sample).ceil() as i32, (most - sample).ceil() as i32 - 1]
     }
 
+    /// What a base comes to at the pixel.
     fn base(&self, base: Base) -> f64 {
         match base {
             Base::Nothing => 0.0,
@@ -403,6 +448,7 @@ impl ValueOfPixel<'_> {
     /// What is added up in a value of the triangle at a place, without signs.
     fn size_at(&self, at: [f64; 2]) -> f64 {
         let linear = weights(&self.of.triangle.corners(), at);
+        // The weights by which the corners count, as shares of their sum.
         let inverse = self.of.triangle.vertices.map(|v| v.inv_w);
         let parts = match self.which {
             0 => linear,
@@ -418,20 +464,17 @@ impl ValueOfPixel<'_> {
     /// What is added up in a term, without signs.
     fn size(&self, term: Term) -> f64 {
         let at = self.place();
-        let next = |axis: usize| {
-            let mut next = at;
-            next[axis] += 1.0;
-            self.size_at(next) + self.size_at(at)
-        };
+        let of_slope = |axis: usize| self.size_at(next(at, axis)) + self.size_at(at);
         match term {
-            Term::Slope(axis) => next(axis),
-            Term::SlopeFromSide(axis) => next(axis) * f64::from(self.at[axis]),
+            Term::Slope(axis) => of_slope(axis),
+            Term::SlopeFromSide(axis) => of_slope(axis) * f64::from(self.at[axis]),
             Term::At(place) => self.size_at(self.other_place(place)),
             // Within the triangle no weight is below 0, so that it is no more than the largest corner.
             _ => self.term(term).abs().max(self.largest()),
         }
     }
 
+    /// The largest magnitude of the value at the corners.
     fn largest(&self) -> f64 {
         self.of.corners[self.which].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()))
     }
@@ -439,6 +482,7 @@ impl ValueOfPixel<'_> {
     /// Whether a predicted value is the given one, where so much is added up in it: predictions are rounded too, but what is as
     /// near to the right value explains nothing.
     fn is(&self, predicted: f64, size: f64) -> bool {
+        // A prediction that is hardly nearer to the answer than the right value is no explanation.
         let off = (self.given - predicted).abs();
         let allowed = self.allowed.max(ROUNDING * size);
         off <= allowed || (off <= 10.0 * allowed && 2.0 * off <= (self.given - self.right()).abs())
@@ -451,18 +495,20 @@ const MOST_PIXELS: usize = 60;
 impl Learnable for Values {
     type Part<'a> = ValueOfPixel<'a>;
     type Change = Change;
-    const TOPIC: Topic = facts::values::TOPIC;
+    const TOPIC: &'static Topic = &facts::values::TOPIC;
     const PART: &'static str = "value";
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(t) = case.triangles().first() else { return };
         TriangleInWindow::new(&t.corners(), case.window, &mut std::iter::empty()).of_question(out);
+        // How far w differs decides how much perspective there is.
         let w = t.vertices.map(|v| 1.0 / v.inv_w);
         let (least, most) = w.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
         out.number(Unit::Value, value(most / least), &["the largest w over the smallest"]);
         out.number(Unit::Value, value(least), &["the smallest w"]);
         out.number(Unit::Value, value(most), &["the largest w"]);
         const ORDINALS: [&str; 3] = ["first", "second", "third"];
+        // Each number of each corner, and how it differs from that of the next corner.
         let corners = t.vertices.map(|v| [1.0 / v.inv_w, v.depth, v.varying.x, v.varying.y]);
         let names = ["w", NAMES[0], NAMES[1], NAMES[2]];
         for (k, name) in names.into_iter().enumerate() {
@@ -488,6 +534,7 @@ impl Learnable for Values {
         };
         let window = PixelRect::window(asked.question.width, asked.question.height);
         let is_in = |x: i32, y: i32| window.contains(x, y);
+        // The quantities of pixels are those of the pixels that were drawn, right or not.
         let mut covered = fragments.iter().map(|f| [f.x_px, f.y_px]).filter(|[x, y]| is_in(*x, *y));
         let facts = TriangleInWindow::new(&triangle.corners(), window, &mut covered);
         let v = &triangle.vertices;
@@ -501,6 +548,7 @@ impl Learnable for Values {
             window: [window.x1, window.y1],
             facts,
         });
+        // Of large triangles some pixels, evenly spread; each gives three parts.
         let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
         let mut parts = Vec::new();
         for f in fragments.iter().step_by(step).filter(|f| is_in(f.x_px, f.y_px)) {
@@ -526,6 +574,7 @@ impl Learnable for Values {
     fn explains(change: &Change, part: &ValueOfPixel<'_>) -> bool {
         match change {
             Change::Relation { base, by, term } => {
+                // What overflows predicts a number that is none.
                 let predicted = part.base(*base) + by * part.term(*term);
                 if !predicted.is_finite() {
                     return !part.given.is_finite();
@@ -545,6 +594,7 @@ impl Learnable for Values {
         for (k, is) in IS.into_iter().enumerate() {
             out.holds(part.which == k, "the value", is);
         }
+        // The right value and what it is computed from.
         let real = |term: Term| value(part.term(term));
         out.number(Unit::Value, real(Term::Right), &["the right value"]);
         out.number(Unit::Value, value(part.right().abs()), &["the right value without sign"]);
@@ -566,6 +616,7 @@ impl Learnable for Values {
                 &["its change to the next pixel along ", name],
             );
         }
+        // Where in the triangle the pixel lies: its weights, the largest and the smallest of them.
         let weights = weights(&part.of.triangle.corners(), part.place());
         let (mut most, mut least) = (0, f64::MAX);
         for (i, weight) in weights.into_iter().enumerate() {
@@ -587,6 +638,7 @@ impl Learnable for Values {
     }
 
     fn changes(wrong: &[&ValueOfPixel<'_>], _: &[&ValueOfPixel<'_>], _: &Work) -> Vec<Change> {
+        // Every term with every base, each with the numbers that are read off the wrong values.
         let mut all = vec![Change::NoNumber];
         for base in [Base::Nothing, Base::Right, Base::Uncorrected, Base::Negated] {
             for term in TERMS {
@@ -596,6 +648,7 @@ impl Learnable for Values {
         for term in replacements() {
             all.extend(related(Base::Nothing, term, wrong));
         }
+        // The recipes of the course sample at the centres of pixels.
         let is_centred = wrong.first().is_some_and(|part| {
             part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
         });
@@ -612,6 +665,7 @@ impl Learnable for Values {
             Change::Recipe(recipe) => return recipe.says.does.clone(),
             Change::Relation { base, by, term } => (*base, *by, *term),
         };
+        // The term in words; a number alone has none.
         let word = match term {
             Term::One => String::new(),
             Term::Right => "the right value".to_owned(),
@@ -646,6 +700,7 @@ impl Learnable for Values {
                 format!("the right value as if twice the area was kept in {word}")
             }
         };
+        // The number before it, unless it is 1, and then what both are added to.
         let size = by.abs();
         let product = match (word.is_empty(), size == 1.0) {
             (true, _) => format!("{size}"),
@@ -663,6 +718,7 @@ impl Learnable for Values {
     }
 }
 
+/// How the other interpolation is said: depth is linear in the window, and attributes are not.
 const UNCORRECTED: &str =
     "the value interpolated the other way (depth with perspective, attributes without)";
 
@@ -675,6 +731,7 @@ const TELLING: f64 = 0.02;
 /// The numbers with which most of some wrong values are such a term, added to something. Each value allows a range of numbers,
 /// and a number is one that lies in most of the ranges.
 fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
+    // The numbers that each value allows.
     let mut ranges: Vec<[f64; 2]> = Vec::new();
     for part in wrong {
         let (of, start) = (part.term(term), part.given - part.base(base));
@@ -687,6 +744,7 @@ fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
         }
     }
     let mut found = Vec::new();
+    // The number that most values allow, then the one that most of the others do.
     while found.len() < MOST_NUMBERS && ranges.len() >= LEAST_VALUES {
         let (count, range) = densest(&ranges);
         if count < LEAST_VALUES || 10 * count < ranges.len() {
@@ -704,6 +762,7 @@ fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
 
 /// The part of a line that most ranges share, and how many do.
 fn densest(ranges: &[[f64; 2]]) -> (usize, [f64; 2]) {
+    // Along the line, a range is open from its first end to its second.
     let mut ends: Vec<(f64, bool)> = Vec::new();
     for [low, high] in ranges {
         ends.extend([(*low, false), (*high, true)]);
