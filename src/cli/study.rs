@@ -229,14 +229,23 @@ pub(super) fn verify(
     show(report, Shown::All.or_json(is_json), None, status, streams)
 }
 
-/// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
-/// case, for those who do not snap with corners on the grid; nothing where it is not in the window.
+/// A face of a model, which `inspect` shows as a case.
+pub(super) struct FaceOfModel {
+    /// What is known of it, a line each.
+    pub about: Vec<String>,
+    /// Its pieces; nothing where it is not in the window.
+    pub case: Option<InspectedCase>,
+}
+
+/// The face of a model that the words of `inspect` name: FILE#NUMBER. Where its corners are put on another grid than the usual
+/// one, its pieces are a case for those who do not snap.
 pub(super) fn face(
     (path, word): (&Path, &str),
-    (view, grid): (&ViewArguments, CornerGrid),
-    (typed, is_exact): (&Typed, bool),
+    view: &ViewArguments,
+    grid: CornerGrid,
+    typed: &Typed,
     streams: &mut Streams<'_>,
-) -> Result<(Vec<String>, Option<InspectedCase>), InputError> {
+) -> Result<FaceOfModel, InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = studied(&maker, maker.scene.clone(), view, grid)?;
@@ -252,8 +261,10 @@ pub(super) fn face(
     let mut about = vec![format!("{shown}: {}", subject.place(first))];
     about.extend(known);
     if pieces.is_empty() {
-        return Ok((about, None));
+        return Ok(FaceOfModel { about, case: None });
     }
+    // The corners as they would be typed, so that the case is made as from words: off the lattice there are no values.
+    let is_exact = grid != CornerGrid::USUAL;
     let mut corners = Vec::new();
     for piece in pieces {
         let px = if is_exact { grid.place(piece.px) } else { piece.px };
@@ -264,12 +275,12 @@ pub(super) fn face(
             });
         }
     }
-    let title = format!("{shown}#{}", printable(word));
-    let found = match inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))? {
-        InspectedCase::Case { case, expected, typed, .. } => {
-            InspectedCase::Case { title, case, expected, typed }
-        }
-        found => found,
-    };
-    Ok((about, Some(found)))
+    let mut case = inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))?;
+    if let InspectedCase::Case(case) = &mut case {
+        case.title = format!("{shown}#{}", printable(word));
+    }
+    if is_exact {
+        case = inspect_case::off_lattice(case)?;
+    }
+    Ok(FaceOfModel { about, case: Some(case) })
 }
