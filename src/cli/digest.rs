@@ -7,6 +7,7 @@ use rasterproof_registry::digest::{self, DigestOptions, DigestRow};
 use rasterproof_report::html::Report;
 use rasterproof_report::json;
 use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::noun;
 
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
@@ -33,7 +34,8 @@ pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     drop(progress);
     let total = digest::total(&parts);
     let row = |of: &DigestRow| Row::of(&[&of.engine, &of.what, &of.sha256]);
-    let all = Row::of(&[&format!("seed {seed}, {cases} cases"), &"", &total]);
+    let all = format!("seed {seed}, {cases} {}", noun(*cases, "case", "cases"));
+    let all = Row::of(&[&all, &"", &total]);
     let rows = parts.iter().map(row).chain([all]).collect();
     let report = Report {
         tables: vec![Table::new("", "engine 19 | what 8 | SHA-256 64", rows)],

@@ -304,9 +304,9 @@ fn findings(case: &Case, judged: &EnginesToJudge) -> Vec<Row> {
     for ([actual, target], of) in judged.judge_case(case) {
         let mut what = format!("{actual} against {target}: {}", of.describe());
         if of.values > 0 {
-            let values = in_words::count(of.values, "value", "values");
+            let (n, values) = (of.values, in_words::noun(of.values, "value", "values"));
             let bound = in_words::of_bound(of.attribute.max(of.depth));
-            what += &format!("; {values}, {bound}");
+            what += &format!("; {n} {values}, {bound}");
         }
         let Decisions { by_filter, by_fallback } = of.decisions;
         let all = by_filter + by_fallback;

@@ -27,7 +27,7 @@ use rasterproof_judge::{Options, Step, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
-use rasterproof_report::words::count;
+use rasterproof_report::words::noun;
 use rasterproof_report::written_test::{self, Language};
 
 #[derive(clap::Args, Debug)]
@@ -202,8 +202,9 @@ fn save_test(
     let output = Output { path: path.to_owned(), over: Over::None };
     match &written.text {
         Some(text) if streams.save(&output, text.as_bytes()) => {
-            let tests = count(written.count as u64, "test", "tests");
-            writeln!(streams.errors, "{tests} in {}: {shown}", language.name())?;
+            let (count, language) = (written.count, language.name());
+            let tests = noun(count as u64, "test", "tests");
+            writeln!(streams.errors, "{count} {tests} in {language}: {shown}")?;
         }
         Some(_) => return Ok(()),
         None if verdict.failures.is_empty() => {

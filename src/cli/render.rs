@@ -29,7 +29,7 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::words::count;
+use rasterproof_report::words::noun;
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
 use rasterproof_study::corner_grid::CornerGrid;
@@ -559,8 +559,8 @@ fn spin(
     for (pixels, what) in [(undecided, "where surfaces tie"), (far, "by large texture coordinates")]
     {
         if pixels > 0 {
-            let pixels = count(pixels, "pixel", "pixels");
-            notes.push(format!("UNDECIDED: {pixels}, {what}"));
+            let of = noun(pixels, "pixel", "pixels");
+            notes.push(format!("UNDECIDED: {pixels} {of}, {what}"));
         }
     }
     let agrees = arguments.engine != DrawnBy::Both || wrong == 0;

@@ -24,6 +24,7 @@ use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, TextDiff};
 use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::noun;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Exit status: 0 nothing is pending, 1 something is, 2 usage or bad input.")]
@@ -99,12 +100,14 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }
     if let Some(more @ 1..) = unread.len().checked_sub(MOST_UNREAD) {
-        writeln!(streams.errors, "warning: {more} more folders could not be looked into")?;
+        let folders = noun(more as u64, "folder", "folders");
+        writeln!(streams.errors, "warning: {more} more {folders} could not be looked into")?;
     }
     let mut notes = Vec::new();
     if left_out > 0 {
+        let are = noun(left_out as u64, "is", "are");
         notes.push(format!(
-            "{left_out} more are not looked into: accept or reject the {MOST_LISTED} listed ones first, \
+            "{left_out} more {are} not looked into: accept or reject the {MOST_LISTED} listed ones first, \
              or name a folder with fewer"
         ));
     }

@@ -359,10 +359,12 @@ fn about(row: &Row) -> String {
 }
 
 pub fn sentence(row: &Row) -> String {
+    let (of, cases) = (row.cases, if row.cases == 1 { "case" } else { "cases" });
     let mut out = match row.wrong_cases {
-        0 => format!("{} cases agree", row.cases),
-        n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
-        n => format!("wrong in {n} of {} cases", row.cases),
+        0 if of == 1 => "1 case agrees".to_owned(),
+        0 => format!("{of} cases agree"),
+        n if row.sides.is_some() => format!("different in {n} of {of} {cases}"),
+        n => format!("wrong in {n} of {of} {cases}"),
     };
     for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {
         out += &format!(", {count}");

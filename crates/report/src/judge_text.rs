@@ -4,7 +4,7 @@ use super::html::{Chapter, Excerpt, Outcome, Report, Statement};
 use super::json;
 use super::table::{Row, Table};
 use super::text::SCREEN;
-use super::words::{of_bound, same, thousands};
+use super::words::{count, of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::{Breach, Complaints};
@@ -312,7 +312,7 @@ fn dangers(verdict: &Verdict) -> Table {
     let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
     for row in rows.iter().filter(|row| !in_a_danger(row.name)) {
         let what = match row.wrong_cases {
-            0 => format!("{} cases, all right", thousands(row.cases)),
+            0 => format!("{}, all right", count(row.cases, "case", "cases")),
             _ => verdict::sentence(row),
         };
         out.push(summary::row(is_good(row.name), row.name, &what));

@@ -8,7 +8,7 @@ use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json::value;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words;
 use rasterproof_verify::cases::{Case, Shape};
 
 use super::studied::{Studied, has_pixel};
@@ -71,22 +71,23 @@ pub fn report(
         Row::of(&[&name, &what, &first.unwrap_or_default()]).marked(fault.is_none())
     };
     let why = "whose texture coordinates are too large for the engines";
-    let is_left =
-        (left > 0).then(|| format!("not judged: {} pieces, {why}", thousands(left as u64)));
+    let is_left = (left > 0)
+        .then(|| format!("not judged: {}, {why}", words::count(left as u64, "piece", "pieces")));
     let columns = "~engine 1 | ~found 1 | first fault";
     let engines = Table::new("", columns, faults.iter().map(row).collect());
     let engines = engines.judged().noted(Vec::from_iter(is_left));
-    let pieces = thousands(count as u64);
+    let pieces = words::count(count as u64, "piece", "pieces");
+    let have = words::noun(count as u64, "has", "have");
     let report = Report {
         about: studied.head(),
         tables: vec![hard_cases(subject, &studied.hard, &[]), engines],
         outcome: Some(match agrees {
-            Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
+            Some(agrees) => Outcome::of(agrees, format!("{pieces} of {shown}")),
             None => Outcome::new(
                 false,
                 "NOT JUDGED",
                 format!(
-                    "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
+                    "the {pieces} of {shown} in the window {have} no pixel, so nothing was compared; \
                      look at it from another side (--yaw, --pitch, --zoom)"
                 ),
             ),

@@ -1,4 +1,5 @@
-//! The verdict on a device.
+//! The verdict on a device: for each property what was found and by which rule of the specification it was judged, then the rules,
+//! each with what it leaves open, and the cases that fail, as in the verdict on a program.
 
 use super::campaign::DeviceReport;
 use super::outcome::Requirement;
@@ -9,13 +10,18 @@ use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{json, judge_text};
 use rasterproof_verify::specification::Standing;
 
+/// What a device says of itself, in a line.
 pub fn device(about: &About) -> String {
-    let lines = [
+    let mut lines = Vec::new();
+    for (has, word) in [
         (about.strict_lines, "strict"),
         (about.rectangular_lines, "rectangular by choice"),
         (about.bresenham_lines, "Bresenham by choice"),
-    ];
-    let lines: Vec<_> = lines.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
+    ] {
+        if has {
+            lines.push(word);
+        }
+    }
     let lines = if lines.is_empty() { "loose".to_owned() } else { lines.join(", ") };
     let samples = match (about.four_samples, about.standard_samples) {
         (true, true) => "four samples at standard places",
@@ -49,10 +55,13 @@ fn sections(findings: &[Requirement]) -> Vec<(String, Vec<&str>)> {
     sections
 }
 
+/// The answer in a sentence: how many properties are equal, allowed or known, and which of them fail.
 fn closing(stand: &DeviceReport) -> String {
     let count = |class: Standing| stand.findings.iter().filter(|f| f.class == class).count();
-    let bad: Vec<_> =
-        stand.findings.iter().filter(|f| !f.class.is_good()).map(|f| f.name.as_str()).collect();
+    let mut bad = Vec::new();
+    for finding in stand.findings.iter().filter(|f| !f.class.is_good()) {
+        bad.push(finding.name.as_str());
+    }
     let shapes = stand.verdict.shapes(Shapes::Triangles);
     let first = match stand.verdict.more.found.changing.is_empty() {
         true => "",
@@ -87,17 +96,19 @@ pub fn report(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
     let verdict = &stand.verdict;
-    let row = |f: &Requirement| Row {
-        cells: vec![
-            f.name.clone(),
-            f.class.words().to_owned(),
-            f.detail.clone(),
-            format!("{}: {}", f.rule.section, f.rule.says),
-        ],
-        mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict.failures.iter().any(|x| x.evidence.shows(&f.name)).then(|| f.name.clone()),
-        ..Row::default()
-    };
+    let mut rows = Vec::new();
+    for f in &stand.findings {
+        let rule = format!("{}: {}", f.rule.section, f.rule.says);
+        // A property with a failing case leads to it.
+        let has_case = verdict.failures.iter().any(|failure| failure.evidence.shows(&f.name));
+        rows.push(Row {
+            cells: vec![f.name.clone(), f.class.words().to_owned(), f.detail.clone(), rule],
+            mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
+            search: has_case.then(|| f.name.clone()),
+            ..Row::default()
+        });
+    }
+    // What is true of all properties together stands below the table.
     let mut notes = Vec::new();
     if let Some(row) = verdict.families.iter().find(|row| row.values > 0) {
         let (values, worst) = (row.values, row.worst);
@@ -113,21 +124,25 @@ pub fn report(
     notes.extend(Some(left_out).filter(|said| !said.is_empty()));
     notes.extend(stand.known.iter().map(|about| format!("known of this driver: {about}")));
     let columns = "property 22 | ~class 22 | found 1 | rule";
-    let rows = stand.findings.iter().map(row).collect();
     let findings =
         Table::new("What was judged, and by which rule of the specification", columns, rows);
-    let sections = sections(&stand.findings).into_iter();
-    let rules = sections.map(|(section, names)| format!("{section} ({})", names.join(", ")));
-    let rules = Table::of_notes("Rules of the specification", rules.collect());
     let findings = findings.noted(notes).judged();
+    let mut rules = Vec::new();
+    for (section, names) in sections(&stand.findings) {
+        rules.push(format!("{section} ({})", names.join(", ")));
+    }
+    let rules = Table::of_notes("Rules of the specification", rules);
     // A terminal has the rules below.
     let mut short = findings.clone();
     short.columns.pop();
-    short.rows.iter_mut().for_each(|row| drop(row.cells.pop()));
+    for row in &mut short.rows {
+        row.cells.pop();
+    }
     let mut about = format!("{}: {}", verdict.more.declared.name, device(&stand.about));
     if let Some(plant) = &stand.plant {
         about += &format!("\na fault is planted: {plant}");
     }
+    // All else is as in the verdict on a program.
     let whole = judge_text::whole(verdict, repeat_all, repeat, false);
     let mut data = whole.data;
     data["agrees"] = stand.agrees().into();
