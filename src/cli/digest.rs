@@ -25,13 +25,16 @@ pub struct DigestArguments {
     json: bool,
 }
 
+/// Prints a hash for each engine and each thing that it computes, and one of all.
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json: is_json } = arguments;
     let (options, engine) = (DigestOptions { seed: *seed, cases: *cases }, engine.as_deref());
+    // How many cases there are is counted first, for the bar.
     let cases_in_all = digest::case_count(options, engine);
     let progress = Progress::new(streams.progress, "cases", Some(cases_in_all));
     let parts = digest::digest(options, engine, &|more| progress.done(more));
     drop(progress);
+    // The order of the parts is fixed, so the hash of all does not depend on the threads.
     let total = digest::total(&parts);
     let row = |of: &DigestRow| Row::of(&[&of.engine, &of.what, &of.sha256]);
     let all = format!("seed {seed}, {cases} {}", noun(*cases, "case", "cases"));

@@ -193,6 +193,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let status = issue(&certificate, certificate_file, streams)?;
     // Standard output, too, holds the certificate only if it was taken.
     streams.output.flush()?;
+    // What is not written in full is no proof, so the checkpoint stays until the certificate has arrived.
     if streams.delivery.is_whole() {
         if let Err(error) = output::remove(path) {
             writeln!(streams.errors, "warning: {error}")?;
@@ -276,6 +277,7 @@ pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let output = arguments.output.as_deref().map(Output::typed);
     let written = output.as_ref().map(|output| output.named("--output"));
     output::check_all(read.chain(written))?;
+    // Files of shards come from several machines, so each is checked by itself before they are joined.
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);

@@ -1,5 +1,8 @@
 //! `rasterproof inspect`: one case, every engine, pixel by pixel.
 
+//!
+//! Each engine that draws the case is shown as characters and on a picture, and compared with the oracle in pixels and in values. A
+//! pixel can be explained: by the edge functions at its centre, the rule where one of them is 0, and the span of its row.
 use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
 
@@ -67,6 +70,7 @@ pub struct InspectArguments {
 /// Largest side of a window to look at: every engine gets a panel of the picture.
 const MOST_SIDE_PX: u32 = 2048;
 
+/// The parser of --window.
 fn parse_window(text: &str) -> Result<PixelRect, String> {
     let sides = format!("sides from 1 to {MOST_SIDE_PX}, for example 64x48");
     window(text).ok_or(format!("expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with {sides}"))
@@ -90,6 +94,7 @@ fn is_snapped(case: &Case, typed: &[FreeCorners]) -> bool {
     list.iter().map(|triangle| FreeCorners::from(triangle.corners())).ne(typed.iter().copied())
 }
 
+/// Draws and compares one case, in its window or another one.
 pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
         ends_in(path, "png", "the picture")?;
@@ -131,6 +136,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     // What everybody draws, with a published algorithm and a device beside them where these were named.
     let judged = case_view::judged(arguments.plant.as_deref());
     let mut shown = case_view::draw(&case, &judged);
+    // A planted fault may be in nothing that draws such a case, and then nobody is left to be judged.
     if shown.is_empty() {
         let (name, program) = (arguments.plant.as_deref().unwrap_or_default(), program());
         return Err(usage(format!(
@@ -169,6 +175,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         true => Outcome::of(agrees, format!("{not}every engine draws what the oracle draws")),
         false => Outcome::not_compared("No pixel of this window is drawn; name another --window."),
     });
+    // The picture has the case on the lattice, which is what most engines draw.
     let unasked = arguments.page.place.output("inspect.png");
     let picture = picture::png(&shown.picture(&title, &case));
     report.notes.extend(write_picture(asked.as_ref(), &unasked, &picture, streams)?);
@@ -290,6 +297,7 @@ fn device(
     };
     let corners: Vec<_> = list.iter().map(|t| t.corners()).collect();
     let hits = super::vulkan::coverage(engine, &corners, case.window)?;
+    // Its pixels are compared with the oracle's, as those of an engine are.
     let tally = shown.add_drawn(engine, hits);
     let said = match tally.total() {
         0 => "agrees".to_owned(),
@@ -345,6 +353,7 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> Vec<String> {
             "cropped: the shape is {width} x {height} px, the window {columns} x {rows}; see more with --window"
         ));
     }
+    // A picture of characters has a largest size; a window beyond it is shown in part.
     let (shown, high) = (columns.min(ascii::MOST_COLUMNS), rows.min(ascii::MOST_ROWS));
     if (shown, high) != (columns, rows) {
         out.push(format!(

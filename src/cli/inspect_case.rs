@@ -165,6 +165,7 @@ pub(super) fn triangles(
         let px = corners.map(|corner| corner.px);
         typed.push(FreeCorners::new(px).map_err(|refusal| usage(format!("'{a}': {refusal}")))?);
     }
+    // Typed points are one case, which has one window; its title lists the points where they are few.
     let title = match triples {
         [[a, b, c]] => format!("triangle {a} {b} {c}"),
         _ => format!("{} triangles", list.len()),

@@ -63,6 +63,7 @@ pub fn run(
         }
     }
     drop(progress);
+    // Of one invariant the row itself is the answer.
     let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
                    what it says | :tolerance | what was found";
     let report = Report {

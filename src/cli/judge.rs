@@ -125,6 +125,7 @@ impl JudgeArguments {
         options
     }
 
+    /// How long the program is waited for.
     fn limits(&self) -> Limits {
         Limits { answer: self.timeout, start: self.start_timeout }
     }
@@ -136,6 +137,7 @@ impl JudgeArguments {
         options
     }
 
+    /// The format that is asked for; --json is another word for one of them.
     fn format(&self) -> Format {
         if self.json { Format::Json } else { self.format }
     }
@@ -231,11 +233,13 @@ fn tessellator(
 ) -> Status {
     let declared = program.declared().clone();
     let name = &declared.name;
+    // One that declares more would be judged by pixels, too, and its polygons would be lost among them.
     if declared.capabilities().len() > 1 {
         return Err(usage(format!(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
+    // Those options are about pixels, pairs or pages, which a judgement of polygons does not have.
     if let Some(option) =
         typed.given(&["baseline", "against", "checkpoint", "report", "write-test"])
     {
@@ -344,6 +348,7 @@ fn watched(
     let mut askers: Vec<_> =
         askers.into_iter().map(|asked| watch::until_changed(asked, files)).collect();
     let options = arguments.remembering();
+    // First what failed before, since that is what was changed; then all cases, since a change may break others.
     if let Some(before) = before {
         let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
         if asked > 0 {
@@ -359,6 +364,7 @@ fn watched(
     drop(progress);
     let record = JudgementRecord::of(&mut *askers[0], &verdict);
     askers[0].finish();
+    // A program that was built again meanwhile would be judged half as the old one, half as the new one.
     if files.have_changed() {
         return Ok(None);
     }
@@ -434,6 +440,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     }
     let progress = progress_of(&options, &declared, streams);
     let step = |step| progress.step(step);
+    // Copies of a program share the cases; of a pair each program is asked all of its cases.
     let mut verdict = if others.is_empty() {
         judge_one(&mut askers, &options, &step)
     } else {
@@ -457,6 +464,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     report.command = typed.clone().set("seed", arguments.seed).line();
     let mut agrees = verdict.agrees();
     save_junit(arguments, &verdict, &again, streams);
+    // Reports have a page; all other formats are written as they are, and the page beside them.
     match arguments.format() {
         format @ (Format::Text | Format::Json) => {
             let shown = Shown::Screen.or_json(format == Format::Json);

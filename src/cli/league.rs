@@ -1,5 +1,8 @@
 //! `rasterproof judge --league`: the installed adapters of libraries, one after the other.
 
+//!
+//! A library is known by its adapter, a small program that speaks the line protocol for it. What is compared are wrong pixels twice:
+//! as the library declares its rules, and by the rules that its pixels follow, so that another convention is not taken for a fault.
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -30,6 +33,7 @@ pub fn run(
     place: &Place,
     streams: &mut Streams<'_>,
 ) -> Status {
+    // A list of adapters is part of the project, and so is the folder in which their commands run.
     let text = input::read_text(Path::new(ADAPTERS), limits::NOTE_BYTES)
         .map_err(|e| usage(format!("{e}\n  run it in the folder of the project")))?;
     let adapters: Vec<Adapter> = serde_json::from_str(&text)
@@ -58,6 +62,7 @@ pub fn run(
         shown.push(Row::of(&[&adapter.name, &triangles, &by_rule, &lines, &lines_by_rule]));
         rows.push(standing);
     }
+    // A table without rows would look like a league in which nothing is wrong.
     if rows.is_empty() {
         return Err(usage("no adapter is installed\n  adapters/install prepares them"));
     }
@@ -67,6 +72,7 @@ pub fn run(
     print(Report { tables, ..Report::default() }, exit::AGREES, streams)?;
     let Options { seed, cases, .. } = *options;
     let all = League { rasterproof: env!("CARGO_PKG_VERSION").to_owned(), seed, cases, rows };
+    // The same table for machines and for the pages of both languages.
     for (name, text) in [
         ("league.json", pretty(&all)),
         ("league.md", league::tables(&all, false)),

@@ -70,6 +70,7 @@ pub mod exit {
     /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 
+    /// The status of a command that has judged.
     pub const fn of(agrees: bool) -> u8 {
         if agrees { AGREES } else { DISAGREES }
     }
@@ -406,6 +407,7 @@ fn is_for_machines(command: &Command, words: &[OsString]) -> bool {
             return true;
         }
     }
+    // Commands that print what programs read, whatever their options say.
     matches!(command, Engine { .. } | Exhaust(_) | Merge(_) | Digest(_) | Fixtures(_))
 }
 

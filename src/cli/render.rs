@@ -177,6 +177,7 @@ struct RenderFindings {
 }
 
 impl RenderFindings {
+    /// Draws and compares, with a bar while it lasts.
     fn of(
         arguments: &RenderArguments,
         maker: &Maker,
@@ -325,6 +326,7 @@ fn on_grid(
     let target = arguments.what.view.target()?;
     let Cells { scene, disagreeing } =
         grid::cells(&maker.scene, target.bounds(), grid).map_err(usage)?;
+    // The usual scene stays as it is, to see what the other grid changes in it.
     let scene = std::mem::replace(&mut maker.scene, scene);
     Ok(Some(UsualGrid { scene, disagreeing, target }))
 }
@@ -538,12 +540,14 @@ fn spin(
         for frame in 0..frames {
             let scene = maker.turned(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
+            // Numbers of all frames add up: one of them that differs is enough.
             if let Some(c) = compare(&scene, &drawings, false)? {
                 is_compared = true;
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
                 far += c.far_texture;
             }
+            // The screen keeps what was finished last, so that no frame is seen half drawn.
             if let Some(first) = drawings.into_iter().next() {
                 screen.back = first.target;
                 screen.present(first.rendered.picture, &mut counters);

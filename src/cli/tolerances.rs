@@ -37,6 +37,7 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
     if let Some(path) = &arguments.plot {
         ends_in(path, "svg", "the plot")?;
     }
+    // Random scenes and hard cases are drawn by all faults and all right rasterizers, then judged by all rules.
     let progress = Progress::new(streams.progress, "scenes", None);
     let report = report(arguments.seed, &|| progress.done(1));
     drop(progress);
@@ -113,6 +114,7 @@ fn wrong_of(name: &str, wrong: u64, all: u64) -> String {
     format!("{name}, {wrong} of {all} px")
 }
 
+/// The page: what each rule catches, what it lets through, and what it says.
 fn page(seed: u64, report: &Acceptance) -> Page {
     let (faults, right) = (report.faults.len(), report.right.len());
     let sets = sets(report);
@@ -180,6 +182,7 @@ fn plot(report: &Acceptance) -> Drawing {
     ];
     let mut rows = Vec::new();
     for ((suites, hard), rule) in report.suites.iter().zip(&report.hard).zip(&RULES) {
+        // A share of rasterizers that is refused in either set, so the longer of the two bars.
         let refused = suites.refused_right.len().max(hard.refused_right.len());
         let bars = vec![
             bar(BLUE, suites.caught.len(), faults),

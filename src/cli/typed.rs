@@ -77,6 +77,7 @@ impl Typed {
         self.insert(0, option, value)
     }
 
+    /// The same with one value of an option, wherever else the option was.
     fn insert(self, at: usize, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
         let at = at.min(typed.options.len());

@@ -96,6 +96,7 @@ pub struct VerifyArguments {
     plant: Option<String>,
 }
 
+/// The families that --family takes.
 fn family_names() -> Vec<&'static str> {
     cases::all_families().map(|family| family.name).collect()
 }
@@ -123,6 +124,7 @@ impl TypedValueParser for EngineName {
         argument: Option<&clap::Arg>,
         value: &std::ffi::OsStr,
     ) -> Result<String, clap::Error> {
+        // The name of a device is a place in a list or a word, so it cannot be looked up before the driver is asked.
         if let Some(name) = value.to_str().filter(|name| name.starts_with(VULKAN)) {
             if cfg!(feature = "vulkan") {
                 return Ok(name.to_owned());
@@ -189,6 +191,7 @@ impl VerifyArguments {
 
 /// Judges invariants, a device, or the engines on generated cases, whichever the options ask for.
 pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    // Invariants have inputs of their own, so no family, engine or time limit applies to them.
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
@@ -205,6 +208,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
     let verdict = judge(&judged, &options, streams.progress);
+    // A verdict about nothing would look like one that agrees.
     if verdict.families.iter().all(|family| family.cases == 0) {
         return Err(usage(
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
@@ -232,6 +236,7 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     if arguments.shard != (0, 1) {
         return Err(usage("a Vulkan device is judged whole: leave out --shard"));
     }
+    // It is judged by the judge of programs, which has options of its own.
     let mut asked = rasterproof_judge::Options::default().seed(options.seed);
     (asked.time_limit, asked.only) = (options.time_limit, options.only);
     asked.families.clone_from(&arguments.family);
@@ -275,6 +280,7 @@ impl Run<'_> {
 
     /// The command that repeats the run, with as many cases of each family as the time allowed.
     fn repeat_all(&self) -> Typed {
+        // Whoever repeats a timed run needs the same cases on a machine that is faster or slower.
         let largest = self.verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
         let is_timed = self.arguments.seconds.is_some();
         let cases = if is_timed { largest } else { self.verdict.options.cases };
@@ -336,6 +342,7 @@ impl Run<'_> {
     /// What the designs asked; nothing where some of their cases were not judged.
     fn asked(&self) -> Vec<DesignShare> {
         let options = &self.verdict.options;
+        // A part of the cases was not designed to have every two facts together.
         if options.only.is_some() || options.shard.parts() > 1 || options.time_limit.is_some() {
             return Vec::new();
         }
@@ -360,8 +367,10 @@ impl Run<'_> {
 
     /// The smallest failure with its pixels, and that no cause was recognised, where that is so.
     fn excerpt(&self, failure: &comparison::Failure, cause: Option<&Cause>) -> Excerpt {
+        // The smallest case of the first failure is the answer; one for each other family follows below.
         let shown = case_view::draw(&failure.case, &self.judged);
         let engine = &failure.evidence.pair[0];
+        // The pixels of this engine beside those of the oracle, where it draws the case.
         let grid = shown.judged_blocks(engine).map_or(String::new(), |blocks| {
             format!("{}\n{}", ascii::side_by_side(&blocks, 60), ascii::LEGEND)
         });

@@ -104,6 +104,7 @@ pub fn judge_with(
     let about = gpu.about().clone();
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
+    // The device answers the families as a program would, and is needed again for the stages after them.
     let gpu = Arc::new(Mutex::new(gpu));
     let mut shared = SharedDevice(Arc::clone(&gpu), declared.clone());
     let mut options = options.clone();
@@ -218,6 +219,7 @@ fn rule(property: &str) -> Clause {
 fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
     let mut findings = Vec::new();
     for row in &verdict.families {
+        // A row of a property, and what is known of it.
         let is_of = |f: &&Failing| f.property == row.name;
         let known = old.iter().filter(is_of).count();
         let news = verdict.more.found.failing.iter().filter(is_of).count();
@@ -233,6 +235,7 @@ fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requ
             detail,
         });
     }
+    // What the judge of programs calls a failure may be allowed here, so its outcomes follow the findings.
     for property in &mut verdict.more.properties {
         if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
             property.outcome = match finding.class {

@@ -25,6 +25,7 @@ pub struct OnLadder {
 }
 
 impl OnLadder {
+    /// Opens the device of this name, which stays open: to open it is no part of a time.
     pub fn new(engine: &str) -> Result<Self, Error> {
         let mut gpu = Gpu::named(engine)?;
         let opened = Arc::clone(gpu.ready()?.device());
@@ -77,6 +78,7 @@ impl ExternalChoice for OnLadder {
         bounds: PixelRect,
     ) -> Result<Vec<Vec<Span>>, String> {
         let mut all = Vec::with_capacity(triangles.len());
+        // A few cells at a time, so that pages of large windows do not fill the memory.
         for some in triangles.chunks(AT_ONCE) {
             let jobs: Vec<_> =
                 some.iter().map(|c| (vec![c.px()], window_around(c, bounds))).collect();
@@ -92,6 +94,7 @@ impl ExternalChoice for OnLadder {
         bounds: PixelRect,
     ) -> Result<Box<dyn FnMut()>, String> {
         let (width, height) = (bounds.width(), bounds.height());
+        // What is timed is one page, cleared and drawn, without reading it back.
         if (bounds.x0, bounds.y0) != (0, 0) || width.max(height) > PAGE_PX {
             return Err(format!("a page has {PAGE_PX} x {PAGE_PX} px"));
         }

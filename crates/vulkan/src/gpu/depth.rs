@@ -58,6 +58,7 @@ pub(super) fn stored(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result
     for (cell, triangle) in (0..).zip(&triangles) {
         let v = &triangle.vertices;
         let (depths, inv_w) = (v.map(|v| v.depth), v.map(|v| v.inv_w));
+        // Exact depths exist for triangles with an area; the others are not judged.
         let Some(exact) =
             ExactTriangle::new(&triangle.corners(), depths, inv_w, v.map(|_| [0.0; 1]))
         else {

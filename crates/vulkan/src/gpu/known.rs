@@ -110,6 +110,7 @@ impl KnownFault {
         list.iter().any(|t| self.covers_area(property, twice_area_px2(&t.corners())))
     }
 
+    /// Whether a triangle of this area is one that it says fails.
     fn covers_area(&self, property: &str, px2: f64) -> bool {
         let is_large = matches!(self.condition, Condition::TwiceAreaPx2(least) if px2 >= least);
         is_large && self.names(property)

@@ -142,6 +142,7 @@ pub(super) fn joined(
     for n in 0..cases {
         let points = [places.point(n), places.point(n), places.point(n)];
         let mut points = sorted(points, |a, b| a.x > b.x);
+        // Both directions along the lines, in turn.
         if n % 2 == 1 {
             points.reverse();
         }

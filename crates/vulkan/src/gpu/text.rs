@@ -23,12 +23,14 @@ pub fn device(about: &About) -> String {
         }
     }
     let lines = if lines.is_empty() { "loose".to_owned() } else { lines.join(", ") };
+    // A device without four samples is asked about the centres of pixels alone.
     let samples = match (about.four_samples, about.standard_samples) {
         (true, true) => "four samples at standard places",
         (true, false) => "four samples at places of its own",
         _ => "one sample",
     };
     let depths = if about.float_depth { "depths of 16 bits and f32" } else { "depths of 16 bits" };
+    // Lines may lie on a finer or coarser lattice than corners of triangles.
     let bits = match about.line_subpixel_bits {
         bits if bits == about.subpixel_bits => String::new(),
         bits => format!(" with {bits} subpixel bits"),
@@ -47,6 +49,7 @@ fn sections(findings: &[Requirement]) -> Vec<(String, Vec<&str>)> {
     for finding in findings {
         let rule = finding.rule;
         let text = format!("{}: {}. Open: {}", rule.section, rule.says, rule.open);
+        // Properties that are judged by one rule share its section.
         match sections.iter_mut().find(|(said, _)| *said == text) {
             Some((_, names)) => names.push(&finding.name),
             None => sections.push((text, vec![&finding.name])),
