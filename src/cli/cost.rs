@@ -1,7 +1,8 @@
 //! `rasterproof cost`: what each step of accuracy costs, as boards, plots and JSON.
-
+//!
 //! The price of accuracy is measured in turns, choice after choice, so that a slow moment of the machine slows all of them alike.
 //! What was measured once can be shown and drawn again from its JSON.
+
 use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};

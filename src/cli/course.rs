@@ -1,8 +1,8 @@
 //! `rasterproof course`: eighteen steps for a student, points for a teacher.
-
 //!
 //! A student writes one program that speaks the line protocol. `start` writes a starter, `check` judges the current step and notes it
 //! in a file, `show` draws what the program draws, and `grade` gives points for each step that is passed.
+
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

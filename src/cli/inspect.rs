@@ -1,8 +1,8 @@
 //! `rasterproof inspect`: one case, every engine, pixel by pixel.
-
 //!
 //! Each engine that draws the case is shown as characters and on a picture, and compared with the oracle in pixels and in values. A
 //! pixel can be explained: by the edge functions at its centre, the rule where one of them is 0, and the span of its row.
+
 use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
 
@@ -146,7 +146,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     let specimen = add_specimen(arguments, &case, &mut shown)?;
     #[cfg(feature = "vulkan")]
     let on_device = device(arguments, &case, &mut shown)?;
-    let mut compared = Compared::new(has_answer(&case, arguments), streams.columns);
+    let mut compared = InspectionFindings::new(has_answer(&case, arguments), streams.columns);
     compared.add("", specimen, &shown, (&case, &judged));
     compared.excerpts.extend(explained(arguments, &case, Some(&shown)));
     #[cfg(feature = "vulkan")]
@@ -166,7 +166,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
             compared.excerpts.extend(explained(arguments, &typed, None));
         }
     }
-    let Compared { excerpts, rows, is_compared, .. } = compared;
+    let InspectionFindings { excerpts, rows, is_compared, .. } = compared;
     let agrees = rows.iter().all(|row| row.mark != Mark::Wrong);
     report.excerpts = excerpts;
     report.tables = vec![Table::new("", "~found 1", rows).judged()];
@@ -223,7 +223,7 @@ fn has_answer(case: &Case, arguments: &InspectArguments) -> bool {
 }
 
 /// What was shown and found so far.
-struct Compared {
+struct InspectionFindings {
     /// Whether a window without pixels is an answer, too.
     has_answer: bool,
     columns: usize,
@@ -233,7 +233,7 @@ struct Compared {
     is_compared: bool,
 }
 
-impl Compared {
+impl InspectionFindings {
     fn new(has_answer: bool, columns: usize) -> Self {
         let (excerpts, rows) = (Vec::new(), Vec::new());
         Self { has_answer, columns, excerpts, rows, is_compared: false }

@@ -1,8 +1,8 @@
 //! `rasterproof judge --league`: the installed adapters of libraries, one after the other.
-
 //!
 //! A library is known by its adapter, a small program that speaks the line protocol for it. What is compared are wrong pixels twice:
 //! as the library declares its rules, and by the rules that its pixels follow, so that another convention is not taken for a fault.
+
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 

@@ -1,8 +1,8 @@
 //! `rasterproof specimens`: how often each published fault shows, and a contact sheet of them.
-
 //!
 //! Each published algorithm is drawn beside its repaired form. One that no case of its own exposes is no proof of a fault, and counts
 //! as a disagreement.
+
 use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
-
 //!
 //! A device is judged by the judge of programs and by rules of its specification. Its name is `vulkan:` with its number in the
 //! loader's list, or a word of its name or driver.
+
 use rasterproof_host::output::Output;
 use rasterproof_vulkan::device::find;
 use rasterproof_vulkan::gpu::campaign;
