@@ -90,6 +90,19 @@ rasterproof_core::named! {
 }
 
 impl Shapes {
+    /// The noun behind a number: the singular behind 1 alone.
+    fn noun(self, number: u64) -> &'static str {
+        match self {
+            _ if number != 1 => self.name(),
+            Self::Triangles => "triangle",
+            Self::Lines => "line",
+            Self::WideLines => "line with a width",
+            Self::Formulas => "formula",
+        }
+    }
+}
+
+impl Shapes {
     /// What the shapes of a row are, by the check that it is of.
     #[must_use]
     pub fn of(check: Option<Check>) -> Self {
@@ -273,7 +286,7 @@ pub trait Scores {
         let mut said = Vec::new();
         for (kind, count) in counts {
             if count > 0 || is_usual(kind) && !has_others {
-                said.push(format!("{count} {}", kind.name()));
+                said.push(format!("{count} {}", kind.noun(count)));
             }
         }
         said.join(" and ")
