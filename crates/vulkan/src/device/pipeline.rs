@@ -125,10 +125,6 @@ fn of_shaders(
     shaders: &[vk::PipelineShaderStageCreateInfo<'_>],
 ) -> Result<vk::Pipeline, Error> {
     let bindings = [vk::VertexInputBindingDescription::default().stride(VERTEX_BYTES)];
-    let attribute = |location, format, offset| {
-        let any = vk::VertexInputAttributeDescription::default();
-        any.location(location).format(format).offset(offset)
-    };
     // The two fields of a vertex, one behind the other: see `draw::Vertex`.
     let attributes = [
         attribute(0, vk::Format::R32G32B32A32_SFLOAT, 0),
@@ -157,14 +153,7 @@ fn of_shaders(
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(kind.samples())
         .sample_mask(&masks);
-    // Kinds of one byte count: what a shader writes is added to what is there.
-    let blends = [vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)
-        .blend_enable(kind.pixel_bytes() == 1)
-        .src_color_blend_factor(vk::BlendFactor::ONE)
-        .dst_color_blend_factor(vk::BlendFactor::ONE)
-        .src_alpha_blend_factor(vk::BlendFactor::ONE)
-        .dst_alpha_blend_factor(vk::BlendFactor::ONE)];
+    let blends = [blending(kind)];
     let mut blend = vk::PipelineColorBlendStateCreateInfo::default();
     if !kind.is_depths() {
         blend = blend.attachments(&blends);
@@ -193,6 +182,27 @@ fn of_shaders(
     let made = unsafe { device.raw.create_graphics_pipelines(none, &[info], None) };
     let made = made.map_err(|(_, result)| result).during("creating a pipeline")?;
     made.into_iter().next().ok_or(Error::Failed("creating a pipeline", "nothing".to_owned()))
+}
+
+/// A field of a vertex, so many bytes from its beginning.
+fn attribute(
+    location: u32,
+    format: vk::Format,
+    offset: u32,
+) -> vk::VertexInputAttributeDescription {
+    let any = vk::VertexInputAttributeDescription::default();
+    any.location(location).format(format).offset(offset)
+}
+
+/// Kinds of one byte count: what a shader writes is added to what is there.
+fn blending(kind: Kind) -> vk::PipelineColorBlendAttachmentState {
+    vk::PipelineColorBlendAttachmentState::default()
+        .color_write_mask(vk::ColorComponentFlags::RGBA)
+        .blend_enable(kind.pixel_bytes() == 1)
+        .src_color_blend_factor(vk::BlendFactor::ONE)
+        .dst_color_blend_factor(vk::BlendFactor::ONE)
+        .src_alpha_blend_factor(vk::BlendFactor::ONE)
+        .dst_alpha_blend_factor(vk::BlendFactor::ONE)
 }
 
 /// A shader from the bytes of its file, which are words in little-endian order.

@@ -99,37 +99,7 @@ pub fn report(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
     let verdict = &stand.verdict;
-    let mut rows = Vec::new();
-    for f in &stand.findings {
-        let rule = format!("{}: {}", f.rule.section, f.rule.says);
-        // A property with a failing case leads to it.
-        let has_case = verdict.failures.iter().any(|failure| failure.evidence.shows(&f.name));
-        rows.push(Row {
-            cells: vec![f.name.clone(), f.class.words().to_owned(), f.detail.clone(), rule],
-            mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
-            search: has_case.then(|| f.name.clone()),
-            ..Row::default()
-        });
-    }
-    // What is true of all properties together stands below the table.
-    let mut notes = Vec::new();
-    if let Some(row) = verdict.families.iter().find(|row| row.values > 0) {
-        let (values, worst) = (row.values, row.worst);
-        notes.push(format!(
-            "values: {values} compared, the worst at {worst:.3} of the derived bound"
-        ));
-    }
-    if let Some(said) = &verdict.more.recognised {
-        let said = said.sentences.iter().chain(&said.compass);
-        notes.extend(said.map(|text| format!("it draws as one who says: {text}")));
-    }
-    let left_out = verdict.more.left_out.to_string();
-    notes.extend(Some(left_out).filter(|said| !said.is_empty()));
-    notes.extend(stand.known.iter().map(|about| format!("known of this driver: {about}")));
-    let columns = "property 22 | ~class 22 | found 1 | rule";
-    let findings =
-        Table::new("What was judged, and by which rule of the specification", columns, rows);
-    let findings = findings.noted(notes).judged();
+    let findings = table(stand);
     let mut rules = Vec::new();
     for (section, names) in sections(&stand.findings) {
         rules.push(format!("{section} ({})", names.join(", ")));
@@ -164,4 +134,40 @@ pub fn report(
         data,
         ..whole
     }
+}
+
+/// What was found of each property, with notes of what is true of all.
+fn table(stand: &DeviceReport) -> Table {
+    let verdict = &stand.verdict;
+    let mut rows = Vec::new();
+    for f in &stand.findings {
+        let rule = format!("{}: {}", f.rule.section, f.rule.says);
+        // A property with a failing case leads to it.
+        let has_case = verdict.failures.iter().any(|failure| failure.evidence.shows(&f.name));
+        rows.push(Row {
+            cells: vec![f.name.clone(), f.class.words().to_owned(), f.detail.clone(), rule],
+            mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
+            search: has_case.then(|| f.name.clone()),
+            ..Row::default()
+        });
+    }
+    // What is true of all properties together stands below the table.
+    let mut notes = Vec::new();
+    if let Some(row) = verdict.families.iter().find(|row| row.values > 0) {
+        let (values, worst) = (row.values, row.worst);
+        notes.push(format!(
+            "values: {values} compared, the worst at {worst:.3} of the derived bound"
+        ));
+    }
+    if let Some(said) = &verdict.more.recognised {
+        let said = said.sentences.iter().chain(&said.compass);
+        notes.extend(said.map(|text| format!("it draws as one who says: {text}")));
+    }
+    let left_out = verdict.more.left_out.to_string();
+    notes.extend(Some(left_out).filter(|said| !said.is_empty()));
+    notes.extend(stand.known.iter().map(|about| format!("known of this driver: {about}")));
+    let columns = "property 22 | ~class 22 | found 1 | rule";
+    let findings =
+        Table::new("What was judged, and by which rule of the specification", columns, rows);
+    findings.noted(notes).judged()
 }
