@@ -1,4 +1,7 @@
 //! `rasterproof cost`: what each step of accuracy costs, as boards, plots and JSON.
+//!
+//! The price of accuracy is measured in turns, choice after choice, so that a slow moment of the machine slows all of them alike.
+//! What was measured once can be shown and drawn again from its JSON.
 
 use std::path::{Path, PathBuf};
 
@@ -35,6 +38,7 @@ enum Scenes {
     Model(PathBuf),
 }
 
+/// The parser of what is measured. A word with an ending is meant as a file, also where that does not exist.
 fn parse_subject() -> impl TypedValueParser<Value = Scenes> {
     OsStringValueParser::new().try_map(|word| {
         let known = LADDERS.iter().find(|(name, _)| *name == word);
@@ -110,6 +114,7 @@ impl CostArguments {
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
         Some(Scenes::Model(path)) => {
+            // A model is measured on its own triangles, of which no seed decides anything.
             let of_groups = ["from", "seed", "engine"];
             if let Some(option) = typed.given(&of_groups) {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
@@ -123,6 +128,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
         None => Ladder::OF_SCENES,
     };
     study::refuse_view(typed)?;
+    // Names of plots are known before minutes are spent on what they show.
     arguments.check_files(ladders)?;
     let recorded = match &arguments.from {
         Some(path) => read(path, ladders)?,
@@ -140,6 +146,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
         if streams.save(&place.output(format!("{name}.svg")), figure.svg.as_bytes()) {
             written.push(name);
         }
+        // A plot that could not be written is still shown on the page.
         figures.push(figure);
     }
     let mut report = board::report(&recorded, figures);
@@ -159,6 +166,7 @@ fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, InputError> {
     let mut recorded = Recorded::read(&text).map_err(|why| {
         named(format!("{why}; write such a file with `rasterproof cost --json > FILE`"))
     })?;
+    // A file of all groups may be asked about one of them.
     recorded.boards.retain(|board| ladders.contains(&board.ladder));
     if recorded.boards.is_empty() {
         let names: Vec<_> = ladders.iter().map(|ladder| ladder.name()).collect();
@@ -167,6 +175,7 @@ fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, InputError> {
     Ok(recorded)
 }
 
+/// Measures all groups, each scene in rounds of all choices.
 fn measure_all(
     ladders: &[Ladder],
     arguments: &CostArguments,

@@ -1,4 +1,7 @@
 //! `rasterproof course`: eighteen steps for a student, points for a teacher.
+//!
+//! A student writes one program that speaks the line protocol. `start` writes a starter, `check` judges the current step and notes it
+//! in a file, `show` draws what the program draws, and `grade` gives points for each step that is passed.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -102,6 +105,7 @@ struct ShowArguments {
     command: Vec<String>,
 }
 
+/// Runs a subcommand; without one, shows the steps.
 pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     match &arguments.command {
         None => list(streams),
@@ -114,11 +118,13 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     }
 }
 
+/// The steps, and where the student is, if this is the folder of one.
 fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new("."))?;
     print(course::listed(progress.as_ref()), exit::AGREES, streams)
 }
 
+/// Writes the files of a student's folder, and says what to do next.
 fn start(language: Language, solution: bool, folder: &Path, streams: &mut Streams<'_>) -> Status {
     let (build, run) = starters::commands(language);
     let progress = Progress::new(build, run);
@@ -128,6 +134,7 @@ fn start(language: Language, solution: bool, folder: &Path, streams: &mut Stream
     let mut notes = Vec::new();
     for (name, text) in files.chain(others) {
         let path = folder.join(name);
+        // What exists may be somebody's work, and is left alone.
         let is_there = path.symlink_metadata().is_ok();
         if !is_there {
             write_file(&Output::typed(&path), text.as_bytes())?;
@@ -158,6 +165,7 @@ fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress,
             )));
         }
     };
+    // A command that is named counts for this time, with nothing to build.
     if !command.is_empty() {
         progress.run = command.to_vec();
         progress.build.clear();
@@ -172,6 +180,7 @@ fn find_step(word: &str, others: &str) -> Result<&'static Step, InputError> {
     })
 }
 
+/// Builds the program, if anything does, and starts it within the bounds of a build.
 fn built_and_started(
     dir: &Path,
     progress: &Progress,
@@ -186,6 +195,7 @@ fn built_and_started(
 /// The name of the picture that follows the last step.
 const CUBE: &str = "cube";
 
+/// Draws some steps or a scene by the values of the program.
 fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     let progress = read_progress(&arguments.dir, &arguments.command, "show")?;
     let size @ (width, height) = arguments.size;
@@ -197,6 +207,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (Some(word), _) => vec![find_step(word, ", cube and all")?],
         (None, None) => vec![progress.current()],
     };
+    // A model is read before the program is built, since its name may be wrong.
     let model = match &arguments.model {
         Some(path) => Some(ViewArguments::of(size).maker(path, Purpose::Drawn, streams)?.scene),
         None => None,
@@ -213,12 +224,14 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let mut pictures = Vec::new();
     for step in &steps {
+        // A step may be drawn from several cases; all pictures of it have its label.
         let label = format!("step {}, {}", course::number(step), step.title);
         let drawn = show::step(&mut program, step);
         pictures.extend(drawn.into_iter().map(|picture| (label.clone(), picture)));
         bar.done(1);
     }
     let aspect = f64::from(width) / f64::from(height);
+    // The cube and the model are drawn on the judge's side; the program gives the values of their pixels.
     let cube = chapters::scene(CUBE, aspect, 0.1).filter(|_| matches!(word, Some("all" | CUBE)));
     for (label, scene) in [("the cube", cube), ("the model", model)] {
         let Some(scene) = scene else { continue };
@@ -245,6 +258,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     page::show(report, Shown::All, Some(page), exit::of(show::agree(&pictures)), streams)
 }
 
+/// Judges one step, notes how it came out, and gives a hint where it did not pass.
 fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     let mut progress = read_progress(&arguments.dir, &arguments.command, "check")?;
     let step = match &arguments.step {
@@ -253,6 +267,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     };
     let shown = Bar::new(streams.progress, "steps", Some(1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
+    // A step is judged within a minute, so that a slow program gets an answer, too.
     let amount = Amount {
         cases: arguments.cases,
         seed: arguments.seed,
@@ -261,6 +276,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     };
     let outcome = examine::examine(&mut program, step, &amount);
     drop(shown);
+    // What was passed is noted before anything is printed, since a reader may be gone.
     progress.note(step, outcome.passes());
     let mut report = verdict::report(step, &outcome, &shell::line(&progress.run));
     // It was read, and is written anew.
@@ -271,6 +287,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
         true => vec![verdict::next(&progress)],
         false => {
             let complaint = examine::complaint(&program);
+            // Each failure in a row shows one hint more.
             let hints = progress.failures + usize::from(arguments.hint);
             complaint.into_iter().chain(verdict::hints(step, hints)).collect()
         }

@@ -100,6 +100,7 @@ impl BuildLimits {
 }
 
 impl GradeArguments {
+    /// What a submission is asked, and how much time and memory it may take.
     fn terms(&self) -> Terms {
         let memory_mib = Some(self.memory).filter(|mib| *mib > 0);
         let Self { cases, seed, seconds, .. } = *self;
@@ -108,6 +109,7 @@ impl GradeArguments {
     }
 }
 
+/// Grades one program, or each submission of a folder, and prints the points as they come.
 pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     if arguments.folder.is_some() && arguments.format == Format::Gradescope {
         return Err(usage(
@@ -119,14 +121,17 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         None => {
             let run = arguments.command.clone();
             let words: Vec<_> = run.iter().map(|word| word.to_string_lossy()).collect();
+            // A name decides where a row stands, so a program without a folder is called by its words.
             let name = printable(words.join(" ").as_bytes(), 200);
             vec![Ok(Submission::of_program(".".into(), name, run))]
         }
     };
+    // The judge of one submission prints its grade and nothing else.
     if let Some(row) = &arguments.row {
         return judge_row(row, submissions, arguments, streams);
     }
     group::end_groups_on_ctrl_c();
+    // The head of the table comes before the first judgement, which may take minutes.
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
         streams.output.write_all(
@@ -162,6 +167,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         Format::Json => grade::json(grades, seed, cases),
     };
     streams.output.write_all(text.as_bytes())?;
+    // Nobody was judged, everybody has all points, or somebody lacks some.
     Ok(match (unjudged, all) {
         (true, _) => exit::USAGE,
         (_, true) => exit::AGREES,
@@ -189,10 +195,12 @@ const MARK: &str = "RASTERPROOF_SUBMISSION";
 /// Seconds that a judge may take longer than its submission.
 const LONGER_S: u64 = 60;
 
+/// Starts the judge of a submission with the same terms, waits for it, and reads its grade.
 fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Result<Grade, String> {
     let refused = |error: std::io::Error| {
         format!("its judge cannot be started: {error}\n  allow more processes (ulimit -u)")
     };
+    // Its own limits end it before this one; only a judge that was stopped by its program is still there then.
     let end = Instant::now() + Duration::from_secs(arguments.seconds.saturating_add(LONGER_S));
     let mut command = Command::new(std::env::current_exe().map_err(refused)?);
     command.args(["course", "grade", "--format", "json"]).env(MARK, mark);
@@ -216,6 +224,7 @@ fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Res
     } else {
         command.arg("--").args(&arguments.command);
     }
+    // The three ways in which a judge ends by itself; a signal is another one.
     let ends = [exit::AGREES, exit::DISAGREES, exit::USAGE];
     let text = output::of_judge(command, end, &ends).map_err(|error| match error.kind() {
         ErrorKind::TimedOut => "its judge does not end: does it stop its parent?".to_owned(),

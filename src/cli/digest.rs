@@ -7,6 +7,7 @@ use rasterproof_registry::digest::{self, DigestOptions, DigestRow};
 use rasterproof_report::html::Report;
 use rasterproof_report::json;
 use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::noun;
 
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
@@ -24,16 +25,20 @@ pub struct DigestArguments {
     json: bool,
 }
 
+/// Prints a hash for each engine and each thing that it computes, and one of all.
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json: is_json } = arguments;
     let (options, engine) = (DigestOptions { seed: *seed, cases: *cases }, engine.as_deref());
+    // How many cases there are is counted first, for the bar.
     let cases_in_all = digest::case_count(options, engine);
     let progress = Progress::new(streams.progress, "cases", Some(cases_in_all));
     let parts = digest::digest(options, engine, &|more| progress.done(more));
     drop(progress);
+    // The order of the parts is fixed, so the hash of all does not depend on the threads.
     let total = digest::total(&parts);
     let row = |of: &DigestRow| Row::of(&[&of.engine, &of.what, &of.sha256]);
-    let all = Row::of(&[&format!("seed {seed}, {cases} cases"), &"", &total]);
+    let all = format!("seed {seed}, {cases} {}", noun(*cases, "case", "cases"));
+    let all = Row::of(&[&all, &"", &total]);
     let rows = parts.iter().map(row).chain([all]).collect();
     let report = Report {
         tables: vec![Table::new("", "engine 19 | what 8 | SHA-256 64", rows)],

@@ -14,12 +14,15 @@ use rasterproof_registry::engines::{self, Entry};
 
 /// The engine of this name, planted faults among them.
 pub(super) fn find(name: &str) -> Result<Entry, InputError> {
-    let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
-    entry
-        .ok_or_else(|| super::usage(format!("no engine is called '{name}'; see: rasterproof list")))
+    match engines::find(name).copied().or_else(|| engines::find_planted(name)) {
+        Some(entry) => Ok(entry),
+        None => Err(super::usage(format!("no engine is called '{name}'; see: rasterproof list"))),
+    }
 }
 
+/// Answers one request after the other, until standard input ends.
 pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
+    // Answers must not go to the file from which the requests come.
     identity::note_standard_input();
     output::check(Path::new(STANDARD_OUTPUT), Over::Any).map_err(super::usage)?;
     server::serve(&find(name)?, &mut *streams.input, streams.output)?;
@@ -28,10 +31,14 @@ pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
 
 /// The names that `engine` takes; planted faults are not shown.
 pub fn names() -> Vec<PossibleValue> {
-    let shown = engines::speaking().map(|entry| entry.name);
-    let exact = ExactMutant::ALL.map(|mutant| mutant.name());
-    let planted = Mutant::all().into_iter().map(|mutant| mutant.name()).chain(exact);
-    let planted = planted.filter(|name| engines::find_planted(name).is_some());
-    let hidden = planted.map(|name| PossibleValue::new(name).hide(true));
-    shown.map(PossibleValue::new).chain(hidden).collect()
+    let mut names: Vec<_> =
+        engines::speaking().map(|entry| PossibleValue::new(entry.name)).collect();
+    let exact = ExactMutant::ALL.map(ExactMutant::name);
+    for name in Mutant::all().iter().map(Mutant::name).chain(exact) {
+        // Some are faults of what speaks no protocol.
+        if engines::find_planted(name).is_some() {
+            names.push(PossibleValue::new(name).hide(true));
+        }
+    }
+    names
 }

@@ -11,7 +11,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::progress::Progress;
-use super::{InputError, Status, Streams, exit, usage, write_file};
+use super::{InputError, Status, Streams, exit, pair, usage, write_file};
 use rasterproof_exhaustive::Plan;
 use rasterproof_exhaustive::certificate::{self, Certificate};
 use rasterproof_exhaustive::counts::Counts;
@@ -103,13 +103,16 @@ pub struct MergeArguments {
     seed: Option<u64>,
 }
 
+/// How far everything is moved, to the right and down.
 fn parse_offset(text: &str) -> Result<[i32; 2], &'static str> {
-    let numbers =
-        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
-    numbers.ok_or("expected X,Y in whole pixels, for example 2048,0")
+    match pair(text, &[',']) {
+        Some((x, y)) => Ok([x, y]),
+        None => Err("expected X,Y in whole pixels, for example 2048,0"),
+    }
 }
 
 impl ExhaustArguments {
+    /// The finite set of cases that is judged.
     fn plan(&self) -> Plan {
         let (offset_px, plant) = (self.offset_px, self.plant.clone());
         match self.what {
@@ -131,15 +134,18 @@ impl ExhaustArguments {
         }
     }
 
+    /// The file of the state: the one that was named, or one whose name says of which cases it is.
     fn checkpoint(&self, plan: &Plan) -> PathBuf {
+        if let Some(path) = &self.checkpoint {
+            return path.clone();
+        }
         let words = plan.enumeration().words().replace([' ', '-', '=', ','], "_");
         let (part, parts) = self.shard;
-        self.checkpoint.clone().unwrap_or_else(|| {
-            Path::new("target/rasterproof").join(format!("exhaust_{words}_{part}_of_{parts}.json"))
-        })
+        Path::new("target/rasterproof").join(format!("exhaust_{words}_{part}_of_{parts}.json"))
     }
 }
 
+/// Judges all cases of a set, or goes on with it, and writes the certificate.
 pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
     plan.check()?;
@@ -168,6 +174,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
         Some(state) if !arguments.restart => resume(state, path, &plan, shard)?,
         _ => run::Progress::new(&plan, shard),
     };
+    // The bar begins where the earlier run came to.
     let progress = Progress::new(streams.progress, "cases", Some(cases));
     progress.resume_at(start.tally.cases);
     let save = |progressed: &run::Progress| {
@@ -186,6 +193,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let status = issue(&certificate, certificate_file, streams)?;
     // Standard output, too, holds the certificate only if it was taken.
     streams.output.flush()?;
+    // What is not written in full is no proof, so the checkpoint stays until the certificate has arrived.
     if streams.delivery.is_whole() {
         if let Err(error) = output::remove(path) {
             writeln!(streams.errors, "warning: {error}")?;
@@ -236,7 +244,11 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
         streams.output.write_all(certificate.to_json().as_bytes())?;
     }
     let done = &certificate.done;
-    let wrong = done.examples.iter().map(|example| format!("wrong: {}", printable(&example.what)));
+    let mut notes = Vec::new();
+    for example in &done.examples {
+        notes.push(format!("wrong: {}", printable(&example.what)));
+    }
+    // A shard cannot have all cases, so only a whole run is asked for them.
     let (Shard { part, parts }, timing) = (certificate.shard, &certificate.timing);
     let whole = parts == 1;
     let agrees = certificate.agrees() && (!whole || certificate.is_complete());
@@ -247,7 +259,7 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
     let sentence = format!("{cases} of {expected} cases{shard}, {counts}, {time}");
     let report = Report {
         about: certificate.identity.plan.enumeration().words(),
-        notes: wrong.collect(),
+        notes,
         outcome: Some(Outcome::of(agrees, sentence)),
         ..Report::default()
     };
@@ -259,11 +271,13 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
     Ok(exit::of(agrees))
 }
 
+/// Joins the certificates of all shards into one, and judges some of their cases again where that is asked for.
 pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
     let output = arguments.output.as_deref().map(Output::typed);
     let written = output.as_ref().map(|output| output.named("--output"));
     output::check_all(read.chain(written))?;
+    // Files of shards come from several machines, so each is checked by itself before they are joined.
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);

@@ -11,6 +11,7 @@ pub struct FixturesArguments {
     seed: u64,
 }
 
+/// Prints the cases. How many of each kind there are is fixed, so that two seeds give suites of one size.
 pub fn run(arguments: &FixturesArguments, streams: &mut Streams<'_>) -> Status {
     let total = QUOTAS.iter().map(|(_, quota)| *quota as u64).sum();
     let progress = Progress::new(streams.progress, "cases", Some(total));

@@ -1,4 +1,8 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
+//!
+//! An invariant is a sentence that holds of every right implementation, such as that two triangles with a shared edge draw no pixel
+//! twice. It is tried on generated inputs. An invariant that no planted fault breaks proves nothing, and a fault that breaks none is
+//! not found; the matrix of `mutants` shows that there is neither.
 
 use super::page::print;
 use super::progress::Progress;
@@ -18,6 +22,7 @@ use rasterproof_verify::judge::caught;
 const CASES: u64 = 2_000;
 const ALL: &str = "all";
 
+/// The names that --invariant takes.
 pub fn names() -> Vec<&'static str> {
     CATALOGUE.iter().map(|i| i.name).chain([ALL]).collect()
 }
@@ -35,28 +40,30 @@ pub fn run(
         Some(mutant) => Implementations::with(mutant),
         None => Implementations::real(),
     };
-    let all = names.iter().any(|name| name == ALL);
-    let wanted: Vec<&Invariant> =
-        CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
+    let wanted: Vec<&Invariant> = CATALOGUE
+        .iter()
+        .filter(|i| names.iter().any(|name| name == i.name || name == ALL))
+        .collect();
     let mut outcomes = Outcomes::default();
     let progress = Progress::new(streams.progress, "invariants", Some(wanted.len() as u64));
     let (mut rows, mut excerpts) = (Vec::new(), Vec::new());
+    let (program, planted) = (program(), plant.map(|name| format!(" --plant {name}")));
+    let planted = planted.unwrap_or_default();
     for (done, invariant) in wanted.iter().enumerate() {
         progress.at(done as u64, invariant.name);
-        let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
-        let repeat = |cases: u64| {
-            let (program, name) = (program(), invariant.name);
-            format!("{program} verify --invariant {name} --seed {seed} --cases {cases}{planted}")
-        };
         let report = invariant.run(&subject, seed, cases);
+        let command = format!("{program} verify --invariant {} --seed {seed}", invariant.name);
+        let repeat = |cases: u64| format!("{command} --cases {cases}{planted}");
         rows.push(row(invariant, &subject, seed, &report, &repeat, &mut outcomes));
-        let places = || {
-            let asks = format!("{} verify{planted}", program());
-            [("repeat with", repeat(cases)), ("a cause is looked for by", asks)]
-        };
-        excerpts.extend(report.failure.map(|failure| excerpt(&subject, &failure, places())));
+        // What is wrong in an engine is recognised where it is judged, not where invariants are.
+        if let Some(failure) = &report.failure {
+            let asks = format!("{program} verify{planted}");
+            let places = [("repeat with", repeat(cases)), ("a cause is looked for by", asks)];
+            excerpts.push(excerpt(&subject, failure, places));
+        }
     }
     drop(progress);
+    // Of one invariant the row itself is the answer.
     let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
                    what it says | :tolerance | what was found";
     let report = Report {
@@ -69,6 +76,7 @@ pub fn run(
     print(report, outcomes.status(), streams)
 }
 
+/// How many invariants hold, and how many do not.
 #[derive(Default)]
 struct Outcomes {
     holding: usize,
@@ -88,6 +96,7 @@ impl Outcomes {
         }
     }
 
+    /// The answer about all of them, with what would judge the rest.
     fn outcome(&self) -> Outcome {
         let Self { holding, failing, not_judged, cases_needed } = *self;
         let all = holding + failing + not_judged;
@@ -130,39 +139,45 @@ fn row(
     repeat: &dyn Fn(u64) -> String,
     outcomes: &mut Outcomes,
 ) -> Row {
-    let (word, found) = match (report.ruling(), &report.failure) {
+    let ruling = report.ruling();
+    let (word, found) = match (ruling, &report.failure) {
         (Ruling::Holds, _) => ("holds", String::new()),
         (Ruling::Fails, None) => ("", "FAILS".to_owned()),
         (_, Some(failure)) => ("", format!("FAILS in case {}", failure.index)),
         (Ruling::NotJudged, None) => {
-            let why = match invariant.cases_needed(subject, seed) {
-                Some(needed) => {
-                    outcomes.cases_needed = outcomes.cases_needed.max(needed);
-                    let repeat = repeat(needed);
-                    format!("no case fits it; the first that fits needs more\njudge it with: {repeat}")
-                }
-                None if matches!(invariant.check, Predicate::Run(..) | Predicate::Matrix) => {
-                    "the system refuses the threads whose verdicts it compares\nallow this user more \
-                     processes (ulimit -u)"
-                        .to_owned()
-                }
-                None => {
-                    format!("none of the first {MOST_LOOKED_THROUGH} cases fits it\ntry another --seed")
-                }
-            };
-            ("", format!("NOT JUDGED: {why}"))
+            let needed = invariant.cases_needed(subject, seed);
+            outcomes.cases_needed = outcomes.cases_needed.max(needed.unwrap_or(0));
+            ("", format!("NOT JUDGED: {}", why_not_judged(invariant, needed.map(repeat))))
         }
     };
-    *match report.ruling() {
-        Ruling::Holds => &mut outcomes.holding,
-        Ruling::Fails => &mut outcomes.failing,
-        Ruling::NotJudged => &mut outcomes.not_judged,
-    } += 1;
+    match ruling {
+        Ruling::Holds => outcomes.holding += 1,
+        Ruling::Fails => outcomes.failing += 1,
+        Ruling::NotJudged => outcomes.not_judged += 1,
+    }
     let [cases, skipped, compared] = [report.cases, report.skipped, report.compared].map(thousands);
     let Invariant { number, name, statement, tolerance, .. } = invariant;
     let name = format!("{number} {name}");
     Row::of(&[&name, &cases, &skipped, &compared, &word, statement, tolerance, &found])
-        .marked(report.ruling() == Ruling::Holds)
+        .marked(ruling == Ruling::Holds)
+}
+
+/// Why an invariant compared nothing, and what to do about it; `repeat` is the command with enough cases, where that is known.
+fn why_not_judged(invariant: &Invariant, repeat: Option<String>) -> String {
+    match repeat {
+        Some(repeat) => {
+            format!("no case fits it; the first that fits needs more\njudge it with: {repeat}")
+        }
+        // Those that compare verdicts on several threads fit every case.
+        None if matches!(invariant.check, Predicate::Run(..) | Predicate::Matrix) => {
+            "the system refuses the threads whose verdicts it compares\nallow this user more \
+             processes (ulimit -u)"
+                .to_owned()
+        }
+        None => {
+            format!("none of the first {MOST_LOOKED_THROUGH} cases fits it\ntry another --seed")
+        }
+    }
 }
 
 #[derive(clap::Args, Debug)]
@@ -184,27 +199,27 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
         true => format!("each of {columns} invariants kills a fault, each of {rows} faults dies"),
         false => problems.join("; "),
     };
-    let row = |(name, marks): &(String, Vec<bool>)| {
+    let mut faults = Vec::new();
+    for (name, marks) in &matrix.rows {
         let kills = marks.iter().filter(|&&mark| mark).count();
         let about = planted::about(name).unwrap_or("a check that cannot fail");
-        Row::of(&[name, &kills, &about]).marked(kills > 0)
-    };
-    let columns = "fault 30 | >broken 2 the invariants that it breaks | what it is 1";
-    let faults = Table::new("", columns, matrix.rows.iter().map(row).collect()).judged();
-    let mut notes = vec![format!("see one judged: {} --plant NAME", program())];
-    if !arguments.table {
-        notes.push("which invariant kills which: add --table".to_owned());
+        faults.push(Row::of(&[name, &kills, &about]).marked(kills > 0));
     }
-    let is_whole = arguments.table || !problems.is_empty();
-    let grid = if is_whole { matrix.text() } else { String::new() };
-    let report = Report {
-        excerpts: is_whole.then(|| Excerpt { grid, ..Excerpt::default() }).into_iter().collect(),
+    let columns = "fault 30 | >broken 2 the invariants that it breaks | what it is 1";
+    let mut report = Report {
         about: "planted faults, and the invariants that they break".to_owned(),
         outcome: Some(Outcome::of(problems.is_empty(), answer)),
-        tables: vec![faults],
-        notes,
+        tables: vec![Table::new("", columns, faults).judged()],
+        notes: vec![format!("see one judged: {} --plant NAME", program())],
         ..Report::default()
     };
+    if !arguments.table {
+        report.notes.push("which invariant kills which: add --table".to_owned());
+    }
+    // A problem is a row or a column without a mark, which the matrix shows.
+    if arguments.table || !problems.is_empty() {
+        report.excerpts.push(Excerpt { grid: matrix.text(), ..Excerpt::default() });
+    }
     print(report, exit::of(problems.is_empty()), streams)
 }
 

@@ -1,4 +1,7 @@
 //! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
+//!
+//! What the program declares at the start decides what it is asked, and so which judge it gets: a tessellator is judged by its
+//! polygons, a program beside another one by what both answer, any other by the oracle.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,6 +27,7 @@ use rasterproof_judge::{Options, Step, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
+use rasterproof_report::words::noun;
 use rasterproof_report::written_test::{self, Language};
 
 #[derive(clap::Args, Debug)]
@@ -101,6 +105,7 @@ pub struct JudgeArguments {
 #[derive(Clone, Debug)]
 struct CommandLine(Vec<String>);
 
+/// The words of a command line, divided as a shell divides them.
 fn command_line(text: &str) -> Result<CommandLine, String> {
     match shlex::split(text) {
         Some(words) if !words.is_empty() => Ok(CommandLine(words)),
@@ -110,6 +115,7 @@ fn command_line(text: &str) -> Result<CommandLine, String> {
 }
 
 impl JudgeArguments {
+    /// Which cases are judged, and which failures are known.
     fn options(&self, baseline: Option<&Baseline>) -> Options {
         let mut options = Options::default().seed(self.seed).cases(self.cases);
         (options.time_limit, options.only) = (self.seconds, self.case);
@@ -119,6 +125,7 @@ impl JudgeArguments {
         options
     }
 
+    /// How long the program is waited for.
     fn limits(&self) -> Limits {
         Limits { answer: self.timeout, start: self.start_timeout }
     }
@@ -130,40 +137,54 @@ impl JudgeArguments {
         options
     }
 
+    /// The format that is asked for; --json is another word for one of them.
     fn format(&self) -> Format {
         if self.json { Format::Json } else { self.format }
     }
 
+    /// The words of --declare, one by one.
     fn words(&self) -> Vec<String> {
         self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
     }
 }
 
-/// The commands that judge everything, and one case, again.
-fn again(
-    arguments: &JudgeArguments,
-    typed: &Typed,
-) -> (String, impl Fn(&str, u64) -> String + use<>) {
-    let again = typed.clone().without_output().without(&["update-baseline", "checkpoint", "watch"]);
-    let again = again.set("seed", arguments.seed);
-    let repeat_all = again.clone().first("cases", arguments.cases).line();
-    let repeat_case = move |family: &str, index: u64| {
-        let one = again.clone().without(&["cases", "seconds", "jobs", "baseline"]);
+/// The commands that judge again.
+struct Again {
+    /// The command without what decides where results go.
+    command: Typed,
+    /// The one that judges everything.
+    all: String,
+}
+
+impl Again {
+    fn of(arguments: &JudgeArguments, typed: &Typed) -> Self {
+        let command = typed.clone().without_output();
+        let command = command.without(&["update-baseline", "checkpoint", "watch"]);
+        let command = command.set("seed", arguments.seed);
+        Self { all: command.clone().first("cases", arguments.cases).line(), command }
+    }
+
+    /// The one that judges a single case, also where a baseline knows that it fails.
+    fn case(&self, family: &str, index: u64) -> String {
+        let one = self.command.clone().without(&["cases", "seconds", "jobs", "baseline"]);
         one.first("case", index).first("family", family).line()
-    };
-    (repeat_all, repeat_case)
+    }
+
+    /// A verdict in a format that is no report.
+    fn written(&self, verdict: &Verdict, format: Format) -> String {
+        formats::write(verdict, format, &self.all, &|family, index| self.case(family, index))
+    }
 }
 
 /// Writes the file of `--junit`, if there is one.
 fn save_junit(
     arguments: &JudgeArguments,
     verdict: &Verdict,
-    repeat_all: &str,
-    repeat: &dyn Fn(&str, u64) -> String,
+    again: &Again,
     streams: &mut Streams<'_>,
 ) {
     if let Some(path) = &arguments.junit {
-        let text = formats::write(verdict, Format::Junit, repeat_all, repeat);
+        let text = again.written(verdict, Format::Junit);
         streams.save(&Output::typed(path), text.as_bytes());
     }
 }
@@ -179,28 +200,25 @@ fn save_test(
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let written = written_test::write(verdict, language, &printable(&file), repeat);
     let shown = printable_path(path);
+    // Whoever has such a file may have edited it.
     let output = Output { path: path.to_owned(), over: Over::None };
-    let left_out = |streams: &mut Streams<'_>| {
-        let mut all = written.left_out.iter();
-        all.try_for_each(|why| writeln!(streams.errors, "  no test of {why}"))
-    };
     match &written.text {
         Some(text) if streams.save(&output, text.as_bytes()) => {
-            let tests =
-                if written.count == 1 { "1 test" } else { &format!("{} tests", written.count) };
-            writeln!(streams.errors, "{tests} in {}: {shown}", language.name())?;
-            left_out(streams)?;
+            let (count, language) = (written.count, language.name());
+            let tests = noun(count as u64, "test", "tests");
+            writeln!(streams.errors, "{count} {tests} in {language}: {shown}")?;
         }
-        Some(_) => {}
+        Some(_) => return Ok(()),
         None if verdict.failures.is_empty() => {
             writeln!(streams.errors, "no test is written, since no case fails: {shown}")?;
+            return Ok(());
         }
-        None => {
-            streams.lose(&format!(
-                "{shown}: no test is written, since none can be made of these cases"
-            ));
-            left_out(streams)?;
-        }
+        None => streams
+            .lose(&format!("{shown}: no test is written, since none can be made of these cases")),
+    }
+    // Of which cases there is no test.
+    for why in &written.left_out {
+        writeln!(streams.errors, "  no test of {why}")?;
     }
     Ok(())
 }
@@ -215,11 +233,13 @@ fn tessellator(
 ) -> Status {
     let declared = program.declared().clone();
     let name = &declared.name;
+    // One that declares more would be judged by pixels, too, and its polygons would be lost among them.
     if declared.capabilities().len() > 1 {
         return Err(usage(format!(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
+    // Those options are about pixels, pairs or pages, which a judgement of polygons does not have.
     if let Some(option) =
         typed.given(&["baseline", "against", "checkpoint", "report", "write-test"])
     {
@@ -228,16 +248,17 @@ fn tessellator(
         )));
     }
     let report = polygons::judge(program, options)?;
-    let (repeat_all, repeat_case) = again(arguments, typed);
+    let again = Again::of(arguments, typed);
     let (format, status) = (arguments.format(), exit::of(report.sum().wrong == 0));
     let verdict = polygons::verdict(&declared, options, &report);
-    save_junit(arguments, &verdict, &repeat_all, &repeat_case, streams);
+    save_junit(arguments, &verdict, &again, streams);
+    // For people there is a report of its own, about polygons.
     if format == Format::Text {
-        let said = judge_text::of_polygons(&declared, &report, &repeat_all, &repeat_case);
+        let repeat_case = |family: &str, index| again.case(family, index);
+        let said = judge_text::of_polygons(&declared, &report, &again.all, &repeat_case);
         return show(said, Shown::Screen, None, status, streams);
     }
-    let text = formats::write(&verdict, format, &repeat_all, &repeat_case);
-    streams.output.write_all(text.as_bytes())?;
+    streams.output.write_all(again.written(&verdict, format).as_bytes())?;
     Ok(status)
 }
 
@@ -250,20 +271,16 @@ struct Begun {
 
 /// Starts the programs of a command line.
 fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
-    let start = |who: &str, command: &[String]| {
-        let program = Program::start(command, &arguments.words(), arguments.limits());
-        let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
-        Ok::<_, InputError>(Box::new(program) as Box<dyn Subject>)
-    };
     let mut askers = Vec::new();
     let mut others = Vec::new();
     for _ in 0..arguments.jobs {
-        askers.push(start("the program", &arguments.command)?);
+        askers.push(start("the program", &arguments.command, arguments)?);
         if let Some(CommandLine(command)) = &arguments.against {
-            others.push(start("the program of --against", command)?);
+            others.push(start("the program of --against", command, arguments)?);
         }
     }
-    for declared in askers.first().into_iter().chain(others.first()).map(|asked| asked.declared()) {
+    for asked in askers.first().into_iter().chain(others.first()) {
+        let declared = asked.declared();
         if declared.capabilities().is_empty() {
             return Err(usage(format!(
                 "{} names no capability after HELLO; expected coverage, line, attributes, \
@@ -272,20 +289,34 @@ fn begin(arguments: &JudgeArguments) -> Result<Begun, InputError> {
             )));
         }
     }
+    // Copies of one program declare the same. Two programs are asked what both can answer.
     let mut declared = askers[0].declared().clone();
-    if let Some(other) = others.first().map(|other| other.declared()) {
-        let names = [declared.name.clone(), other.name.clone()];
-        declared = declared.within(other);
-        if declared.capabilities().is_empty() {
+    if let Some(other) = others.first() {
+        let both = declared.clone().within(other.declared());
+        if both.capabilities().is_empty() {
+            let (one, other) = (&declared.name, &other.declared().name);
             return Err(usage(format!(
-                "{} and {} have no capability in common, so there is nothing to compare",
-                names[0], names[1]
+                "{one} and {other} have no capability in common, so there is nothing to compare"
             )));
         }
+        declared = both;
     }
     Ok(Begun { askers, others, declared })
 }
 
+/// Starts a program; `who` is what an error calls it.
+fn start(
+    who: &str,
+    command: &[String],
+    arguments: &JudgeArguments,
+) -> Result<Box<dyn Subject>, InputError> {
+    match Program::start(command, &arguments.words(), arguments.limits()) {
+        Ok(program) => Ok(Box::new(program)),
+        Err(why) => Err(usage(format!("{who} {why}\n  {}", why.remedy()))),
+    }
+}
+
+/// A bar for all the cases of these options that the program can answer.
 fn progress_of(options: &Options, declared: &Declared, streams: &Streams<'_>) -> Progress {
     Progress::new(streams.progress, "cases judged", Some(cases_of(options, declared)))
 }
@@ -317,6 +348,7 @@ fn watched(
     let mut askers: Vec<_> =
         askers.into_iter().map(|asked| watch::until_changed(asked, files)).collect();
     let options = arguments.remembering();
+    // First what failed before, since that is what was changed; then all cases, since a change may break others.
     if let Some(before) = before {
         let [asked, right] = before.ask_again(&mut *askers[0], options.seed);
         if asked > 0 {
@@ -332,6 +364,7 @@ fn watched(
     drop(progress);
     let record = JudgementRecord::of(&mut *askers[0], &verdict);
     askers[0].finish();
+    // A program that was built again meanwhile would be judged half as the old one, half as the new one.
     if files.have_changed() {
         return Ok(None);
     }
@@ -339,13 +372,41 @@ fn watched(
         return Err(usage(why));
     }
     let changes = before.map(|before| record.since(before));
-    let (repeat_all, repeat_case) = again(arguments, typed);
-    let report =
-        judge_text::watched(&verdict, &record.faults, changes.as_ref(), &repeat_all, &repeat_case);
+    let again = Again::of(arguments, typed);
+    let repeat_case = |family: &str, index| again.case(family, index);
+    let (faults, changes) = (&record.faults, changes.as_ref());
+    let report = judge_text::watched(&verdict, faults, changes, &again.all, &repeat_case);
     show(report, Shown::Screen, None, exit::AGREES, streams)?;
     Ok(Some(record))
 }
 
+/// Refuses words and files of the command line before any program is started.
+fn check(arguments: &JudgeArguments, page: &Option<Output>) -> Result<(), InputError> {
+    for words in &arguments.declare {
+        let understood = Declared::default().declare(words);
+        understood.map_err(|why| usage(format!("--declare: {why}")))?;
+    }
+    if let Some(path) = &arguments.write_test {
+        Language::of(path)
+            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
+    }
+    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
+    let mut files: Vec<_> = known.into_iter().chain(as_file(page)).collect();
+    for (option, path, of) in [
+        ("--junit", &arguments.junit, Use::Writes(Over::Any)),
+        ("--write-test", &arguments.write_test, Use::Writes(Over::None)),
+        ("--checkpoint", &arguments.checkpoint, Use::Writes(Over::Updated)),
+    ] {
+        files.extend(path.as_deref().map(|path| (option, path, of)));
+    }
+    output::check_all(files)?;
+    if arguments.checkpoint.is_some() && arguments.jobs > 1 {
+        return Err(usage("--checkpoint keeps the answers of one copy; leave --jobs out"));
+    }
+    Ok(())
+}
+
+/// Judges a program, two programs, or libraries, whichever the options ask for.
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(names) = &arguments.league {
         let options = arguments.options(None);
@@ -353,30 +414,13 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         return league::run(names, &options, limits, &arguments.page.place, streams);
     }
     arguments.page.refuse_idle_folder(typed)?;
-    for words in &arguments.declare {
-        let understood = Declared::default().declare(words);
-        understood.map_err(|why| usage(format!("--declare: {why}")))?;
-    }
     let page = arguments.page.page("judge.html");
-    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
-    let test = arguments.write_test.as_deref();
-    if let Some(path) = test {
-        Language::of(path)
-            .map_err(|why| usage(format!("--write-test: {}: {why}", printable_path(path))))?;
-    }
-    let test = test.map(|path| ("--write-test", path, Use::Writes(Over::None)));
-    let kept = arguments.checkpoint.as_deref();
-    let checkpoint = kept.map(|path| ("--checkpoint", path, Use::Writes(Over::Updated)));
-    let written = junit.into_iter().chain(test).chain(checkpoint);
-    output::check_all(known.into_iter().chain(as_file(&page)).chain(written))?;
-    if kept.is_some() && arguments.jobs > 1 {
-        return Err(usage("--checkpoint keeps the answers of one copy; leave --jobs out"));
-    }
+    check(arguments, &page)?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
     };
+    // From here on programs run, which must not outlive this one.
     group::end_all_on_ctrl_c();
     if arguments.watch {
         let mut round =
@@ -390,41 +434,44 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     if declared.partition {
         return tessellator(arguments, &mut *askers[0], &options, typed, streams);
     }
-    if let Some(path) = kept {
+    if let Some(path) = &arguments.checkpoint {
         let program = askers.remove(0);
         askers.push(judge_checkpoint::resume(program, path, &arguments.command, &options)?);
     }
     let progress = progress_of(&options, &declared, streams);
     let step = |step| progress.step(step);
+    // Copies of a program share the cases; of a pair each program is asked all of its cases.
     let mut verdict = if others.is_empty() {
         judge_one(&mut askers, &options, &step)
     } else {
-        let mut pairs: Vec<_> = askers.into_iter().zip(others).map(|(a, b)| [a, b]).collect();
+        let mut pairs: Vec<_> = askers.into_iter().zip(others).map(<[_; 2]>::from).collect();
         against::compare(&mut pairs, &options, &step)
     };
     drop(progress);
     if let Some(why) = verdict.judged_nothing() {
         return Err(usage(why));
     }
+    // What the baseline knows counts no more.
     if let Some(baseline) = &baseline {
         baseline.apply(&mut verdict);
     }
-    let (repeat_all, repeat_case) = again(arguments, typed);
+    let again = Again::of(arguments, typed);
+    let repeat_case = |family: &str, index| again.case(family, index);
     // What JSON and a page have besides is made for them alone.
     let is_whole = page.is_some() || arguments.format() == Format::Json;
     let make = if is_whole { judge_text::whole } else { judge_text::report };
-    let mut report = make(&verdict, &repeat_all, &repeat_case, arguments.table);
+    let mut report = make(&verdict, &again.all, &repeat_case, arguments.table);
     report.command = typed.clone().set("seed", arguments.seed).line();
     let mut agrees = verdict.agrees();
-    save_junit(arguments, &verdict, &repeat_all, &repeat_case, streams);
+    save_junit(arguments, &verdict, &again, streams);
+    // Reports have a page; all other formats are written as they are, and the page beside them.
     match arguments.format() {
         format @ (Format::Text | Format::Json) => {
             let shown = Shown::Screen.or_json(format == Format::Json);
             show(report, shown, page, exit::of(agrees), streams)?;
         }
         other => {
-            let text = formats::write(&verdict, other, &repeat_all, &repeat_case);
-            streams.output.write_all(text.as_bytes())?;
+            streams.output.write_all(again.written(&verdict, other).as_bytes())?;
             streams.output.flush()?;
             if let Some(page) = page {
                 write_page(&page, report, streams);
@@ -434,24 +481,39 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(path) = &arguments.write_test {
         save_test(path, &verdict, &repeat_case, streams)?;
     }
-    // It was read, and is written anew.
-    let updated = |path: &Path| Output { path: path.to_owned(), over: Over::Updated };
     if let (Some(baseline), Some(path), true) =
         (&baseline, &arguments.baseline, arguments.update_baseline)
     {
-        match baseline.updated(&verdict) {
-            Err(why) => streams.lose(&format!("{}: not written: {why}", printable_path(path))),
-            Ok(text) if streams.save(&updated(path), text.as_bytes()) => {
-                writeln!(streams.errors, "baseline: {}", printable_path(path))?;
-                // A baseline that was just written knows everything.
-                agrees = true;
-            }
-            Ok(_) => {}
-        }
+        // A baseline that was just written knows everything.
+        agrees |= update_baseline(baseline, &verdict, path, streams)?;
     }
     // What was judged to its end is not gone on with.
-    if let Some(Err(error)) = kept.map(output::remove) {
+    if let Some(Err(error)) = arguments.checkpoint.as_deref().map(output::remove) {
         writeln!(streams.errors, "warning: {error}")?;
     }
     Ok(exit::of(agrees))
+}
+
+/// Writes what fails now into the baseline; whether it was written.
+fn update_baseline(
+    baseline: &Baseline,
+    verdict: &Verdict,
+    path: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<bool, InputError> {
+    let shown = printable_path(path);
+    let text = match baseline.updated(verdict) {
+        Ok(text) => text,
+        Err(why) => {
+            streams.lose(&format!("{shown}: not written: {why}"));
+            return Ok(false);
+        }
+    };
+    // It was read, and is written anew.
+    let output = Output { path: path.to_owned(), over: Over::Updated };
+    let is_saved = streams.save(&output, text.as_bytes());
+    if is_saved {
+        writeln!(streams.errors, "baseline: {shown}")?;
+    }
+    Ok(is_saved)
 }

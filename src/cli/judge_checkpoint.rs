@@ -29,6 +29,7 @@ pub fn resume(
         Err(error) if error.missing => String::new(),
         read => read.map_err(|error| usage(format!("the checkpoint {error}")))?,
     };
+    // The first lines of the file say which answers these are; those of another judgement are refused.
     let of = answers_of(&*program, command, options);
     let state = Output { path: path.to_owned(), over: Over::Updated };
     // A full disk must not end the judgement; the next save may succeed.
@@ -48,6 +49,7 @@ pub fn resume(
 
 /// What the answers depend on, in a line: the options, what the program says of itself, its command, and the files that this names.
 fn answers_of(program: &dyn Subject, command: &[String], options: &Options) -> String {
+    // A program that was built anew has other answers, so the content of its files counts.
     let mut files = 0xcbf2_9ce4_8422_2325;
     for word in command {
         let bytes = input::read(Path::new(word), limits::DOCUMENT_BYTES).unwrap_or_default();

@@ -39,6 +39,7 @@ use std::fmt::Display;
 use std::io::{self, BufRead, Write};
 use std::ops::RangeInclusive;
 use std::path::Path;
+use std::str::FromStr;
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -51,7 +52,7 @@ use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_pa
 use rasterproof_host::{identity, shell};
 use typed::Typed;
 
-use rasterproof_registry::engines;
+use rasterproof_registry::{engines, named};
 use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
@@ -61,12 +62,15 @@ use rasterproof_verify::cases::facts::{self, design};
 use rasterproof_verify::mistakes::{self, Explanation};
 use rasterproof_verify::partition;
 
+/// What the exit status of the program means.
 pub mod exit {
     pub const AGREES: u8 = 0;
+    /// Something is wrong with what was judged.
     pub const DISAGREES: u8 = 1;
     /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 
+    /// The status of a command that has judged.
     pub const fn of(agrees: bool) -> u8 {
         if agrees { AGREES } else { DISAGREES }
     }
@@ -166,6 +170,7 @@ type InputError = Box<dyn Error + Send + Sync>;
 /// The exit status of a command, or why it has none.
 type Status = Result<u8, InputError>;
 
+/// An error of these words.
 fn usage(message: impl ToString) -> InputError {
     message.to_string().into()
 }
@@ -177,20 +182,25 @@ fn one_of<T: Clone + Send + Sync + 'static>(
     one_of_explained(choices.into_iter().map(|(word, value)| (word, value, "")))
 }
 
-/// The same for words that the help explains.
+/// The same for words that the help explains, each by the text that is its third part.
 fn one_of_explained<T: Clone + Send + Sync + 'static>(
     choices: impl IntoIterator<Item = (&'static str, T, &'static str)>,
 ) -> impl TypedValueParser<Value = T> {
-    let choices: Vec<_> = choices.into_iter().collect();
-    let words = PossibleValuesParser::new(choices.iter().map(|(word, _, help)| {
-        PossibleValue::new(*word).help(Some(*help).filter(|help| !help.is_empty()))
-    }));
-    words.try_map(move |word| {
-        let found = choices.iter().find(|(choice, ..)| **choice == word);
-        found.map(|(_, value, _)| value.clone()).ok_or("no such word")
+    let mut words = Vec::new();
+    let mut values = Vec::new();
+    for (word, value, help) in choices {
+        let possible = PossibleValue::new(word);
+        words.push(if help.is_empty() { possible } else { possible.help(help) });
+        values.push((word, value));
+    }
+    // The parser has refused all other words before a value is looked for.
+    PossibleValuesParser::new(words).try_map(move |word| {
+        let found = values.iter().find(|(choice, _)| **choice == word);
+        found.map(|(_, value)| value.clone()).ok_or("no such word")
     })
 }
 
+/// Where a command reads and writes, and how it may write there. `main` connects it to the process, a test to buffers.
 pub struct Streams<'a> {
     pub input: &'a mut dyn BufRead,
     pub output: &'a mut dyn Write,
@@ -209,13 +219,19 @@ pub struct Streams<'a> {
 
 /// Whether a word is a negative number such as -1 or -1/2, which is no option.
 fn is_negative(word: &str) -> bool {
-    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
-    word.strip_prefix('-').is_some_and(|rest| rest.starts_with(is_of_number))
+    let Some(rest) = word.strip_prefix('-') else { return false };
+    rest.starts_with(|c: char| c.is_ascii_digit() || c == '.')
 }
 
 /// Whether a word is a coordinate such as -1.5,3, which is no option either.
 fn is_coordinate(word: &str) -> bool {
     word.contains(',') && is_negative(word)
+}
+
+/// Whether a word is an option whose value may be the next word.
+fn is_option_alone(word: &OsStr) -> bool {
+    let text = word.to_str().unwrap_or_default();
+    text.starts_with("--") && !text.contains('=')
 }
 
 /// The arguments, and the same as a command that can be printed.
@@ -227,18 +243,18 @@ fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
     for word in words {
         let text = word.to_str().unwrap_or_default();
         ours &= text != "--";
-        let option = given.last_mut().filter(|_| ours && is_negative(text));
-        let is_option = |last: &OsStr| {
-            last.to_str().is_some_and(|last| last.starts_with("--") && !last.contains('='))
-        };
         if ours && is_coordinate(text) {
             given.push(format!(" {text}").into());
-        } else if let Some(option) = option.filter(|last| is_option(last)) {
-            option.push(format!("={text}"));
-        } else {
-            given.push(word);
+            continue;
+        }
+        match given.last_mut() {
+            Some(option) if ours && is_negative(text) && is_option_alone(option) => {
+                option.push(format!("={text}"));
+            }
+            _ => given.push(word),
         }
     }
+    // The command is kept for its list of options, from which the typed command is made.
     let mut command = Arguments::command();
     let matches = command.try_get_matches_from_mut(given)?;
     let arguments =
@@ -249,16 +265,25 @@ fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
 /// What the parser says of words that it refuses, or that ask for help or the version. It repeats the words as they are, so
 /// they are made printable before they are parsed.
 fn refusal(mut error: clap::Error, words: &[OsString]) -> String {
-    let shown = |word: &OsString| printable(&word.to_string_lossy()).into_owned();
+    // The words as they can be shown, and those of them that the parser cannot quote.
+    let (mut shown, mut not_text) = (Vec::new(), Vec::new());
+    let mut has_hidden = false;
+    for word in words {
+        let text = word.to_string_lossy();
+        has_hidden |= text.chars().any(is_hidden);
+        if word.to_str().is_none() {
+            not_text.push(printable(&text).into_owned());
+        }
+        shown.push(OsString::from(&*printable(&text)));
+    }
+    // Its message has no place for words that are not UTF-8, so they follow it.
     let is_not_text = error.kind() == ErrorKind::InvalidUtf8;
-    let has_hidden = |word: &OsString| word.to_string_lossy().chars().any(is_hidden);
-    if words.iter().any(has_hidden) && !is_not_text {
-        error = parse(words.iter().map(|word| shown(word).into()).collect()).err().unwrap_or(error);
+    if has_hidden && !is_not_text {
+        error = parse(shown).err().unwrap_or(error);
     }
     let mut text = printable_lines(&error.render().to_string()).into_owned();
     if is_not_text {
-        let not_text = words.iter().filter(|word| word.to_str().is_none()).map(shown);
-        text += &format!("not UTF-8: {}\n", not_text.collect::<Vec<_>>().join(", "));
+        text += &format!("not UTF-8: {}\n", not_text.join(", "));
     }
     if matches!(error.kind(), ErrorKind::MissingRequiredArgument | ErrorKind::UnknownArgument) {
         text += &examples(words);
@@ -271,8 +296,9 @@ fn examples(words: &[OsString]) -> String {
     const MOST: usize = 3;
     let name = words.get(1).and_then(|word| word.to_str()).unwrap_or_default();
     let all = Arguments::command();
-    let help = all.find_subcommand(name).and_then(clap::Command::get_after_help);
-    let help = help.map(ToString::to_string).unwrap_or_default();
+    let Some(command) = all.find_subcommand(name) else { return String::new() };
+    let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+    // Its lines begin with a command; what the help says besides is left out.
     let begins = format!("  rasterproof {name} ");
     let lines: Vec<_> = help.lines().filter(|l| l.starts_with(&begins)).take(MOST).collect();
     if lines.is_empty() { String::new() } else { format!("For example:\n{}\n", lines.join("\n")) }
@@ -282,74 +308,87 @@ fn examples(words: &[OsString]) -> String {
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
+    run_words(words.into_iter().map(Into::into).collect(), streams)
+}
+
+/// The same, compiled here once and not again for each caller's kind of words.
+fn run_words(words: Vec<OsString>, streams: &mut Streams<'_>) -> u8 {
+    // Files that an earlier command of this process read are no files of this one.
     identity::forget_read_files();
-    let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
-    let Streams { progress, colour, columns, error_columns, .. } = *streams;
     let (arguments, typed) = match parse(words.clone()) {
         Ok(parsed) => parsed,
-        Err(error) => {
-            let is_error = error.use_stderr();
-            let text = refusal(error, &words);
-            // Help is laid out for the usual width.
-            let columns = if columns < outlet::USUAL { columns } else { usize::MAX };
-            let outlet = |stream, columns| {
-                Outlet::new(stream, Escape::Words).noted(&delivery).folded(columns, None)
-            };
-            let (mut output, mut errors) =
-                (outlet(streams.output, columns), outlet(streams.errors, error_columns));
-            let stream = if is_error { &mut errors } else { &mut output };
-            let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
-            report_loss(&output, &mut errors);
-            let _ = errors.flush();
-            return delivery.status(if is_error { exit::USAGE } else { exit::AGREES });
-        }
+        Err(error) => return answer_parser(error, &words, streams),
     };
     quiet_engines();
     let command = arguments.command.unwrap_or(Command::Unnamed(arguments.verify));
+    // Both streams write what cannot hide anything; lines for machines are not broken.
     let for_machines = is_for_machines(&command, &words);
-    let escape = match (for_machines, colour) {
+    let escape = match (for_machines, streams.colour) {
         (true, _) => Escape::Json,
         (false, true) => Escape::WordsAndColours,
         (false, false) => Escape::Words,
     };
     let errors = Outlet::new(streams.errors, Escape::Words).noted(&delivery);
-    let errors = &mut errors.folded(error_columns, Some(program()));
+    let mut errors = errors.folded(streams.error_columns, Some(program()));
+    // A conversation ends where nobody listens any more. Every other command goes on, and its loss is noted.
+    let is_conversation = matches!(command, Command::Engine { .. });
+    let mut output = Outlet::new(streams.output, escape);
+    if !is_conversation {
+        let columns = if for_machines { usize::MAX } else { streams.columns };
+        output = output.noted(&delivery).checked().folded(columns, Some(program()));
+    }
     if uses_pool(&command) {
-        threads::prepare(errors);
+        threads::prepare(&mut errors);
     }
-    let input = &mut *streams.input;
-    let mut run = |output: &mut dyn Write, errors: &mut dyn Write, delivery: Delivery| {
-        let streams = &mut Streams {
-            input,
-            output,
-            errors,
-            progress,
-            colour,
-            columns,
-            error_columns,
-            delivery,
-        };
-        let result = dispatch(&command, &typed, streams);
-        result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
+    let checked = &mut Streams {
+        input: &mut *streams.input,
+        output: &mut output,
+        errors: &mut errors,
+        delivery: delivery.clone(),
+        progress: streams.progress,
+        colour: streams.colour,
+        columns: streams.columns,
+        error_columns: streams.error_columns,
     };
-    // A conversation ends where nobody listens any more.
-    if matches!(command, Command::Engine { .. }) {
-        let output = &mut Outlet::new(streams.output, escape);
-        let is_end = |error: &io::Error| error.kind() == io::ErrorKind::BrokenPipe;
-        return match run(output, errors, delivery) {
-            Err(error) if error.downcast_ref().is_some_and(is_end) => exit::AGREES,
-            result => status_of(result, errors),
-        };
+    let mut result = dispatch(&command, &typed, checked);
+    // Text that is still in a buffer is not delivered, which may fail, too.
+    if result.is_ok() {
+        result = checked.output.flush().map_err(InputError::from).and(result);
     }
-    let columns = if for_machines { usize::MAX } else { columns };
-    let output = Outlet::new(streams.output, escape).noted(&delivery).checked();
-    let output = &mut output.folded(columns, Some(program()));
-    let result = run(output, errors, delivery.clone());
-    let status = status_of(result, errors);
-    report_loss(output, errors);
+    match result {
+        Err(error) if is_conversation && is_broken_pipe(&error) => exit::AGREES,
+        result if is_conversation => status_of(result, &mut errors),
+        result => {
+            let status = status_of(result, &mut errors);
+            report_loss(&output, &mut errors);
+            let _ = errors.flush();
+            delivery.status(status)
+        }
+    }
+}
+
+/// Prints what the parser answers instead of arguments: what is wrong with them, or the help or the version that they ask for.
+fn answer_parser(error: clap::Error, words: &[OsString], streams: &mut Streams<'_>) -> u8 {
+    let is_error = error.use_stderr();
+    let text = refusal(error, words);
+    // Help is laid out for the usual width, so that it is broken on narrower terminals alone.
+    let columns = if streams.columns < outlet::USUAL { streams.columns } else { usize::MAX };
+    let output = Outlet::new(streams.output, Escape::Words).noted(&streams.delivery);
+    let mut output = output.folded(columns, None);
+    let errors = Outlet::new(streams.errors, Escape::Words).noted(&streams.delivery);
+    let mut errors = errors.folded(streams.error_columns, None);
+    let stream = if is_error { &mut errors } else { &mut output };
+    let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+    report_loss(&output, &mut errors);
     let _ = errors.flush();
-    delivery.status(status)
+    streams.delivery.status(if is_error { exit::USAGE } else { exit::AGREES })
+}
+
+/// Whether a command failed because nobody reads what it writes.
+fn is_broken_pipe(error: &InputError) -> bool {
+    let error: Option<&io::Error> = error.downcast_ref();
+    error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
 /// Whether a command computes on several threads. Others leave what the system allows to the programs
@@ -361,25 +400,27 @@ fn uses_pool(command: &Command) -> bool {
 
 /// Whether programs read what a command prints, so that its lines are not broken.
 fn is_for_machines(command: &Command, words: &[OsString]) -> bool {
-    let ours = words.iter().map(|word| word.to_string_lossy()).take_while(|word| word != "--");
-    { ours }.any(|word| word == "--json" || word.starts_with("--format"))
-        || matches!(
-            command,
-            Command::Engine { .. }
-                | Command::Exhaust(_)
-                | Command::Merge(_)
-                | Command::Digest(_)
-                | Command::Fixtures(_)
-        )
+    use Command::{Digest, Engine, Exhaust, Fixtures, Merge};
+    // After -- come the words of somebody else.
+    for word in words.iter().map(|word| word.to_string_lossy()).take_while(|word| word != "--") {
+        if word == "--json" || word.starts_with("--format") {
+            return true;
+        }
+    }
+    // Commands that print what programs read, whatever their options say.
+    matches!(command, Engine { .. } | Exhaust(_) | Merge(_) | Digest(_) | Fixtures(_))
 }
 
 /// The exit status of what a command returned; a failure is printed.
 fn status_of(result: Result<u8, InputError>, errors: &mut dyn Write) -> u8 {
-    result.unwrap_or_else(|failure| {
-        // A message may quote a file that somebody else wrote.
-        let _ = writeln!(errors, "error: {}", printable_lines(&failure.to_string()));
-        exit::USAGE
-    })
+    match result {
+        Ok(status) => status,
+        Err(failure) => {
+            // A message may quote a file that somebody else wrote.
+            let _ = writeln!(errors, "error: {}", printable_lines(&failure.to_string()));
+            exit::USAGE
+        }
+    }
 }
 
 /// Says why standard output did not take everything.
@@ -393,6 +434,7 @@ fn report_loss(output: &Outlet<'_>, errors: &mut dyn Write) {
     }
 }
 
+/// Runs a command by the function of its file.
 fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     match command {
         Command::Unnamed(arguments) => verify::run(arguments, typed, streams),
@@ -439,14 +481,15 @@ pub fn quiet_engines() {
     });
 }
 
+/// Everything that has a name, with what it is about.
 fn list(streams: &mut Streams<'_>) -> Status {
     let speaking = engines::speaking().map(|entry| (entry.name, entry.about));
     let families = cases::families().map(|f| (f.name, f.about));
     let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| (f.name, f.about));
-    let named =
-        rasterproof_registry::named::named().into_iter().map(|case| (case.name, case.about));
+    let named = named::named().into_iter().map(|case| (case.name, case.about));
     let faults = rasterproof_faults::planted::all();
     let scenes = scene::chapters::entries().map(|entry| (entry.name, entry.about));
+    // Each title says in which command the names are words.
     #[allow(unused_mut, reason = "with devices there are more")]
     let mut tables = vec![
         listed("Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER)", families),
@@ -471,19 +514,20 @@ fn list_facts(streams: &mut Streams<'_>) -> Status {
 
 /// The mistakes in fills and in lines, each with its first parameter, and those of students.
 fn list_mistakes(streams: &mut Streams<'_>) -> Status {
-    let about = |m: Explanation| {
-        let Explanation { name, does, repair, refuted, .. } = m;
-        (name, format!("for example, it {does}. Repair: {repair}. Refuted by: {refuted}"))
-    };
-    let known = mistakes::table().into_iter().map(about);
+    let mut known = Vec::new();
+    for Explanation { name, does, repair, refuted, .. } in mistakes::table() {
+        let about = format!("for example, it {does}. Repair: {repair}. Refuted by: {refuted}");
+        known.push((name, about));
+    }
     let students = misconceptions::all().map(|is| (is.name, is.says));
     let tables = vec![
-        listed("Mistakes that the judge knows", known),
+        listed("Mistakes that the judge knows", known.into_iter()),
         listed("Mistakes that the course knows", students),
     ];
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 
+/// The facts of one kind of question, and how many pairs of their classes its families have.
 fn facts_of<Q, L>(topic: &facts::Topic<Q, L>) -> Table {
     let mut rows = Vec::new();
     for fact in topic.facts {
@@ -500,10 +544,14 @@ fn facts_of<Q, L>(topic: &facts::Topic<Q, L>) -> Table {
 
 /// A list under a title, what an entry is about beside its name.
 fn listed(title: &str, entries: impl Iterator<Item = (impl Display, impl Display)>) -> Table {
-    let rows = entries.map(|(name, about)| Row::of(&[&name, &about]));
-    Table::new(title, "~name 1 | ~about 1", rows.collect())
+    let mut rows = Vec::new();
+    for (name, about) in entries {
+        rows.push(Row::of(&[&name, &about]));
+    }
+    Table::new(title, "~name 1 | ~about 1", rows)
 }
 
+/// Writes a file without which the command has no result.
 fn write_file(output: &Output, bytes: &[u8]) -> Result<(), InputError> {
     output::write(&output.path, bytes, output.over).map_err(usage)
 }
@@ -513,17 +561,37 @@ fn whole<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
     range: RangeInclusive<u64>,
 ) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
     move |text: &str| {
-        let number = text.parse().ok().filter(|number| range.contains(number));
-        number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| match *range.end() {
-            u64::MAX => format!("expected a whole number from {}, for example 7", range.start()),
-            most => format!("expected a whole number from {} to {most}", range.start()),
-        })
+        let number = whole_in(text, &range)?;
+        T::try_from(number).map_err(|_| out_of_range(&range))
     }
+}
+
+/// A whole number in a range, compiled once for all types of numbers.
+fn whole_in(text: &str, range: &RangeInclusive<u64>) -> Result<u64, String> {
+    match text.parse() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        _ => Err(out_of_range(range)),
+    }
+}
+
+/// Which numbers are expected; a range without an end is shown by an example.
+fn out_of_range(range: &RangeInclusive<u64>) -> String {
+    match *range.end() {
+        u64::MAX => format!("expected a whole number from {}, for example 7", range.start()),
+        most => format!("expected a whole number from {} to {most}", range.start()),
+    }
+}
+
+/// Two numbers with one of some signs between them; each may have blanks around it.
+fn pair<A: FromStr, B: FromStr>(text: &str, signs: &[char]) -> Option<(A, B)> {
+    let (first, second) = text.split_once(signs)?;
+    Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
 }
 
 /// The numbers of cases: all but the largest, behind which a range could not end.
 const NUMBERS: RangeInclusive<u64> = 0..=u64::MAX - 1;
 
+/// A time that a command may take.
 fn seconds(text: &str) -> Result<Duration, String> {
     match text.parse::<f64>() {
         Ok(s) if s > 0.0 && s <= 1e6 => Ok(Duration::from_secs_f64(s)),
@@ -532,14 +600,20 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 /// The nearest of some names as a question, where one is near, then a full stop.
-fn did_you_mean(word: &str, names: impl Iterator<Item = &'static str>) -> String {
-    let distance =
-        |name: &str| strsim::levenshtein(&word.to_ascii_lowercase(), &name.to_ascii_lowercase());
-    match names.map(|name| (distance(name), name)).min() {
-        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
-            format!("; did you mean '{name}'?")
-        }
-        _ => ".".to_owned(),
+fn did_you_mean(word: &str, names: &[&'static str]) -> String {
+    let lower = word.to_ascii_lowercase();
+    // Of several that are equally near, the first in the alphabet.
+    let mut nearest = (usize::MAX, "");
+    for name in names {
+        let steps = strsim::levenshtein(&lower, &name.to_ascii_lowercase());
+        nearest = nearest.min((steps, name));
+    }
+    // A name of which more than half would have to be changed is another word.
+    let (steps, name) = nearest;
+    if steps <= name.len().max(word.len()) / 2 {
+        format!("; did you mean '{name}'?")
+    } else {
+        ".".to_owned()
     }
 }
 
@@ -560,17 +634,22 @@ fn write_picture(
     bytes: &[u8],
     streams: &mut Streams<'_>,
 ) -> Result<Option<String>, InputError> {
-    let written = match asked {
-        Some(output) => streams.save(output, bytes).then_some(output),
-        None => match write_file(unasked, bytes) {
-            Ok(()) => Some(unasked),
-            Err(failure) => {
-                writeln!(streams.errors, "warning: no picture: {failure}")?;
-                None
-            }
-        },
-    };
-    Ok(written.map(|Output { path, .. }| format!("drawn in {}", printable_path(path))))
+    if let Some(output) = asked {
+        let is_saved = streams.save(output, bytes);
+        return Ok(is_saved.then(|| drawn_in(output)));
+    }
+    match write_file(unasked, bytes) {
+        Ok(()) => Ok(Some(drawn_in(unasked))),
+        Err(failure) => {
+            writeln!(streams.errors, "warning: no picture: {failure}")?;
+            Ok(None)
+        }
+    }
+}
+
+/// Where a picture is, in words.
+fn drawn_in(output: &Output) -> String {
+    format!("drawn in {}", printable_path(&output.path))
 }
 
 /// How this program was called, for commands that can be copied: through cargo where cargo started
@@ -578,9 +657,11 @@ fn write_picture(
 fn program() -> String {
     let word = std::env::args_os().next().unwrap_or_default().to_string_lossy().into_owned();
     let path = Path::new(&word);
+    // Whoever has installed it types its name alone, and a script names it by its whole path.
+    let is_within = path.is_relative() && path.components().count() > 1;
     // cargo calls it as target/PROFILE/rasterproof.
-    let profile = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
-    match profile.filter(|_| path.is_relative() && path.components().count() > 1) {
+    let profile = path.parent().and_then(Path::file_name).and_then(OsStr::to_str);
+    match profile.filter(|_| is_within) {
         None => "rasterproof".to_owned(),
         Some(_) if std::env::var_os("CARGO").is_none() => shell::quote(&word).into_owned(),
         Some("debug") => "cargo run --".to_owned(),

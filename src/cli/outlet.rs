@@ -41,6 +41,7 @@ enum Loss {
 }
 
 impl Delivery {
+    /// The worst that happened stays.
     fn note(&self, loss: Loss) {
         self.0.set(self.0.get().max(loss));
     }
@@ -50,6 +51,7 @@ impl Delivery {
         self.0.get() == Loss::Nothing
     }
 
+    /// The exit status of a verdict: one that agrees does not count where something of it was lost.
     pub(super) fn status(&self, verdict: u8) -> u8 {
         let is_lost = self.0.get() == Loss::Failed;
         if is_lost && verdict == exit::AGREES { exit::USAGE } else { verdict }
@@ -85,6 +87,7 @@ pub(super) struct Outlet<'a> {
 }
 
 impl<'a> Outlet<'a> {
+    /// One that neither breaks lines nor notes what is lost.
     pub(super) fn new(inner: &'a mut dyn Write, escape: Escape) -> Self {
         Self {
             inner,
@@ -118,6 +121,7 @@ impl<'a> Outlet<'a> {
         self.failure.as_ref().filter(|error| error.kind() != ErrorKind::BrokenPipe)
     }
 
+    /// Passes bytes on, after a look at where the first of them go.
     fn pass(&mut self, bytes: &[u8]) -> io::Result<()> {
         if !self.is_begun {
             output::check(Path::new(STANDARD_OUTPUT), Over::Any).map_err(io::Error::other)?;

@@ -53,6 +53,7 @@ const HEAD_BYTES: u64 = 8192;
 impl PageArguments {
     /// Refuses a folder into which nothing would be written.
     pub(super) fn refuse_idle_folder(&self, typed: &Typed) -> Result<(), InputError> {
+        // Nothing is written where the page was asked for only by its folder.
         match typed.given(&["out", "force"]) {
             Some(option) if !self.report => Err(usage(format!(
                 "--{option} is about the folder of a page, and none is written: add --report, or leave --{option} away",
@@ -82,6 +83,7 @@ pub(super) enum Shown {
 }
 
 impl Shown {
+    /// JSON where it was asked for; it has all that there is.
     pub(super) fn or_json(self, is_json: bool) -> Self {
         if is_json { Self::Json } else { self }
     }

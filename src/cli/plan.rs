@@ -44,11 +44,13 @@ pub struct PlanArguments {
     json: bool,
 }
 
+/// An effect by its name; the error lists the names.
 fn parse_effect(name: &str) -> Result<Effect, String> {
     let effect = Effect::ALL.into_iter().find(|effect| effect.name() == name);
     effect.ok_or_else(|| format!("it is none of {}", Effect::ALL.map(Effect::name).join(", ")))
 }
 
+/// Measures what leaving out effects saves; or draws without one, or lists what becomes of each fragment.
 pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     if arguments.without.is_none() {
         arguments.page.refuse_idle_folder(typed)?;
@@ -69,6 +71,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let (measured, frames) =
         savings::measure((&scene, engine), &mut target, rounds, whole, &drawn)?;
     drop(progress);
+    // A plan is worth its survey only where that takes less time than it saves, so it is timed, too.
     let survey_us = savings::survey_us(&scene, &target)?;
     let frames = frames.each_ref();
     let kind = if arguments.what.source().is_ok() { "scene" } else { "model" };
@@ -79,6 +82,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if arguments.json {
         report.data = measurement.data();
     }
+    // A plan that changes a pixel is wrong, however much it saves.
     let same = measurement.is_same();
     show(report, Shown::All.or_json(arguments.json), page, exit::of(same), streams)
 }
@@ -99,6 +103,7 @@ fn draw_without(
     effect: Effect,
     streams: &mut Streams<'_>,
 ) -> Status {
+    // Two targets of one size, so that depths of both can be compared.
     let mut targets = [arguments.what.view.target()?, arguments.what.view.target()?];
     let [with, without] = &mut targets;
     let planned = arguments.engine.render(scene, &Effects::PLANNED, with)?;

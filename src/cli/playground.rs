@@ -35,6 +35,7 @@ pub(super) fn run(
     PlaygroundArguments { module, output, force }: &PlaygroundArguments,
     streams: &mut Streams<'_>,
 ) -> Status {
+    // A page of another program at the usual place is kept; one that this program made is replaced.
     let usual = || Output {
         path: Path::new("target/rasterproof").join(name).with_extension("html"),
         over: if *force { Over::Any } else { Over::Marked },
@@ -45,6 +46,7 @@ pub(super) fn run(
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
     };
     let bytes = input::read(module, limits::SOURCE_BYTES).map_err(|e| refused(e.to_string()))?;
+    // A module that a broken build left behind would fail in the browser of whoever opens the page.
     if !is_whole(&bytes) {
         let module = printable_path(module);
         return Err(refused(format!("{module} ends in the middle of a section, or is damaged")));

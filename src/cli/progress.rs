@@ -84,6 +84,7 @@ impl Progress {
         self.bar.suspend(write)
     }
 
+    /// A line that must be seen while the bar is there.
     pub fn warn(&self, line: &str) {
         self.bar.suspend(|| eprintln!("{line}"));
     }
@@ -105,6 +106,7 @@ fn goes_on(ended: &Receiver<()>, time: Duration) -> bool {
     ended.recv_timeout(time) == Err(RecvTimeoutError::Timeout)
 }
 
+/// On a terminal: a bar for work that takes longer than a moment.
 fn draw(bar: &ProgressBar, ended: &Receiver<()>) {
     if goes_on(ended, PATIENCE) {
         bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
@@ -114,6 +116,7 @@ fn draw(bar: &ProgressBar, ended: &Receiver<()>) {
     }
 }
 
+/// Elsewhere, as in the log of a CI: a line from time to time, which shows that the work goes on.
 fn write_lines(bar: &ProgressBar, unit: &str, ended: &Receiver<()>) {
     while goes_on(ended, INTERVAL) {
         let total = bar.length().map(|all| format!(" of {}", HumanCount(all))).unwrap_or_default();

@@ -39,6 +39,7 @@ pub struct QuizArguments {
 const LANGUAGES: [(&str, Language, &str); 2] =
     [("en", Language::English, "English"), ("zh", Language::Chinese, "Chinese")];
 
+/// Asks the exercises, lists them, or prints a paper of them.
 pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     let &QuizArguments { language, seed, key, .. } = arguments;
     let chapters = ask::chapters(arguments.chapter.as_deref())?;
@@ -50,6 +51,7 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         let paper = ask::paper(&asked, count.into(), seed, key, language)?;
         return print(paper, exit::AGREES, streams);
     }
+    // Answers come from a file that was named, or from whoever sits there.
     let is_file = arguments.answers.as_os_str() != "-";
     let (mut text, mut name) = (String::new(), "standard input".to_owned());
     if is_file {

@@ -1,11 +1,14 @@
 //! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
+//!
+//! By both it is drawn twice, and the pictures and all depths are compared; only then there is a verdict. Effects that a scene does
+//! not call for are left out, and a second frame with all of them shows that this changes nothing.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use image::codecs::gif::{GifEncoder, Repeat};
-use rasterproof_host::output::{self, Output, Over, Use};
+use rasterproof_host::output::{self, Named, Output, Over, Use};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
@@ -16,7 +19,7 @@ use super::view::{GridArguments, Maker, SceneArguments, view_and_grid};
 use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::Drawer;
-use rasterproof_render::effects::depth_ties::TiedPieces;
+use rasterproof_render::effects::depth_ties::{ByRounding, TiedPieces};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -26,6 +29,7 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::words::noun;
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
 use rasterproof_study::corner_grid::CornerGrid;
@@ -35,6 +39,7 @@ use rasterproof_study::report::drawing::{
     is_plan_alone, leaves_open, names, notes, outcome, rounding, snapped, times_text,
     undecided_and_broken,
 };
+use rasterproof_study::snapping::BySnapping;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
 
@@ -81,133 +86,223 @@ enum DrawnBy {
     Both,
 }
 
-pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let what = &arguments.what;
-    let extension = if arguments.spin.is_some() { "gif" } else { "png" };
-    let default = || arguments.page.place.output(format!("{}.{extension}", what.name()));
-    let output = arguments.output.as_deref().map_or_else(default, Output::typed);
-    if let Some(path) = &arguments.output {
-        let what = if extension == "gif" { "a full turn" } else { "the picture" };
-        ends_in(path, extension, what)?;
+/// The pictures that may be drawn.
+struct Pictures {
+    /// The first frame, or the full turn.
+    drawn: Output,
+    /// Where two rasterizers differ.
+    difference: Output,
+    /// What a grid other than the usual one changes.
+    by_grid: Output,
+}
+
+impl Pictures {
+    /// Their names; all begin as that of the first one. Two of them are not always drawn, so whether they replace something is seen
+    /// when they are.
+    fn named_by(arguments: &RenderArguments) -> Result<Self, InputError> {
+        let (extension, what) = match arguments.spin {
+            Some(_) => ("gif", "a full turn"),
+            None => ("png", "the picture"),
+        };
+        let place = &arguments.page.place;
+        let drawn = match &arguments.output {
+            Some(path) => {
+                ends_in(path, extension, what)?;
+                Output::typed(path)
+            }
+            None => place.output(format!("{}.{extension}", arguments.what.name())),
+        };
+        let beside = |ending| place.output_in(Path::new(""), drawn.path.with_extension(ending));
+        Ok(Self { difference: beside("difference.png"), by_grid: beside("grid.png"), drawn })
     }
-    // Whose name is chosen even where that of the picture is typed. It is not always drawn, so whether it
-    // replaces something is seen when it is.
-    let difference =
-        arguments.page.place.output_in(Path::new(""), output.path.with_extension("difference.png"));
-    let by_grid =
-        arguments.page.place.output_in(Path::new(""), output.path.with_extension("grid.png"));
-    let grid = arguments.grid.grid();
+
+    /// All files of the command.
+    fn files<'a>(
+        &'a self,
+        arguments: &'a RenderArguments,
+        page: &'a Option<Output>,
+    ) -> Vec<Named<'a>> {
+        let mut files = Vec::new();
+        files.extend(arguments.what.source().err().map(|path| ("the model", path, Use::Reads)));
+        files.extend(arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)));
+        files.push(self.drawn.named("--output"));
+        let updated = Use::Writes(Over::Updated);
+        files.push(("the picture of differences", &self.difference.path, updated));
+        if arguments.grid.grid() != CornerGrid::USUAL {
+            files.push(("the picture of what the grid changes", &self.by_grid.path, updated));
+        }
+        files.extend(as_file(page));
+        files
+    }
+}
+
+/// Draws a scene or a model in the way that the options ask for.
+pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    let pictures = Pictures::named_by(arguments)?;
     let page = arguments.page.page("render.html");
-    let files = [
-        what.source().err().map(|path| ("the model", path, Use::Reads)),
-        arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
-        Some(output.named("--output")),
-        Some(("the picture of differences", &difference.path, Use::Writes(Over::Updated))),
-        (grid != CornerGrid::USUAL).then_some((
-            "the picture of what the grid changes",
-            &by_grid.path,
-            Use::Writes(Over::Updated),
-        )),
-        as_file(&page),
-    ];
-    let files: Vec<_> = files.into_iter().flatten().collect();
-    output::check_all(files.iter().copied())?;
+    output::check_all(pictures.files(arguments, &page))?;
     let purpose = match arguments.engine {
         DrawnBy::Both => Purpose::Compared,
         DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
     };
-    let mut maker = what.maker(typed, purpose, streams)?;
+    let mut maker = arguments.what.maker(typed, purpose, streams)?;
     // A model names files of its own.
-    output::check_all(files.iter().copied())?;
+    output::check_all(pictures.files(arguments, &page))?;
     let usual = on_grid((arguments, typed), &mut maker)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
-    let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
-    let progress = Progress::new(streams.progress, "pictures", Some(pictures));
+    let count = u64::from(arguments.spin.unwrap_or(1)) * drawers;
+    let progress = Progress::new(streams.progress, "pictures", Some(count));
     if arguments.engine == DrawnBy::Tiles {
-        return draw_in_tiles((arguments, typed), &maker, &output, streams);
+        return draw_in_tiles((arguments, typed), &maker, &pictures.drawn, streams);
     }
     if let Some(frames) = arguments.spin {
-        return spin(arguments, &maker, frames, &output, &progress, streams);
+        return spin(arguments, &maker, frames, &pictures.drawn, &progress, streams);
     }
-    let scene = &maker.scene;
     if arguments.map {
-        return map(arguments, scene, &output, streams);
+        return map(arguments, &maker.scene, &pictures.drawn, streams);
     }
-    let mut drawings = draw(arguments, scene, &progress)?;
-    let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
-    let mut comparison = compare(scene, &drawings, arguments.plan.is_some())?;
-    let as_given = usual.as_ref().map_or(scene, |usual| &usual.scene);
-    let looked = || undecided_and_broken(as_given, &maker.model.origins, &drawings[0].target, grid);
-    let looked = (!arguments.wireframe).then(looked).transpose()?;
-    let changed = usual.as_ref().map(|usual| usual.changed(&drawings[0])).transpose()?;
-    if let (Some(usual), Some(comparison)) = (&usual, &mut comparison) {
-        // What one exact engine covers on this grid and the other does not is wrong by one of them.
-        comparison.wrong_pixels += usual.disagreeing;
-    }
+    let found = RenderFindings::of(arguments, &maker, usual.as_ref(), &progress)?;
     drop(progress);
-    let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
-    // What a plan changes in both frames alike is no difference between them.
-    let is_drawn = |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || leaves_open(c);
-    let mut difference_in = None;
-    if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
-        let picture = picture::png(&picture::of_frame(&comparison.picture));
-        difference_in = streams.save(&difference, &picture).then_some(difference.path.as_path());
+    found.show((arguments, typed), &maker, &pictures, page, streams)
+}
+
+/// The frame by each rasterizer, and what was found when they were looked at.
+struct RenderFindings {
+    drawings: Vec<Drawing>,
+    comparison: Option<Comparison>,
+    /// What rounding and snapping decide, of surfaces; lines have neither.
+    looked: Option<(ByRounding, BySnapping)>,
+    /// What a grid other than the usual one changes.
+    changed: Option<ByGrid>,
+}
+
+impl RenderFindings {
+    /// Draws and compares, with a bar while it lasts.
+    fn of(
+        arguments: &RenderArguments,
+        maker: &Maker,
+        usual: Option<&UsualGrid>,
+        progress: &Progress,
+    ) -> Result<Self, InputError> {
+        let scene = &maker.scene;
+        let drawings = draw(arguments, scene, progress)?;
+        let mut comparison = compare(scene, &drawings, arguments.plan.is_some())?;
+        // Corners are looked at as the file has them, before a grid has moved them.
+        let mut looked = None;
+        if !arguments.wireframe {
+            let as_given = usual.map_or(scene, |usual| &usual.scene);
+            let (origins, grid) = (&maker.model.origins, arguments.grid.grid());
+            looked = Some(undecided_and_broken(as_given, origins, &drawings[0].target, grid)?);
+        }
+        let mut changed = None;
+        if let Some(usual) = usual {
+            changed = Some(usual.changed(&drawings[0])?);
+            if let Some(comparison) = &mut comparison {
+                // What one exact engine covers on this grid and the other does not is wrong by one of them.
+                comparison.wrong_pixels += usual.disagreeing;
+            }
+        }
+        Ok(Self { drawings, comparison, looked, changed })
     }
-    let times = Times {
-        loading_s: maker.model.loading_s,
-        drawing_s: drawings.iter().map(|drawing| drawing.time.as_secs_f64()).collect(),
-    };
-    let mut data = serde_json::Value::Null;
-    if arguments.json {
-        // With its scene the plan can be drawn by.
-        drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
-        let Rendered { counters, plan, .. } = &drawings[0].rendered;
-        let (scene, engines, times) = (&scene.name, names(&drawings), &times);
-        let (comparison, looked) = (&comparison, looked.as_ref());
-        let (by_rounding, by_snapping) =
-            (looked.map(|(found, _)| found), looked.map(|(_, found)| found));
-        data = json::value(&Data {
-            scene,
-            engines,
+
+    /// Saves the pictures, prints what was found, and writes the page.
+    fn show(
+        mut self,
+        (arguments, typed): (&RenderArguments, &Typed),
+        maker: &Maker,
+        pictures: &Pictures,
+        page: Option<Output>,
+        streams: &mut Streams<'_>,
+    ) -> Status {
+        let scene = &maker.scene;
+        let png = |picture: &Frame<Colour>| picture::png(&picture::of_frame(picture));
+        let first = png(&self.drawings[0].rendered.picture);
+        let drawn_in = streams.save(&pictures.drawn, &first).then_some(&*pictures.drawn.path);
+        let mut difference_in = None;
+        if let Some(comparison) = self.comparison.as_ref().filter(|c| self.is_difference(c)) {
+            let is_saved = streams.save(&pictures.difference, &png(&comparison.picture));
+            difference_in = is_saved.then_some(&*pictures.difference.path);
+        }
+        let times = Times {
+            loading_s: maker.model.loading_s,
+            drawing_s: self.drawings.iter().map(|drawing| drawing.time.as_secs_f64()).collect(),
+        };
+        let mut data = serde_json::Value::Null;
+        if arguments.json {
+            // With its scene the plan can be drawn by.
+            self.drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
+            data = self.data(scene, &times);
+        }
+        let Self { drawings, comparison, looked, changed } = self;
+        let comparison = comparison.as_ref();
+        let mut notes = notes(scene, &drawings, &times, comparison, [drawn_in, difference_in]);
+        notes.extend(why_empty(&drawings[0].rendered.picture, maker));
+        let grid = arguments.grid.grid();
+        if let Some((by_rounding, by_snapping)) = looked {
+            notes.extend(rounding(by_rounding, ROUNDING));
+            let word = arguments.what.source().map_or_else(OsString::from, OsString::from);
+            let study = typed.as_command("study", word, &view_and_grid()).line();
+            notes.extend(snapped(by_snapping, grid, &study));
+        }
+        if let Some(changed) = &changed {
+            let by_grid = &pictures.by_grid;
+            let is_drawn = changed.pixels > 0 && streams.save(by_grid, &png(&changed.picture));
+            let place = is_drawn.then(|| printable_path(&by_grid.path));
+            notes.extend(grid_notes(changed, grid, place));
+        }
+        let outcome = outcome(&drawings, comparison, difference_in.map(printable_path));
+        let about = format!("{}: {}", scene.name, scene.about);
+        let mut report = Report { about, data, notes, outcome, ..Report::default() };
+        let status = exit::of(comparison.is_none_or(Comparison::agrees));
+        // Pictures of a page are made once the verdict is said.
+        show(report.clone(), Shown::Screen.or_json(arguments.json), None, status, streams)?;
+        if let Some(page) = page {
+            add_to_page(&mut report, typed.line(), scene, &drawings, comparison);
+            write_page(&page, report, streams);
+        }
+        Ok(status)
+    }
+
+    /// Whether a picture shows where the frames differ. What a plan changes in both frames alike is no difference between them.
+    fn is_difference(&self, comparison: &Comparison) -> bool {
+        let is_alike = comparison.agrees() || is_plan_alone(comparison, &self.drawings);
+        !is_alike || leaves_open(comparison)
+    }
+
+    /// What machines read.
+    fn data(&self, scene: &Scene, times: &Times) -> serde_json::Value {
+        let Rendered { counters, plan, .. } = &self.drawings[0].rendered;
+        let (mut by_rounding, mut by_snapping) = (None, None);
+        if let Some((rounding, snapping)) = &self.looked {
+            (by_rounding, by_snapping) = (Some(rounding), Some(snapping));
+        }
+        json::value(&Data {
+            scene: &scene.name,
+            engines: names(&self.drawings),
             times,
             counters,
             plan,
-            comparison,
+            comparison: &self.comparison,
             by_rounding,
             by_snapping,
-            grid: changed.as_ref(),
-        });
+            grid: self.changed.as_ref(),
+        })
     }
-    let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
-    let mut colours = drawings[0].rendered.picture.rows().flat_map(|(_, row)| row);
-    if colours.all(|colour| *colour == scene.background) {
-        notes.push("EMPTY: nothing of it is seen; the picture is background alone".to_owned());
-        let why = Some(&maker.model.why_empty).filter(|why| !why.is_empty());
-        notes.extend(why.map(|why| format!("the cause is that {why}")));
+}
+
+/// That a picture is background alone, and the cause, where it is known.
+fn why_empty(picture: &Frame<Colour>, maker: &Maker) -> Vec<String> {
+    let background = maker.scene.background;
+    if picture.rows().any(|(_, row)| row.iter().any(|colour| *colour != background)) {
+        return Vec::new();
     }
-    if let Some((by_rounding, by_snapping)) = looked {
-        notes.extend(rounding(by_rounding, ROUNDING));
-        let word = what.source().map_or_else(OsString::from, OsString::from);
-        let study = typed.as_command("study", word, &view_and_grid()).line();
-        notes.extend(snapped(by_snapping, grid, &study));
+    let mut notes =
+        vec!["EMPTY: nothing of it is seen; the picture is background alone".to_owned()];
+    let why = &maker.model.why_empty;
+    if !why.is_empty() {
+        notes.push(format!("the cause is that {why}"));
     }
-    if let Some(changed) = &changed {
-        let picture = picture::png(&picture::of_frame(&changed.picture));
-        let is_drawn = changed.pixels > 0 && streams.save(&by_grid, &picture);
-        let place = is_drawn.then(|| printable_path(&by_grid.path));
-        notes.extend(grid_notes(changed, grid, place));
-    }
-    let difference_in = difference_in.map(printable_path);
-    let outcome = outcome(&drawings, comparison.as_ref(), difference_in);
-    let about = format!("{}: {}", scene.name, scene.about);
-    let mut report = Report { about, data, notes, outcome, ..Report::default() };
-    let status = exit::of(comparison.as_ref().is_none_or(Comparison::agrees));
-    show(report.clone(), Shown::Screen.or_json(arguments.json), None, status, streams)?;
-    if let Some(page) = page {
-        add_to_page(&mut report, typed.line(), scene, &drawings, comparison.as_ref());
-        write_page(&page, report, streams);
-    }
-    Ok(status)
+    notes
 }
 
 /// Puts the corners of what is drawn on the grid that was asked for; what was to be drawn before, where that is not the usual one.
@@ -231,6 +326,7 @@ fn on_grid(
     let target = arguments.what.view.target()?;
     let Cells { scene, disagreeing } =
         grid::cells(&maker.scene, target.bounds(), grid).map_err(usage)?;
+    // The usual scene stays as it is, to see what the other grid changes in it.
     let scene = std::mem::replace(&mut maker.scene, scene);
     Ok(Some(UsualGrid { scene, disagreeing, target }))
 }
@@ -275,7 +371,6 @@ fn draw(
     scene: &Scene,
     progress: &Progress,
 ) -> Result<Vec<Drawing>, InputError> {
-    let effects = arguments.effects.unwrap_or(Effects::PLANNED);
     let plan = arguments.plan.as_deref().map(read_plan).transpose()?;
     let is_free = arguments.effects.is_none() && plan.is_none();
     // To compare every depth, every depth must be there, of every sample.
@@ -288,40 +383,52 @@ fn draw(
         // Drawn before this.
         DrawnBy::Tiles => &[],
     };
-    let drawing = |drawer: &Drawer| {
+    let mut drawings = Vec::new();
+    for drawer in engines {
         let mut target = arguments.what.view.target()?;
         let start = Instant::now();
-        // Alone, or with what was asked for, a frame is what it is.
-        let alone = |name, rendered, time, target| {
-            let (unplanned, changed, is_complete) = (0, 0, false);
-            Drawing { name, rendered, time, target, unplanned, changed, is_complete }
-        };
-        if arguments.wireframe {
-            let rendered = drawer.render_wireframe(scene, &mut target)?;
-            return Ok(alone(drawer.line_name(), rendered, start.elapsed(), target));
-        }
-        let asked = |target: &mut Target| match (&plan, &arguments.plan) {
-            (Some(plan), Some(path)) => drawer
-                .execute(plan, scene, target)
-                .map_err(|error| usage(format!("{}: {error}", printable_path(path)))),
-            _ => drawer.render(scene, &effects, target).map_err(usage),
-        };
-        let rendered = asked(&mut target)?;
+        let rendered = draw_as_asked(arguments, plan.as_ref(), *drawer, scene, &mut target)?;
         let time = start.elapsed();
-        if engines.len() < 2 {
-            return Ok(alone(drawer.name(), rendered, time, target));
+        // Alone, or with what was asked for, a frame is what it is.
+        let name = if arguments.wireframe { drawer.line_name() } else { drawer.name() };
+        let (unplanned, changed, is_complete) = (0, 0, false);
+        let mut drawing = Drawing { name, rendered, time, target, unplanned, changed, is_complete };
+        if engines.len() > 1 && !arguments.wireframe {
+            // The same frame with every depth, which then are in its target.
+            let target = &mut drawing.target;
+            let whole = drawer.render(scene, &complete, target)?;
+            let differing = frame_comparison::differing(&drawing.rendered.picture, &whole.picture);
+            if is_free || differing == 0 {
+                (drawing.unplanned, drawing.is_complete) = (differing, true);
+            } else {
+                // What was asked for changes the picture: the frame is compared as it is, without ties.
+                drawing.rendered = draw_as_asked(arguments, plan.as_ref(), *drawer, scene, target)?;
+                drawing.changed = differing;
+            }
         }
-        let whole = drawer.render(scene, &complete, &mut target)?;
-        let differing = frame_comparison::differing(&rendered.picture, &whole.picture);
-        if is_free || differing == 0 {
-            let drawn = alone(drawer.name(), rendered, time, target);
-            return Ok(Drawing { unplanned: differing, is_complete: true, ..drawn });
-        }
-        // What was asked for changes the picture: the frame is compared as it is, without ties.
-        let rendered = asked(&mut target)?;
-        Ok(Drawing { changed: differing, ..alone(drawer.name(), rendered, time, target) })
-    };
-    engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
+        drawings.push(drawing);
+        progress.done(1);
+    }
+    Ok(drawings)
+}
+
+/// Draws a frame by a plan, by the effects that were asked for, or as edges.
+fn draw_as_asked(
+    arguments: &RenderArguments,
+    plan: Option<&Plan>,
+    drawer: Drawer,
+    scene: &Scene,
+    target: &mut Target,
+) -> Result<Rendered, InputError> {
+    if arguments.wireframe {
+        return Ok(drawer.render_wireframe(scene, target)?);
+    }
+    if let (Some(plan), Some(path)) = (plan, &arguments.plan) {
+        let rendered = drawer.execute(plan, scene, target);
+        return rendered.map_err(|error| usage(format!("{}: {error}", printable_path(path))));
+    }
+    let effects = arguments.effects.unwrap_or(Effects::PLANNED);
+    drawer.render(scene, &effects, target).map_err(usage)
 }
 
 /// One frame in tiles: a picture and nothing else.
@@ -350,6 +457,7 @@ fn draw_in_tiles(
     let times =
         Times { loading_s: maker.model.loading_s, drawing_s: vec![start.elapsed().as_secs_f64()] };
     let all = scene.triangles();
+    // Items that tiles cannot draw are drawn by the scanline engine.
     let name = match handed_over.triangles() {
         0 => "tiles",
         handed_over if handed_over == all => "scanline",
@@ -363,6 +471,7 @@ fn draw_in_tiles(
         let tiles = format!("in tiles of {side} x {side} px ");
         notes.push(format!("drawn {}in {path}", if is_handed_over { "" } else { &tiles }));
     }
+    // Tiles are exact in coverage alone: colours may be rounded otherwise, and depths that are close may change places.
     if !is_handed_over {
         let mut other = arguments.what.view.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut other)?;
@@ -386,6 +495,7 @@ fn saved(output: &Output, picture: &[u8], streams: &mut Streams<'_>) -> String {
     }
 }
 
+/// A small picture for each effect, of the pixels that paid for it.
 fn map(
     arguments: &RenderArguments,
     scene: &Scene,
@@ -393,6 +503,7 @@ fn map(
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut target = arguments.what.view.target()?;
+    // Both rasterizers pay for the same effects, so one of them is enough.
     let drawer = match arguments.engine {
         DrawnBy::EdgeFunction => Drawer::EdgeFunction,
         _ => Drawer::Scanline,
@@ -417,6 +528,7 @@ fn spin(
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut bytes = Vec::new();
+    // Of all frames together.
     let (mut wrong, mut undecided, mut far) = (0, 0, 0);
     let mut is_compared = false;
     let mut screen = DoubleBuffer::new(arguments.what.view.target()?);
@@ -428,12 +540,14 @@ fn spin(
         for frame in 0..frames {
             let scene = maker.turned(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
+            // Numbers of all frames add up: one of them that differs is enough.
             if let Some(c) = compare(&scene, &drawings, false)? {
                 is_compared = true;
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
                 far += c.far_texture;
             }
+            // The screen keeps what was finished last, so that no frame is seen half drawn.
             if let Some(first) = drawings.into_iter().next() {
                 screen.back = first.target;
                 screen.present(first.rendered.picture, &mut counters);
@@ -445,9 +559,14 @@ fn spin(
         }
     }
     let drawn_in = saved(output, &bytes, streams);
-    let open = [(undecided, "where surfaces tie"), (far, "by large texture coordinates")];
-    let open = open.into_iter().filter(|(pixels, _)| *pixels > 0);
-    let notes = open.map(|(pixels, what)| format!("UNDECIDED: {pixels} pixels, {what}")).collect();
+    let mut notes = Vec::new();
+    for (pixels, what) in [(undecided, "where surfaces tie"), (far, "by large texture coordinates")]
+    {
+        if pixels > 0 {
+            let of = noun(pixels, "pixel", "pixels");
+            notes.push(format!("UNDECIDED: {pixels} {of}, {what}"));
+        }
+    }
     let agrees = arguments.engine != DrawnBy::Both || wrong == 0;
     let outcome = (arguments.engine == DrawnBy::Both).then(|| match is_compared {
         false => Outcome::nothing_drawn(),
@@ -457,6 +576,7 @@ fn spin(
     print(Report { about, notes, outcome, ..Report::default() }, exit::of(agrees), streams)
 }
 
+/// A picture as the encoder of GIF takes it.
 fn rgba(picture: &Frame<Colour>) -> image::RgbaImage {
     let bounds = picture.bounds();
     image::RgbaImage::from_fn(bounds.width(), bounds.height(), |x, y| {

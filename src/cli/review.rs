@@ -24,6 +24,7 @@ use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, TextDiff};
 use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::noun;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Exit status: 0 nothing is pending, 1 something is, 2 usage or bad input.")]
@@ -61,6 +62,7 @@ enum FileContent {
     Nothing,
 }
 
+/// Looks for pending snapshots, lists them, and writes the page that shows them.
 pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     let usual = || USUAL.map(PathBuf::from).into_iter().filter(|folder| folder.is_dir()).collect();
     let folders: Vec<PathBuf> =
@@ -76,8 +78,10 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         fs::read_dir(folder).map_err(|error| usage(cannot_read(folder, &error)))?;
         walk(folder, &mut found, &mut unread);
     }
+    // Pending snapshots are looked at in the order of their names, so that two reviews of the same files are the same page.
     found.sort();
     found.dedup();
+    // Each picture that is shown takes of this budget, so that a folder of large pictures ends.
     let mut left_px = limits::REVIEWED_PX;
     let (mut pending, mut accepted, mut left_out) = (Vec::new(), 0, 0);
     for path in &found {
@@ -89,6 +93,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
             accepted += 1;
         }
     }
+    // The page must not replace what it is about.
     let default = || arguments.place.output("review.html");
     let output = arguments.output.as_deref().map_or_else(default, Output::typed);
     let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
@@ -99,12 +104,14 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }
     if let Some(more @ 1..) = unread.len().checked_sub(MOST_UNREAD) {
-        writeln!(streams.errors, "warning: {more} more folders could not be looked into")?;
+        let folders = noun(more as u64, "folder", "folders");
+        writeln!(streams.errors, "warning: {more} more {folders} could not be looked into")?;
     }
     let mut notes = Vec::new();
     if left_out > 0 {
+        let are = noun(left_out as u64, "is", "are");
         notes.push(format!(
-            "{left_out} more are not looked into: accept or reject the {MOST_LISTED} listed ones first, \
+            "{left_out} more {are} not looked into: accept or reject the {MOST_LISTED} listed ones first, \
              or name a folder with fewer"
         ));
     }
@@ -113,6 +120,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         notes.push(format!("{accepted} accepted already; {left_over}"));
     }
     let report = Report { notes, ..report(&pending, left_out, &folders) };
+    // Nothing pending is an answer only where everything was looked at.
     let status = match (pending.is_empty(), unread.is_empty()) {
         (false, _) => exit::DISAGREES,
         (true, true) => exit::AGREES,
@@ -134,6 +142,7 @@ fn walk(top: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<String>) {
         let mut look_at = |entry: io::Result<fs::DirEntry>| {
             let entry = entry?;
             let (is_dir, name) = (entry.file_type()?.is_dir(), entry.file_name());
+            // `target` holds copies, and `.git` no snapshot that a test reads.
             if is_dir && name != "target" && name != ".git" {
                 folders.push(entry.path());
             } else if !is_dir && name.to_string_lossy().ends_with(".snap.new") {
@@ -201,6 +210,7 @@ fn look_into(
     let text = text_of(&input::read(new_path, DOCUMENT_BYTES)?);
     let (head, new) = parse(&text);
     source.push_str(field(head, "source").unwrap_or(""));
+    // A picture's bytes are in a file of their own beside the head.
     if field(head, "snapshot_kind") == Some("binary") {
         let ending = field(head, "extension").unwrap_or("bin");
         let shown_ending = printable_short(ending, 20);
@@ -212,6 +222,7 @@ fn look_into(
         let ending = format!(".{ending}");
         let old = read_if_there(path, &ending)?;
         return Ok(Some(match read_if_there(new_path, &ending)? {
+            // Without its new bytes but with old ones, the picture was accepted and its head left over.
             None if old.is_some() => return Ok(None),
             None => {
                 (format!("the new file X.snap.new.{shown_ending} is missing"), FileContent::Nothing)
@@ -223,6 +234,7 @@ fn look_into(
         }));
     }
     let old = read_if_there(path, "")?.map(|old| parse(&text_of(&old)).1.to_owned());
+    // insta does not tell texts apart by what follows their last line.
     if old.as_ref().is_some_and(|old| old.trim_end() == new.trim_end()) {
         return Ok(None);
     }
@@ -240,6 +252,7 @@ fn look_into(
 /// A picture of at most [`limits::SHOWN_SIDE_PX`] a side.
 fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    // The size is read before the pixels, which a small file may claim to have billions of.
     let (width, height) = reader().into_dimensions().map_err(|e| e.to_string())?;
     if width.max(height) > limits::SHOWN_SIDE_PX {
         return Err(format!("{width} x {height} px is too large to show"));
@@ -262,6 +275,7 @@ fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, FileC
         None => "a new picture".to_owned(),
         Some(Err(reason)) => format!("a picture; the old one is not readable: {reason}"),
         Some(Ok(before)) => {
+            // The old picture comes first, as the viewer shows its layers from left to right.
             layers.insert(0, PictureLayer::new("old", &before));
             difference(&before, &image)
         }
@@ -269,6 +283,7 @@ fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, FileC
     (what, FileContent::Picture(layers))
 }
 
+/// Where two pictures differ: how many pixels, and the box around them.
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
     if old.dimensions() != new.dimensions() {
         let ((a, b), (c, d)) = (old.dimensions(), new.dimensions());
@@ -288,6 +303,7 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
     format!("{count} of {all} pixels of the picture changed, from {x0},{y0} to {x1},{y1}")
 }
 
+/// The command that accepts one snapshot.
 fn accept(one: &Pending) -> String {
     let words = ["cargo", "insta", "accept", "--snapshot"].map(OsStr::new);
     shell::line(words.into_iter().chain([one.path.as_os_str()]))
@@ -309,6 +325,7 @@ fn update(one: &Pending) -> String {
     format!("INSTA_UPDATE=always {}", shell::line(["cargo", "test"].iter().chain(which).copied()))
 }
 
+/// The page: a table of what waits, and each picture and text old beside new.
 fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     let names: Vec<_> = folders.iter().map(|folder| folder.to_string_lossy()).collect();
     let places = printable(&names.join(", ")).into_owned();
@@ -328,6 +345,7 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     for one in pending {
         let (name, about, command) = (printable_path(&one.path), one.what.clone(), accept(one));
         let row = Row::of(&[&format!("{name}: {about}"), &command, &update(one)]);
+        // A row of the table leads to the picture of that name on the page.
         let search = matches!(one.shown, FileContent::Picture(_)).then(|| name.clone());
         rows.push(Row { search, ..row });
         match one.shown.clone() {

@@ -1,4 +1,7 @@
 //! `rasterproof specimens`: how often each published fault shows, and a contact sheet of them.
+//!
+//! Each published algorithm is drawn beside its repaired form. One that no case of its own exposes is no proof of a fault, and counts
+//! as a disagreement.
 
 use rasterproof_host::output::{self, Output};
 use std::path::PathBuf;
@@ -47,6 +50,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .iter()
         .filter(|card| arguments.specimen.as_deref().is_none_or(|name| name == card.name))
         .collect();
+    // Every algorithm is judged on all families, which takes the most time.
     let progress = Progress::new(streams.progress, "specimens", Some(cards.len() as u64));
     let reports: Vec<_> = cards
         .iter()
@@ -54,11 +58,13 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .inspect(|_| progress.done(1))
         .collect();
     drop(progress);
+    // One algorithm alone has a strip with each of its pixels; of all there is room for a small picture of each.
     let drawn = match cards.as_slice() {
         [card] => sheet::alone(card),
         _ => sheet::contact_sheet(),
     };
     let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));
+    // Whoever asks for JSON gets a picture only where a name is typed for it.
     let place = match &sheet {
         Some(sheet) if arguments.json => {
             streams.save(sheet, &png);

@@ -65,10 +65,12 @@ const WINDOW_TESTS: &[(&str, &str)] = &[
     ("outside the window it does nothing", "outside the window it is a mistake"),
 ];
 
+/// A text of the adapters with each window test replaced by what the course has there.
 fn without_window_test(text: &str) -> String {
     WINDOW_TESTS.iter().fold(text.to_owned(), |text, (test, none)| text.replace(test, none))
 }
 
+/// The starter of a language, with what it needs beside it: C++ has the protocol in a header.
 pub fn files(language: Language, solution: bool) -> Vec<File> {
     macro_rules! starter {
         ($ending:literal) => {

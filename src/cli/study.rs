@@ -72,6 +72,7 @@ impl OnceArgument {
     }
 }
 
+/// Looks at a scene from one side: which of its pieces are in the window, and which of them are hard.
 fn studied<'a>(
     maker: &'a Maker,
     scene: Scene,
@@ -104,6 +105,7 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     output::check_all(as_file(&page))?;
+    // The names of files are checked twice: before the model is read, which may take long, and after, since it names files, too.
     let maker = view.maker(path, Purpose::Measured, streams)?;
     output::check_all(as_file(&page))?;
     let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
@@ -122,12 +124,14 @@ pub(super) fn cost(
     show(report, Shown::All.or_json(is_json), page, exit::AGREES, streams)
 }
 
+/// The command that shows one face of this model, in the same view.
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
     let mut word = OsString::from(path);
     word.push(format!("#{face}"));
     typed.as_command("inspect", word, &view_and_grid()).line()
 }
 
+/// Looks at a model from one side and says all that was found, or from many sides, a line for each.
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
@@ -145,6 +149,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let window = target.size();
     let pieces = studied.sampled.at_centres();
     let visible = (pieces, &cost::exactly_seen(pieces, window));
+    // The survey of effects has a little more time than a group of choices.
     let of_effects = timing.within(1.2);
     let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, of_effects)?;
     let inspect = |face| match what.source() {
@@ -152,6 +157,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => inspect_command(typed, path, face),
     };
     let subject = studied.subject(&inspect);
+    // The further commands are about files.
     let commands = match what.source() {
         Ok(_) => Default::default(),
         Err(path) => ["cost", "verify", "plan"]
@@ -194,6 +200,7 @@ fn all_around(
     let progress = Progress::new(streams.progress, "views", Some(views.into()));
     let mut around = Around::default();
     for number in 0..views {
+        // Each view turns the model as it was framed once, so that all of them have the same distance.
         let turn = f64::from(number) / f64::from(views);
         let studied = studied(maker, maker.turned(turn), view, arguments.grid.grid())?;
         let boards = measure(&studied, view, arguments.once.timing(arguments.quick), false)?;
@@ -229,14 +236,23 @@ pub(super) fn verify(
     show(report, Shown::All.or_json(is_json), None, status, streams)
 }
 
-/// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
-/// case, for those who do not snap with corners on the grid; nothing where it is not in the window.
+/// A face of a model, which `inspect` shows as a case.
+pub(super) struct FaceOfModel {
+    /// What is known of it, a line each.
+    pub about: Vec<String>,
+    /// Its pieces; nothing where it is not in the window.
+    pub case: Option<InspectedCase>,
+}
+
+/// The face of a model that the words of `inspect` name: FILE#NUMBER. Where its corners are put on another grid than the usual
+/// one, its pieces are a case for those who do not snap.
 pub(super) fn face(
     (path, word): (&Path, &str),
-    (view, grid): (&ViewArguments, CornerGrid),
-    (typed, is_exact): (&Typed, bool),
+    view: &ViewArguments,
+    grid: CornerGrid,
+    typed: &Typed,
     streams: &mut Streams<'_>,
-) -> Result<(Vec<String>, Option<InspectedCase>), InputError> {
+) -> Result<FaceOfModel, InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = studied(&maker, maker.scene.clone(), view, grid)?;
@@ -252,9 +268,12 @@ pub(super) fn face(
     let mut about = vec![format!("{shown}: {}", subject.place(first))];
     about.extend(known);
     if pieces.is_empty() {
-        return Ok((about, None));
+        return Ok(FaceOfModel { about, case: None });
     }
+    // The corners as they would be typed, so that the case is made as from words: off the lattice there are no values.
+    let is_exact = grid != CornerGrid::USUAL;
     let mut corners = Vec::new();
+    // A face that the near plane cuts has several pieces, each of which is a triangle of the case.
     for piece in pieces {
         let px = if is_exact { grid.place(piece.px) } else { piece.px };
         for ((vertex, [x, y]), w) in piece.triangle.vertices.iter().zip(px).zip(piece.w) {
@@ -264,12 +283,12 @@ pub(super) fn face(
             });
         }
     }
-    let title = format!("{shown}#{}", printable(word));
-    let found = match inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))? {
-        InspectedCase::Case { case, expected, typed, .. } => {
-            InspectedCase::Case { title, case, expected, typed }
-        }
-        found => found,
-    };
-    Ok((about, Some(found)))
+    let mut case = inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))?;
+    if let InspectedCase::Case(case) = &mut case {
+        case.title = format!("{shown}#{}", printable(word));
+    }
+    if is_exact {
+        case = inspect_case::off_lattice(case)?;
+    }
+    Ok(FaceOfModel { about, case: Some(case) })
 }

@@ -39,6 +39,7 @@ fn wanted(variable: Option<&OsStr>, cores: usize) -> (usize, Option<String>) {
     let text = variable.to_string_lossy();
     let shown = printable(&text);
     let most = cores.saturating_mul(MOST_FOR_EACH_CORE);
+    // For a number above the bound, and for one that no word can hold.
     let too_many = || {
         let why = format!(
             "{VARIABLE}={shown} asks for more than {MOST_FOR_EACH_CORE} threads for each of {cores} \
@@ -64,6 +65,7 @@ fn wanted(variable: Option<&OsStr>, cores: usize) -> (usize, Option<String>) {
 /// A thread that waits for its place in the pool.
 type Waiting = (Sender<ThreadBuilder>, JoinHandle<()>);
 
+/// Starts a thread, which waits until the pool gives it its work or drops its place.
 fn start() -> io::Result<Waiting> {
     let (place, given) = channel::<ThreadBuilder>();
     let wait = move || given.recv().into_iter().for_each(ThreadBuilder::run);

@@ -25,32 +25,45 @@ pub struct Typed {
 impl Typed {
     /// What was matched; `verify` where no subcommand was named.
     pub fn of(command: &clap::Command, matches: &ArgMatches) -> Self {
-        let inner = matches.subcommand();
-        let found = inner.and_then(|(name, inner)| Some((command.find_subcommand(name)?, inner)));
-        let (name, (command, matches)) =
-            (inner.map_or("verify", |(name, _)| name), found.unwrap_or((command, matches)));
+        let (mut name, mut command, mut matches) = ("verify", command, matches);
+        if let Some((word, inner)) = matches.subcommand() {
+            name = word;
+            if let Some(found) = command.find_subcommand(word) {
+                (command, matches) = (found, inner);
+            }
+        }
         let mut typed = Self { name: name.to_owned(), ..Self::default() };
-        let is_typed = |arg: &clap::Arg| {
-            matches.ids().any(|id| id == arg.get_id())
-                && matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine)
-        };
-        for arg in command.get_arguments().filter(|arg| is_typed(arg)) {
-            let each = matches.get_raw_occurrences(arg.get_id().as_str()).into_iter().flatten();
-            let each = each.map(|values| values.map(OsStr::to_owned).collect());
-            let each: Vec<Vec<OsString>> = each.collect();
-            match arg.get_long() {
-                Some(long) if arg.get_action().takes_values() => {
-                    typed.options.extend(each.into_iter().map(|values| (long.to_owned(), values)));
-                }
-                Some(long) => typed.options.push((long.to_owned(), Vec::new())),
-                None if arg.is_last_set() => typed.after.extend(each.concat()),
-                // A space was put before a coordinate such as -1,2 for the parser.
-                None => typed.positional.extend(each.concat().into_iter().map(|word| {
-                    word.to_str().map(|text| text.trim_start().into()).unwrap_or(word)
-                })),
+        for arg in command.get_arguments() {
+            let id = arg.get_id().as_str();
+            // The parser knows a source of some ids alone, and panics about others.
+            let is_known = matches.ids().any(|known| known == id);
+            if !is_known || matches.value_source(id) != Some(ValueSource::CommandLine) {
+                continue;
+            }
+            for values in matches.get_raw_occurrences(id).into_iter().flatten() {
+                typed.add(arg, values.map(OsStr::to_owned).collect());
             }
         }
         typed
+    }
+
+    /// Notes that an argument was given once more, with these values.
+    fn add(&mut self, arg: &clap::Arg, values: Vec<OsString>) {
+        match arg.get_long() {
+            Some(long) if arg.get_action().takes_values() => {
+                self.options.push((long.to_owned(), values));
+            }
+            // A switch, whose value is the parser's.
+            Some(long) => self.options.push((long.to_owned(), Vec::new())),
+            None if arg.is_last_set() => self.after.extend(values),
+            None => {
+                for word in values {
+                    // A space was put before a coordinate such as -1,2 for the parser.
+                    let own = word.to_str().map(|text| OsString::from(text.trim_start()));
+                    self.positional.push(own.unwrap_or(word));
+                }
+            }
+        }
     }
 
     /// The same with this value of an option, at the place where the option was given, or at the end.
@@ -59,10 +72,12 @@ impl Typed {
         self.insert(at.unwrap_or(usize::MAX), option, value)
     }
 
+    /// The same with this value of an option, before all others, so that it is seen.
     pub fn first(self, option: &str, value: impl ToString) -> Self {
         self.insert(0, option, value)
     }
 
+    /// The same with one value of an option, wherever else the option was.
     fn insert(self, at: usize, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
         let at = at.min(typed.options.len());
@@ -70,6 +85,7 @@ impl Typed {
         typed
     }
 
+    /// The same without some options, whatever their values.
     pub fn without(mut self, options: &[&str]) -> Self {
         self.options.retain(|(name, _)| !options.contains(&name.as_str()));
         self
@@ -101,23 +117,25 @@ impl Typed {
 
     /// The first of some options that was given.
     pub fn given<'a, S: AsRef<str>>(&self, options: &'a [S]) -> Option<&'a str> {
-        let is_given = |option: &&str| self.options.iter().any(|(name, _)| name == option);
-        options.iter().map(AsRef::as_ref).find(is_given)
+        for option in options.iter().map(AsRef::as_ref) {
+            if self.options.iter().any(|(name, _)| name == option) {
+                return Some(option);
+            }
+        }
+        None
     }
 
+    /// The words of the command, from which the parser makes the same arguments again.
     pub fn words(&self) -> Vec<OsString> {
         let mut words = vec![OsString::from(&self.name)];
         // From the first that would be taken for an option, they come last, in their order.
-        let begins_so = |word: &OsStr| word.as_encoded_bytes().starts_with(b"-");
-        let is_option =
-            |word: &OsString| begins_so(word) && !word.to_str().is_some_and(super::is_coordinate);
-        let first = self.positional.iter().position(is_option).unwrap_or(self.positional.len());
-        let (plain, rest) = self.positional.split_at(first);
+        let first = self.positional.iter().position(|word| is_like_option(word));
+        let (plain, rest) = self.positional.split_at(first.unwrap_or(self.positional.len()));
         words.extend_from_slice(plain);
         for (name, values) in &self.options {
             match values.as_slice() {
                 // Taken for an option otherwise.
-                [value] if begins_so(value) => {
+                [value] if value.as_encoded_bytes().starts_with(b"-") => {
                     let mut word = OsString::from(format!("--{name}="));
                     word.push(value);
                     words.push(word);
@@ -139,6 +157,11 @@ impl Typed {
     pub fn line(&self) -> String {
         format!("{} {}", program(), shell::line(self.words()))
     }
+}
+
+/// Whether the parser takes a word for an option: a coordinate such as -1,2 gets a space before it, and is none.
+fn is_like_option(word: &OsStr) -> bool {
+    word.as_encoded_bytes().starts_with(b"-") && !word.to_str().is_some_and(super::is_coordinate)
 }
 
 #[cfg(test)]

@@ -1,4 +1,7 @@
 //! `rasterproof verify`: the differential table and the verdict.
+//!
+//! Every engine is judged on every family of cases that it draws. Where all agree, the answer is a sentence and what it rests on;
+//! else the smallest case that shows the first fault follows, with the commands that repeat and explain it.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -10,7 +13,9 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{InputError, Status, Streams, exit, invariant, program, study, usage, write_picture};
+use super::{
+    InputError, Status, Streams, exit, invariant, pair, program, study, usage, write_picture,
+};
 use rasterproof_host::output;
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
@@ -91,10 +96,12 @@ pub struct VerifyArguments {
     plant: Option<String>,
 }
 
+/// The families that --family takes.
 fn family_names() -> Vec<&'static str> {
     cases::all_families().map(|family| family.name).collect()
 }
 
+/// The names that --engine takes, but for those of Vulkan devices.
 fn judged_names() -> Vec<&'static str> {
     let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
     let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
@@ -104,6 +111,7 @@ fn judged_names() -> Vec<&'static str> {
 /// The beginning of an engine's name that means a Vulkan device.
 const VULKAN: &str = "vulkan:";
 
+/// The parser of --engine. Which devices there are is seen when one is opened, so any name that means a device is taken.
 #[derive(Clone)]
 struct EngineName;
 
@@ -116,6 +124,7 @@ impl TypedValueParser for EngineName {
         argument: Option<&clap::Arg>,
         value: &std::ffi::OsStr,
     ) -> Result<String, clap::Error> {
+        // The name of a device is a place in a list or a word, so it cannot be looked up before the driver is asked.
         if let Some(name) = value.to_str().filter(|name| name.starts_with(VULKAN)) {
             if cfg!(feature = "vulkan") {
                 return Ok(name.to_owned());
@@ -135,15 +144,16 @@ impl TypedValueParser for EngineName {
     }
 }
 
+/// A part of the cases, and into how many parts they are divided.
 pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
-    let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-    match numbers {
+    match pair(text, &['/']) {
         Some((part, parts)) if part < parts => Ok((part, parts)),
         _ => Err("expected I/N with I from 0 to N - 1, for example 0/4".to_owned()),
     }
 }
 
 impl VerifyArguments {
+    /// Which cases are judged, and for how long.
     fn options(&self) -> Result<Options, InputError> {
         let mut options = Options::default().seed(self.seed);
         // With a time limit alone, the time decides.
@@ -167,15 +177,21 @@ impl VerifyArguments {
         }
         // Some that are judged only when asked for.
         all.triangles = Engine::CHOICES.to_vec();
-        let wanted = |name: &str| self.engine.iter().any(|n| n == name);
-        all.triangles.retain(|engine| wanted(engine.name()));
-        all.lines.retain(|engine| wanted(engine.name()));
-        all.unsnapped.retain(|engine| wanted(engine.name()));
+        all.triangles.retain(|engine| self.names(engine.name()));
+        all.lines.retain(|engine| self.names(engine.name()));
+        all.unsnapped.retain(|engine| self.names(engine.name()));
         all
+    }
+
+    /// Whether this engine was asked for by its name.
+    fn names(&self, engine: &str) -> bool {
+        self.engine.iter().any(|name| name == engine)
     }
 }
 
+/// Judges invariants, a device, or the engines on generated cases, whichever the options ask for.
 pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    // Invariants have inputs of their own, so no family, engine or time limit applies to them.
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
@@ -192,6 +208,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
     let verdict = judge(&judged, &options, streams.progress);
+    // A verdict about nothing would look like one that agrees.
     if verdict.families.iter().all(|family| family.cases == 0) {
         return Err(usage(
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
@@ -199,6 +216,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     }
     let run = Run { arguments, typed, judged, verdict };
     let mut report = run.report(page.is_some());
+    // Whoever reads JSON did not ask for a picture.
     if !arguments.json {
         let place = run.write_sheet(streams)?;
         if let Some(last) = report.first_screen.last_mut() {
@@ -209,6 +227,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     show(report, Shown::Screen.or_json(arguments.json), page, status, streams)
 }
 
+/// Judges a Vulkan device, which draws triangles alone and is judged by commands of its own.
 #[cfg(feature = "vulkan")]
 fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Streams<'_>) -> Status {
     let [engine] = &arguments.engine[..] else {
@@ -217,6 +236,7 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     if arguments.shard != (0, 1) {
         return Err(usage("a Vulkan device is judged whole: leave out --shard"));
     }
+    // It is judged by the judge of programs, which has options of its own.
     let mut asked = rasterproof_judge::Options::default().seed(options.seed);
     (asked.time_limit, asked.only) = (options.time_limit, options.only);
     asked.families.clone_from(&arguments.family);
@@ -224,18 +244,23 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     super::vulkan::verify(engine, (asked, arguments.cases), shown, streams)
 }
 
+/// Judges the engines, with a bar that knows how many cases there are unless the time decides.
 fn judge(judged: &EnginesToJudge, options: &Options, on_terminal: bool) -> Verdict {
-    let kinds = [judged.triangles.len(), judged.lines.len(), judged.unsnapped.len()];
-    let families = Kind::ALL.iter().zip(kinds).filter(|(_, engines)| *engines > 0);
-    let families = families.flat_map(|((_, families), _)| *families).filter(|f| {
-        options.families.is_empty() || options.families.iter().any(|n| n.as_str() == f.name)
-    });
-    let cases = (families.count() as u64).saturating_mul(options.cases) / options.shard.parts();
+    let engines = [judged.triangles.len(), judged.lines.len(), judged.unsnapped.len()];
+    let mut count = 0_u64;
+    for ((_, families), engines) in Kind::ALL.iter().zip(engines) {
+        for family in families.iter().filter(|_| engines > 0) {
+            let is_named = options.families.iter().any(|name| name.as_str() == family.name);
+            count += u64::from(is_named || options.families.is_empty());
+        }
+    }
+    let cases = count.saturating_mul(options.cases) / options.shard.parts();
     let total = options.time_limit.is_none().then_some(cases);
     let progress = Progress::new(on_terminal, "cases", total);
     judged.judge(options, &|cases| progress.done(cases))
 }
 
+/// A run that has come to its end.
 struct Run<'a> {
     arguments: &'a VerifyArguments,
     typed: &'a Typed,
@@ -243,9 +268,11 @@ struct Run<'a> {
     verdict: Verdict,
 }
 
+/// Failures on the sheet of pictures.
 const MOST_DRAWN: usize = 6;
 
 impl Run<'_> {
+    /// The command that judges one case again.
     fn repeat(&self, family: &str, index: u64) -> String {
         let one = self.typed.clone().without_output().without(&["cases", "seconds", "shard"]);
         one.set("seed", self.arguments.seed).first("case", index).first("family", family).line()
@@ -253,6 +280,7 @@ impl Run<'_> {
 
     /// The command that repeats the run, with as many cases of each family as the time allowed.
     fn repeat_all(&self) -> Typed {
+        // Whoever repeats a timed run needs the same cases on a machine that is faster or slower.
         let largest = self.verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
         let is_timed = self.arguments.seconds.is_some();
         let cases = if is_timed { largest } else { self.verdict.options.cases };
@@ -268,47 +296,53 @@ impl Run<'_> {
         let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
         let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
         let (version, seed) = (env!("CARGO_PKG_VERSION"), arguments.seed);
-        let families = differential::tables(verdict);
+        // The first screen has the tables of all families where one of them shows what is wrong.
+        let mut tables = differential::tables(verdict);
         let mut first_screen = vec![summary::table(verdict)];
         if arguments.table || !agrees {
-            first_screen.extend(families.iter().cloned().chain(self.others()));
+            first_screen.extend_from_slice(&tables);
+            first_screen.extend(self.others());
         } else {
-            let hint = "every family as a table: add --table".to_owned();
-            first_screen.push(Table::of_notes("", self.closest().chain([hint]).collect()));
+            let mut notes = self.closest();
+            notes.push("every family as a table: add --table".to_owned());
+            first_screen.push(Table::of_notes("", notes));
         }
+        // A page has all of them, and what the designs asked as well.
         let asked = self.asked();
         first_screen.extend(summary::asked(&asked));
-        let cause =
-            verdict.failures.first().and_then(|first| judged.cause(&first.evidence.pair[0]));
+        tables.push(differential::refused());
+        tables.extend(summary::asked(&asked));
         let repeat = |family: &str, index: u64| self.repeat(family, index);
-        let cases = is_page.then(|| page_cases::of_verdict(verdict, judged, repeat));
-        Report {
+        let mut report = Report {
             title: format!(
                 "Verdict of rasterproof: {}",
                 if agrees { "agrees" } else { "disagrees" }
             ),
             about: format!("rasterproof {version}, seed {seed}{shard}"),
-            outcome: Some(self.outcome(cause.as_ref())),
-            excerpts: Vec::from_iter(
-                verdict.failures.first().map(|first| self.excerpt(first, cause.as_ref())),
-            ),
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
             first_screen,
-            tables: families
-                .into_iter()
-                .chain([differential::refused()])
-                .chain(summary::asked(&asked))
-                .collect(),
-            cases: cases.unwrap_or_default(),
+            tables,
             data: json::verdict(verdict, &asked, &repeat),
             ..Report::default()
+        };
+        // The cause is looked for in the engine that the first failure is of.
+        let mut cause = None;
+        if let Some(first) = verdict.failures.first() {
+            cause = judged.cause(&first.evidence.pair[0]);
+            report.excerpts.push(self.excerpt(first, cause.as_ref()));
         }
+        report.outcome = Some(self.outcome(cause.as_ref()));
+        if is_page {
+            report.cases = page_cases::of_verdict(verdict, judged, repeat);
+        }
+        report
     }
 
     /// What the designs asked; nothing where some of their cases were not judged.
     fn asked(&self) -> Vec<DesignShare> {
         let options = &self.verdict.options;
+        // A part of the cases was not designed to have every two facts together.
         if options.only.is_some() || options.shard.parts() > 1 || options.time_limit.is_some() {
             return Vec::new();
         }
@@ -333,8 +367,10 @@ impl Run<'_> {
 
     /// The smallest failure with its pixels, and that no cause was recognised, where that is so.
     fn excerpt(&self, failure: &comparison::Failure, cause: Option<&Cause>) -> Excerpt {
+        // The smallest case of the first failure is the answer; one for each other family follows below.
         let shown = case_view::draw(&failure.case, &self.judged);
         let engine = &failure.evidence.pair[0];
+        // The pixels of this engine beside those of the oracle, where it draws the case.
         let grid = shown.judged_blocks(engine).map_or(String::new(), |blocks| {
             format!("{}\n{}", ascii::side_by_side(&blocks, 60), ascii::LEGEND)
         });
@@ -354,14 +390,15 @@ impl Run<'_> {
     /// A row for each failure but the first.
     fn others(&self) -> Option<Table> {
         let [_, others @ ..] = &self.verdict.failures[..] else { return None };
-        let row = |failure: &comparison::Failure| {
+        let mut rows = Vec::new();
+        for failure in others {
             let case = format!("{}#{}", failure.family, failure.index);
             let what = format!("{}: {} on", failure.evidence.pair[0], failure.what);
-            Row::of(&[&case, &what, &comparison::shrink::describe(&failure.case)])
-        };
+            rows.push(Row::of(&[&case, &what, &comparison::shrink::describe(&failure.case)]));
+        }
         let caption = "The smallest case of each other family";
         let columns = "~case 23 | ~what is wrong 1 | corners";
-        (!others.is_empty()).then(|| Table::new(caption, columns, others.iter().map(row).collect()))
+        (!others.is_empty()).then(|| Table::new(caption, columns, rows))
     }
 
     /// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
@@ -373,65 +410,80 @@ impl Run<'_> {
             Shape::Unsnapped { list, .. } => (list.len(), "--exact "),
             Shape::Numbers { .. } => (0, ""),
         };
+        // Points that are typed are one shape with the values that such a shape always has.
         let points = comparison::shrink::describe(&failure.case);
         let comparison::Failure { family, index, seed, .. } = failure;
         let case = match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
             true => format!("{words}{points}"),
             false => format!("{family}#{index} --seed {seed}"),
         };
-        let plant = self.arguments.plant.as_ref().map(|name| format!(" --plant {name}"));
-        format!("{} inspect {case}{}", program(), plant.unwrap_or_default())
+        let mut command = format!("{} inspect {case}", program());
+        if let Some(name) = &self.arguments.plant {
+            command += &format!(" --plant {name}");
+        }
+        command
     }
 
     /// The cases whose values came closest to their bounds, each with its family and the engine.
     fn worst(&self) -> Vec<(&FamilyReport, &PairReport)> {
-        let all = self.verdict.families.iter();
-        let mut worst: Vec<_> = all
-            .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
-            .filter(|(_, pair)| pair.is_by_oracle() && pair.values > 0 && pair.worst() > 0.0)
-            .collect();
+        let mut worst = Vec::new();
+        for family in &self.verdict.families {
+            for pair in &family.pairs {
+                if pair.is_by_oracle() && pair.values > 0 && pair.worst() > 0.0 {
+                    worst.push((family, pair));
+                }
+            }
+        }
         worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
-        worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
+        // Two engines that are alike have the same worst case, which is drawn once.
+        worst.dedup_by(|(a, one), (b, other)| {
+            a.family == b.family && one.worst_case == other.worst_case
+        });
         worst.truncate(3);
         worst
     }
 
-    /// The command that shows the value closest to its bound.
-    fn closest(&self) -> impl Iterator<Item = String> {
-        let closest = self.worst().first().map(|(family, pair)| {
-            let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
-            let (program, seed) = (program(), self.arguments.seed);
-            let said = format!("the value closest to its bound is of {engine}; see it with");
-            [said, format!("{program} inspect {name}#{index} --seed {seed}")]
-        });
-        closest.into_iter().flatten()
+    /// The command that shows the value closest to its bound, where values were compared.
+    fn closest(&self) -> Vec<String> {
+        let worst = self.worst();
+        let [(family, pair), ..] = &worst[..] else { return Vec::new() };
+        let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
+        let (program, seed) = (program(), self.arguments.seed);
+        let said = format!("the value closest to its bound is of {engine}; see it with");
+        vec![said, format!("{program} inspect {name}#{index} --seed {seed}")]
     }
 
     /// Draws the failures, or else the cases that came closest to a bound. Nobody asked for it: where that fails, the
     /// verdict stands.
     fn write_sheet(&self, streams: &mut Streams<'_>) -> Result<Option<String>, InputError> {
-        let drawn =
-            |title: &str, case: &Case| case_view::draw(case, &self.judged).picture(title, case);
-        let (name, pictures): (_, Vec<RgbImage>) = if self.verdict.agrees() {
-            let worst = self.worst().into_iter().filter_map(|(family, pair)| {
-                let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
-                let family = cases::families().find(|f| f.name == name)?;
+        let mut pictures = Vec::new();
+        let agrees = self.verdict.agrees();
+        if agrees {
+            for (FamilyReport { family: name, .. }, pair) in self.worst() {
+                // Families off the grid have no values.
+                let Some(family) = cases::families().find(|family| family.name == name) else {
+                    continue;
+                };
+                let (index, engine) = (pair.worst_case, &pair.actual);
                 let title = format!("{name}#{index}: {engine} at {:.2} of a bound", pair.worst());
-                Some(drawn(&title, &family.case(self.arguments.seed, index)))
-            });
-            ("worst.png", worst.collect())
+                pictures.push(self.picture(&title, &family.case(self.arguments.seed, index)));
+            }
         } else {
-            let drawn = |failure: &comparison::Failure| {
+            for failure in self.verdict.failures.iter().take(MOST_DRAWN) {
                 let text = failure.to_string();
-                drawn(text.lines().next().unwrap_or_default(), &failure.case)
-            };
-            let failures = self.verdict.failures.iter().take(MOST_DRAWN);
-            ("failures.png", failures.map(drawn).collect())
-        };
+                pictures.push(self.picture(text.lines().next().unwrap_or_default(), &failure.case));
+            }
+        }
         if pictures.is_empty() {
             return Ok(None);
         }
+        let name = if agrees { "worst.png" } else { "failures.png" };
         let png = picture::png(&picture::stack(&pictures));
         write_picture(None, &self.arguments.page.place.output(name), &png, streams)
+    }
+
+    /// What everybody draws of a case.
+    fn picture(&self, title: &str, case: &Case) -> RgbImage {
+        case_view::draw(case, &self.judged).picture(title, case)
     }
 }

@@ -1,4 +1,7 @@
 //! What is drawn and how it is seen, as a command line says it: a scene of the book, or a model with an eye and a light.
+//!
+//! A scene of the book has an eye and a light of its own, so options that would move them are refused. A model is turned about its
+//! centre before an eye that is as far away as it takes to see all of it, unless a camera of its file is chosen.
 
 use std::collections::HashMap;
 use std::num::NonZeroU32;
@@ -11,7 +14,7 @@ use glam::{DMat4, DVec3};
 
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{InputError, Streams, did_you_mean, program, usage};
+use super::{InputError, Streams, did_you_mean, pair, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up, cameras};
@@ -20,14 +23,13 @@ use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
-use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::shadow;
 use rasterproof_render::pipeline::target::{Antialias, Target, check_size};
 use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
-use rasterproof_render::scene::{Scene, Shading, chapters};
+use rasterproof_render::scene::{Item, Scene, Shading, chapters};
 use rasterproof_report::words::count;
 use rasterproof_study::bounds::{FrameSize, Purpose};
 use rasterproof_study::corner_grid::CornerGrid;
@@ -68,6 +70,7 @@ pub struct GridArguments {
 const BITS: [(&str, u32); 4] = [("4", 4), ("8", 8), ("12", 12), ("16", 16)];
 
 impl GridArguments {
+    /// The grid that is asked for, else the usual one.
     pub(super) fn grid(&self) -> CornerGrid {
         match self.subpixel_bits {
             _ if self.unsnapped => CornerGrid::Unsnapped,
@@ -187,67 +190,85 @@ fn scene_names() -> Vec<&'static str> {
     chapters::entries().map(|entry| entry.name).collect()
 }
 
+/// A width and a height in pixels. How large they may be depends on what is drawn, and is checked with it.
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), &'static str> {
-    let sides = text.split_once(['x', 'X']);
-    let parsed = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    parsed.ok_or("expected WIDTHxHEIGHT, for example 1024x768")
+    pair(text, &['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 1024x768")
 }
 
+/// A highlight that is white, since the option has no colour.
 fn parse_specular(text: &str) -> Result<Specular, &'static str> {
-    let numbers = text.split_once(',');
-    let parsed = numbers.and_then(|(s, e)| Some((s.trim().parse().ok()?, e.trim().parse().ok()?)));
-    let fits = |(strength, exponent): &(f64, f64)| {
-        (0.0..=1.0).contains(strength) && *exponent > 0.0 && exponent.is_finite()
-    };
-    parsed
-        .filter(fits)
-        .map(|(strength, shininess)| Specular { colour: DVec3::splat(strength), shininess })
-        .ok_or("expected a strength from 0 to 1 and an exponent above 0, for example 0.5,30")
+    match pair::<f64, f64>(text, &[',']) {
+        Some((strength, shininess))
+            if (0.0..=1.0).contains(&strength) && shininess > 0.0 && shininess.is_finite() =>
+        {
+            Ok(Specular { colour: DVec3::splat(strength), shininess })
+        }
+        _ => Err("expected a strength from 0 to 1 and an exponent above 0, for example 0.5,30"),
+    }
 }
 
+/// A share of light, from none to all of it.
 fn parse_opacity(text: &str) -> Result<f64, &'static str> {
-    let opacity = text.trim().parse().ok().filter(|number| (0.0..=1.0).contains(number));
-    opacity.ok_or("expected a number from 0 to 1, for example 0.5")
+    match text.trim().parse() {
+        Ok(opacity) if (0.0..=1.0).contains(&opacity) => Ok(opacity),
+        _ => Err("expected a number from 0 to 1, for example 0.5"),
+    }
 }
+
+/// Textures with mip maps by the addresses of those that they replace, each behind the replaced one: that is kept, so that no
+/// other texture gets its address.
+type MipMapped = HashMap<*const Texture, [Arc<Texture>; 2]>;
 
 /// Gives all textures a mip map, and anisotropy where it is asked for; one that several items share is made once.
 fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
-    let mut made: HashMap<*const Texture, [Arc<Texture>; 2]> = HashMap::new();
-    let mut give = |texture: &mut Arc<Texture>| {
-        // The texture that was replaced is kept, so that no other one gets its address.
-        let [_, with] = made.entry(Arc::as_ptr(texture)).or_insert_with(|| {
-            let with = Texture::clone(texture).with_mip_map();
-            [texture.clone(), Arc::new(with.with_anisotropy(anisotropy.unwrap_or(1)))]
-        });
-        *texture = with.clone();
-    };
+    let (mut made, taps) = (MipMapped::new(), anisotropy.unwrap_or(1));
     for item in &mut scene.items {
-        item.material.texture.iter_mut().for_each(&mut give);
+        if let Some(texture) = &mut item.material.texture {
+            give_mip_map(texture, taps, &mut made);
+        }
         if let Some(physical) = &mut item.material.physical {
-            Arc::make_mut(physical).maps.iter_mut().flatten().for_each(&mut give);
+            for texture in Arc::make_mut(physical).maps.iter_mut().flatten() {
+                give_mip_map(texture, taps, &mut made);
+            }
         }
     }
 }
 
-fn parse_shadows(text: &str) -> Result<u32, String> {
-    let size = text.trim().parse().ok().filter(|size| shadow::SIZES.contains(size));
-    size.ok_or_else(|| {
-        let (least, most) = (shadow::SIZES.start(), shadow::SIZES.end());
-        format!("expected the texels along a side of the map, from {least} to {most}; a file is named before --shadows")
-    })
+/// Replaces a texture by one with levels of detail, of which `taps` are read along the longer axis of a footprint.
+fn give_mip_map(texture: &mut Arc<Texture>, taps: u8, made: &mut MipMapped) {
+    let [_, with] = made.entry(Arc::as_ptr(texture)).or_insert_with(|| {
+        let with = Texture::clone(texture).with_mip_map().with_anisotropy(taps);
+        [texture.clone(), Arc::new(with)]
+    });
+    *texture = with.clone();
 }
 
+/// The side of a shadow map. As the value may be left out, a file behind the option would be taken for it.
+fn parse_shadows(text: &str) -> Result<u32, String> {
+    match text.trim().parse() {
+        Ok(size) if shadow::SIZES.contains(&size) => Ok(size),
+        _ => {
+            let (least, most) = (shadow::SIZES.start(), shadow::SIZES.end());
+            Err(format!(
+                "expected the texels along a side of the map, from {least} to {most}; a file is named before --shadows"
+            ))
+        }
+    }
+}
+
+/// Two numbers are the start and the end of fog that grows with the distance, one is the density of fog without an end.
 fn parse_fog(text: &str) -> Result<Growth, &'static str> {
-    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let growth = match text.split_once(',') {
-        Some((start, end)) => number(start)
-            .zip(number(end))
-            .and_then(|(start, end)| (start < end).then_some(Growth::Linear { start, end })),
-        None => number(text)
-            .filter(|density| *density > 0.0)
-            .map(|density| Growth::Exponential { density }),
-    };
-    growth.ok_or("expected a start and a larger end, for example 0,1, or a density above 0")
+    if let Some((start, end)) = pair::<f64, f64>(text, &[','])
+        && start < end
+        && start.is_finite()
+        && end.is_finite()
+    {
+        return Ok(Growth::Linear { start, end });
+    }
+    match text.trim().parse::<f64>() {
+        Ok(density) if density > 0.0 && density.is_finite() => Ok(Growth::Exponential { density }),
+        _ => Err("expected a start and a larger end, for example 0,1, or a density above 0"),
+    }
 }
 
 impl SceneArguments {
@@ -262,11 +283,15 @@ impl SceneArguments {
         scene.filter(|_| !path.is_file()).map_or(Err(path), |entry| Ok(entry.name))
     }
 
+    /// A name for pictures of it: that of the scene, or of the file without its ending.
     pub(super) fn name(&self) -> String {
-        let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into();
-        self.source().map_or_else(stem, str::to_owned)
+        match self.source() {
+            Ok(name) => name.to_owned(),
+            Err(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        }
     }
 
+    /// The scene, or the model in its view, refused where it is too much for its purpose.
     pub(super) fn maker(
         &self,
         typed: &Typed,
@@ -278,8 +303,8 @@ impl SceneArguments {
             Ok(name) => {
                 let aspect = view.aspect()?;
                 // A scene has an eye and a light of its own: what would move them is refused, not ignored.
-                let is_of_models = |option: &&String| !OF_SCENES.contains(&option.as_str());
-                let of_models: Vec<_> = VIEW_OPTIONS.iter().filter(is_of_models).collect();
+                let mut of_models = VIEW_OPTIONS.clone();
+                of_models.retain(|option| !OF_SCENES.contains(&option.as_str()));
                 if let Some(option) = typed.given(&of_models) {
                     return Err(usage(format!(
                         "--{option} is for models; the scene '{name}' has an eye and a light of its own"
@@ -290,9 +315,10 @@ impl SceneArguments {
                 view.frame_size().refuse_too_much(name, &maker.scene, 0, purpose)?;
                 Ok(maker)
             }
+            // A word without an ending is meant as a name.
             Err(path) if path.extension().is_none() && !path.exists() => {
                 let word = path.to_string_lossy();
-                let hint = did_you_mean(&word, scene_names().into_iter());
+                let hint = did_you_mean(&word, &scene_names());
                 Err(usage(format!(
                     "{word} is neither a file nor a scene{hint} See: {} list",
                     program()
@@ -315,16 +341,19 @@ impl ViewArguments {
         Target::new(width, height, self.aa, self.depth).map_err(usage)
     }
 
+    /// What decides how much memory and time a frame takes.
     fn frame_size(&self) -> FrameSize {
         FrameSize { px: self.size, antialias: self.aa, shadows: self.shadows }
     }
 
+    /// Width by height, of a picture that can be drawn.
     fn aspect(&self) -> Result<f64, InputError> {
         let (width, height) = self.size;
         check_size(width, height, self.aa)?;
         Ok(f64::from(width) / f64::from(height))
     }
 
+    /// A model in this view, refused where it is too much for its purpose.
     pub(super) fn maker(
         &self,
         path: &Path,
@@ -332,14 +361,16 @@ impl ViewArguments {
         streams: &mut Streams<'_>,
     ) -> Result<Maker, InputError> {
         let aspect = self.aspect()?;
+        // Before the file is read, which may take long.
         self.frame_size().refuse_large_frames(purpose)?;
         let (mut scene, model) = self.frame_model(path, aspect, streams)?;
         cull(&mut scene, self.cull);
         let maker = Maker { scene, model, aspect, cull: self.cull };
         let name = printable_path(path).to_string();
         self.frame_size().refuse_too_much(&name, &maker.scene, maker.model.file_bytes, purpose)?;
-        let backs = facing::share_of_backs(&maker.scene).filter(|share| *share > 0.5);
-        if let Some(share) = backs {
+        // Where most of what is seen are backs, the file is likely to wind its faces the other way.
+        let backs = facing::share_of_backs(&maker.scene);
+        if let Some(share) = backs.filter(|share| *share > 0.5) {
             // 100% only of all.
             let percent = (share * 100.0).floor();
             writeln!(
@@ -350,20 +381,79 @@ impl ViewArguments {
         Ok(maker)
     }
 
+    /// Reads a model and puts it before the eye and into the light of this view.
     fn frame_model(
         &self,
         path: &Path,
         aspect: f64,
         streams: &mut Streams<'_>,
     ) -> Result<(Scene, Framed), InputError> {
-        let shading = self.shading.unwrap_or(Shading::Phong);
-        let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
-        let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
-        let time = self.time.unwrap_or(0.0);
-        let numbers =
-            [("yaw", yaw), ("pitch", pitch), ("zoom", zoom), ("fov", fov), ("time", time)];
-        if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
-            return Err(usage(format!("--{name} {value} is not a finite number")));
+        self.check_numbers()?;
+        let start = Instant::now();
+        let mut model = self.load(path, streams.progress)?;
+        let loading_s = Some(start.elapsed().as_secs_f64());
+        report_model(&model, self.up.is_some(), streams.errors)?;
+        if self.time.is_some() && model.animations.is_empty() {
+            return Err(usage("--time: the model has no animations".to_owned()));
+        }
+        self.report_choices(&model, streams.errors)?;
+        let eye = self.eye(&model, aspect)?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut scene = Scene::new(&name, "a model", eye.projection);
+        scene.view = eye.view;
+        scene.items = std::mem::take(&mut model.items);
+        scene.layers = self.layers;
+        // One light from above, on the side of the eye; where the file has lights, they shine in its place.
+        scene.light = Light {
+            towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
+            ambient: 0.25,
+            diffuse: 0.75,
+        };
+        let place = about(eye.centre, eye.turn);
+        scene.punctual = model.lights.iter().map(|light| light.placed(place)).collect();
+        for item in &mut scene.items {
+            item.model = place;
+            self.change_surface(item);
+        }
+        if self.mip_maps || self.anisotropy.is_some() {
+            give_mip_maps(&mut scene, self.anisotropy);
+        }
+        scene.shadows = self.shadows.map(|size| Shadows { size, ..Shadows::default() });
+        // What is far away fades into the background.
+        if let Some(growth) = self.fog {
+            let [r, g, b, _] = scene.background;
+            scene.fog = Some(Fog { colour: [r, g, b], growth: eye.growth_in_distances(growth) });
+        }
+        let Model { origins, not_drawn, file_bytes, mut why_empty, .. } = model;
+        if self.opacity.is_some() {
+            // The file does not decide.
+            why_empty.clear();
+        }
+        let centre = eye.centre;
+        Ok((scene, Framed { centre, origins, not_drawn, why_empty, file_bytes, loading_s }))
+    }
+
+    fn zoom(&self) -> f64 {
+        self.zoom.unwrap_or(1.0)
+    }
+
+    fn fov_deg(&self) -> f64 {
+        self.fov.unwrap_or(40.0)
+    }
+
+    /// Refuses numbers by which nothing can be seen. The parser lets every double pass.
+    fn check_numbers(&self) -> Result<(), InputError> {
+        let (yaw, pitch, zoom, fov) = (self.yaw, self.pitch, self.zoom(), self.fov_deg());
+        for (name, value) in [
+            ("yaw", yaw),
+            ("pitch", pitch),
+            ("zoom", Some(zoom)),
+            ("fov", Some(fov)),
+            ("time", self.time),
+        ] {
+            if let Some(value) = value.filter(|value| !value.is_finite()) {
+                return Err(usage(format!("--{name} {value} is not a finite number")));
+            }
         }
         // Beyond, the distance to the model is lost in the rounding of a double, or overflows.
         if !(1e-6..=1e6).contains(&zoom) {
@@ -372,40 +462,57 @@ impl ViewArguments {
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
+        Ok(())
+    }
+
+    /// Reads the file as these options ask for it.
+    fn load(&self, path: &Path, on_terminal: bool) -> Result<Model, InputError> {
+        // The first animation has number 1.
         let animation = self.animation.unwrap_or(1) as usize - 1;
-        let pose = self.time.map(|time_s| Pose { animation, time_s });
-        let normals = self.normals.unwrap_or_default();
-        let options = LoadOptions { shading, normals, up: self.up, pose };
-        let progress = Progress::new(streams.progress, "models read", None);
-        let start = Instant::now();
-        let mut model = rasterproof_models::load(path, options)?;
-        let loading_s = Some(start.elapsed().as_secs_f64());
-        drop(progress);
-        report_model(&model, self.up.is_some(), streams.errors)?;
-        if self.time.is_some() && model.animations.is_empty() {
-            return Err(usage("--time: the model has no animations".to_owned()));
-        }
+        let options = LoadOptions {
+            shading: self.shading.unwrap_or(Shading::Phong),
+            normals: self.normals.unwrap_or_default(),
+            up: self.up,
+            pose: self.time.map(|time_s| Pose { animation, time_s }),
+        };
+        let _progress = Progress::new(on_terminal, "models read", None);
+        Ok(rasterproof_models::load(path, options)?)
+    }
+
+    /// Says what the file has that an option would show, and what becomes of its lights.
+    fn report_choices(
+        &self,
+        model: &Model,
+        errors: &mut dyn std::io::Write,
+    ) -> std::io::Result<()> {
         if self.time.is_none() && !model.animations.is_empty() {
             let count = count(model.animations.len() as u64, "animation", "animations");
             let listed = cameras::listed(model.animations.iter().map(String::as_str));
             let how = "--time 0.5 shows the first after half a second";
-            writeln!(streams.errors, "the file has {count}: {listed}; {how}")?;
+            writeln!(errors, "the file has {count}: {listed}; {how}")?;
         }
         if self.camera.is_none() && !model.cameras.is_empty() {
             let count = count(model.cameras.len() as u64, "camera", "cameras");
             let listed = cameras::listed(model.cameras.iter().map(|camera| &*camera.name));
             let how = "--camera 1 looks through the first";
-            writeln!(streams.errors, "the file has {count}: {listed}; {how}")?;
+            writeln!(errors, "the file has {count}: {listed}; {how}")?;
         }
         if !model.lights.is_empty() {
             let count = count(model.lights.len() as u64, "light", "lights");
+            // A shadow map is made for the light of the view alone.
             let shadows =
                 if self.shadows.is_some() { ", and nothing keeps it from anything" } else { "" };
             writeln!(
-                streams.errors,
+                errors,
                 "the light is that of {count} of the file{shadows}; ambient light is that of the view"
             )?;
         }
+        Ok(())
+    }
+
+    /// The eye from which all of the model is seen, or the camera of its file that was chosen.
+    fn eye(&self, model: &Model, aspect: f64) -> Result<Eye, InputError> {
+        // The box around the model, and the sphere around that, which stays the same when the model is turned.
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
         let (min, max) = bounds
             .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
@@ -413,60 +520,71 @@ impl ViewArguments {
         let centre = (min + max) / 2.0;
         // A point or a plane has a size too.
         let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
-        let half = fov.to_radians() / 2.0;
+        // The sphere touches the sides of the view along the shorter side of the picture.
+        let angle = self.fov_deg().to_radians();
+        let half = angle / 2.0;
         let narrow = half.min(atan(tan(half) * aspect));
-        let mut distance = radius / sin(narrow) / zoom;
-        let (pitch, yaw) = (pitch.to_radians(), yaw.to_radians());
-        let mut turn = turn_y(yaw);
+        let distance = radius / sin(narrow) / self.zoom();
+        // The model is turned to the side, and the eye rises to look down.
+        let turn = turn_y(self.yaw.unwrap_or(30.0).to_radians());
+        let pitch = self.pitch.unwrap_or(20.0).to_radians();
         let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
         let up = DVec3::new(0.0, cos(pitch), sin(pitch));
-        let mut view = look_at(centre + away * distance, centre, up)?;
+        let view = look_at(centre + away * distance, centre, up)?;
+        // No part of the model is nearer than the sphere. An eye inside it needs a distance above 0 all the same.
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
-        let mut projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)?;
-        if let Some(wanted) = &self.camera {
-            let seen = cameras::find(&model.cameras, wanted).and_then(|camera| {
-                camera.matrices(aspect, [min, max]).map_err(|error| error.to_string())
-            });
-            [view, projection] = seen.map_err(|error| {
-                usage(format!("--camera {}: {error}", printable_short(wanted, 40)))
-            })?;
-            (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
-        }
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let mut scene = Scene::new(&name, "a model", projection);
-        scene.view = view;
-        scene.items = std::mem::take(&mut model.items);
-        scene.layers = self.layers;
-        scene.light = Light {
-            towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
-            ambient: 0.25,
-            diffuse: 0.75,
+        let projection = perspective(angle, aspect, near, distance + radius * 1.01)?;
+        let Some(wanted) = &self.camera else {
+            return Ok(Eye { centre, radius, distance, turn, view, projection });
         };
-        let placed = |light: &PunctualLight| light.placed(about(centre, turn));
-        scene.punctual = model.lights.iter().map(placed).collect();
-        for item in &mut scene.items {
-            item.model = about(centre, turn);
-            if self.two_sided {
-                (item.two_sided, item.cull) = (true, Cull::None);
-            }
-            item.material.specular = self.specular.unwrap_or(item.material.specular);
-            if let Some(factor) = self.opacity {
-                let map = item.material.opacity.take().and_then(|opacity| opacity.map);
-                item.material.opacity = Some(Opacity { factor, map, mode: AlphaMode::Blend });
-            }
-            if let (Some(threshold), Some(opacity)) =
-                (self.alpha_threshold, &mut item.material.opacity)
-            {
-                opacity.mode = AlphaMode::Test { threshold };
-            }
+        // A camera stands in the model as its file has it, not turned.
+        let seen = cameras::find(&model.cameras, wanted).and_then(|camera| {
+            camera.matrices(aspect, [min, max]).map_err(|error| error.to_string())
+        });
+        let [view, projection] = seen
+            .map_err(|error| usage(format!("--camera {}: {error}", printable_short(wanted, 40))))?;
+        let (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
+        Ok(Eye { centre, radius, distance, turn, view, projection })
+    }
+
+    /// Changes what these options say of the surface of an item.
+    fn change_surface(&self, item: &mut Item) {
+        if self.two_sided {
+            (item.two_sided, item.cull) = (true, Cull::None);
         }
-        if self.mip_maps || self.anisotropy.is_some() {
-            give_mip_maps(&mut scene, self.anisotropy);
+        item.material.specular = self.specular.unwrap_or(item.material.specular);
+        // A surface keeps the map of its opacity, by which parts of it stay more transparent than others.
+        if let Some(factor) = self.opacity {
+            let map = item.material.opacity.take().and_then(|opacity| opacity.map);
+            item.material.opacity = Some(Opacity { factor, map, mode: AlphaMode::Blend });
         }
-        scene.shadows = self.shadows.map(|size| Shadows { size, ..Shadows::default() });
-        let [r, g, b, _] = scene.background;
-        // From shares of the model's depth to distances.
-        let growth = self.fog.map(|growth| match growth {
+        // Where a surface is not opaque, by the file or by now, a threshold makes holes of it.
+        if let (Some(threshold), Some(opacity)) = (self.alpha_threshold, &mut item.material.opacity)
+        {
+            opacity.mode = AlphaMode::Test { threshold };
+        }
+    }
+}
+
+/// How a model lies before an eye.
+struct Eye {
+    /// The centre of the model and the radius of the sphere around it.
+    centre: DVec3,
+    radius: f64,
+    /// From the eye to the centre.
+    distance: f64,
+    /// What turns the model about its centre.
+    turn: DMat4,
+    view: DMat4,
+    projection: DMat4,
+}
+
+impl Eye {
+    /// Fog by distances from the eye: on the command line it is told in shares of the model's depth, so that the same words look
+    /// alike for models of any size.
+    fn growth_in_distances(&self, growth: Growth) -> Growth {
+        let Self { distance, radius, .. } = *self;
+        match growth {
             Growth::Linear { start, end } => {
                 let [start, end] = [start, end].map(|at| distance + radius * (2.0 * at - 1.0));
                 Growth::Linear { start, end }
@@ -474,14 +592,7 @@ impl ViewArguments {
             Growth::Exponential { density } => {
                 Growth::Exponential { density: density / (2.0 * radius) }
             }
-        });
-        scene.fog = growth.map(|growth| Fog { colour: [r, g, b], growth });
-        let Model { origins, not_drawn, file_bytes, mut why_empty, .. } = model;
-        if self.opacity.is_some() {
-            // The file does not decide.
-            why_empty.clear();
         }
-        Ok((scene, Framed { centre, origins, not_drawn, why_empty, file_bytes, loading_s }))
     }
 }
 
@@ -519,6 +630,7 @@ pub(super) struct Framed {
     pub(super) loading_s: Option<f64>,
 }
 
+/// What makes the scenes that a command draws.
 pub(super) struct Maker {
     /// As it stands where it is not turned, culled as asked.
     pub(super) scene: Scene,
@@ -530,9 +642,11 @@ pub(super) struct Maker {
 impl Maker {
     /// The scene, turned by a share of a full turn.
     pub(super) fn turned(&self, turn: f64) -> Scene {
+        // A scene of the book turns as its chapter says.
         if self.model.loading_s.is_none() {
             return chapter(&self.scene.name, self.aspect, turn, self.cull);
         }
+        // A model turns about its centre, after what it was turned by already.
         let mut scene = self.scene.clone();
         let turn = turn_y(turn * std::f64::consts::TAU);
         for item in &mut scene.items {
@@ -542,6 +656,7 @@ impl Maker {
     }
 }
 
+/// A scene of the book at a share of a full turn.
 fn chapter(name: &str, aspect: f64, turn: f64, asked: Option<Cull>) -> Scene {
     let mut scene = chapters::scene(name, aspect, turn)
         .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY));
@@ -549,6 +664,7 @@ fn chapter(name: &str, aspect: f64, turn: f64, asked: Option<Cull>) -> Scene {
     scene
 }
 
+/// Leaves out triangles by their winding as it is asked for, else as each item has it.
 fn cull(scene: &mut Scene, asked: Option<Cull>) {
     for item in &mut scene.items {
         item.cull = asked.unwrap_or(item.cull);

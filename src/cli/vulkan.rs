@@ -1,4 +1,7 @@
 //! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
+//!
+//! A device is judged by the judge of programs and by rules of its specification. Its name is `vulkan:` with its number in the
+//! loader's list, or a word of its name or driver.
 
 use rasterproof_host::output::Output;
 use rasterproof_vulkan::device::find;
@@ -25,6 +28,7 @@ const CASES: u64 = 1000;
 /// The words that all commands begin with.
 fn command(engine: &str, seed: u64) -> String {
     let program = program();
+    // cargo compiles devices only where they are asked for.
     let program = match program.strip_suffix(" --") {
         Some(cargo) => format!("{cargo} --features vulkan --"),
         None => program,
@@ -44,6 +48,7 @@ pub fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let gpu = Gpu::named(engine)?;
+    // A run with a time limit has no number of cases, so the time decides.
     let limited = options.time_limit.is_some();
     let cases = cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
     let options = options.cases(cases);
@@ -60,6 +65,7 @@ pub fn verify(
     if stand.verdict.families.is_empty() {
         return Err(usage("no case was judged: the device does not draw what these families hold"));
     }
+    // The command repeats as many cases as there was time for.
     let judged = stand.verdict.families.iter().map(|row| row.cases).max().unwrap_or(0);
     let cases = if limited { judged } else { cases };
     let command = command(engine, options.seed);
@@ -76,6 +82,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
     Ok(look::coverage(&mut Gpu::named(engine)?, list, window)?)
 }
 
+/// A device beside the choices that `cost` measures.
 pub fn external_choice(engine: &str) -> Result<Box<dyn ExternalChoice>, InputError> {
     Ok(Box::new(OnLadder::new(engine)?))
 }
@@ -83,6 +90,7 @@ pub fn external_choice(engine: &str) -> Result<Box<dyn ExternalChoice>, InputErr
 /// The devices that there are, or why there are none.
 pub fn listed() -> [Table; 2] {
     let found = find::list();
+    // The reasons why there are none have several lines, each of which is a note.
     let (devices, notes) = match &found {
         Ok(all) => (&all[..], Vec::new()),
         Err(error) => {

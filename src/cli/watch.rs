@@ -47,6 +47,7 @@ impl Files {
         Self { paths: self.paths.clone(), states: self.paths.iter().map(state).collect() }
     }
 
+    /// Whether one of them was written, made or removed since.
     pub fn have_changed(&self) -> bool {
         *self != self.looked_at()
     }
@@ -70,6 +71,7 @@ impl Files {
         let mut is_said = false;
         loop {
             std::thread::sleep(LOOK);
+            // A program may be written in several steps; a change is one when nothing has changed for a while.
             let now = self.looked_at();
             if now == *self {
                 continue;
@@ -105,6 +107,7 @@ impl Files {
         names.join(", ")
     }
 
+    /// The names of all files that are there.
     fn names_of_all(&self) -> String {
         self.names(self, |state, _| state.is_some())
     }
@@ -128,6 +131,7 @@ impl Subject for UntilChanged {
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
+        // A block of questions is answered within milliseconds, so a change is noticed soon enough.
         for some in questions.chunks(AT_ONCE) {
             if deaths >= most_deaths || self.files.have_changed() {
                 break;
@@ -180,6 +184,7 @@ pub(super) fn run(command: &[String], round: &mut Round<'_>, streams: &mut Strea
             "--watch: no word of the command names a file that could change; name the program by its path, as ./mine",
         ));
     }
+    // A file that is written again with the same content has not changed.
     let mut content = files.content();
     let mut before = None;
     // Ctrl-C ends it, and so does a reader that has seen enough.

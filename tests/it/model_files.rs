@@ -136,7 +136,7 @@ fn many_bad_lines_end_the_file_or_a_face() {
         (places(&model).len(), &*model.not_drawn),
         (3, "position that is not finite of 1 face")
     );
-    let is_said = |said: &String| said.contains("nan.obj:5005: 1 of 2 faces are left out");
+    let is_said = |said: &String| said.contains("nan.obj:5005: 1 of 2 faces is left out");
     assert!(model.warnings.iter().any(is_said), "{:?}", model.warnings);
 }
 

@@ -102,6 +102,19 @@ rasterproof_core::named! {
 }
 
 impl Shapes {
+    /// The noun behind a number: the singular behind 1 alone.
+    fn noun(self, number: u64) -> &'static str {
+        match self {
+            _ if number != 1 => self.name(),
+            Self::Triangles => "triangle",
+            Self::Lines => "line",
+            Self::WideLines => "line with a width",
+            Self::Formulas => "formula",
+        }
+    }
+}
+
+impl Shapes {
     /// What the shapes of a row are, by the check that it is of.
     #[must_use]
     pub fn of(check: Option<Check>) -> Self {
@@ -292,7 +305,7 @@ pub trait Scores {
         let mut said = Vec::new();
         for (kind, count) in counts {
             if count > 0 || is_usual(kind) && !has_others {
-                said.push(format!("{count} {}", kind.name()));
+                said.push(format!("{count} {}", kind.noun(count)));
             }
         }
         said.join(" and ")
@@ -395,10 +408,12 @@ fn about(row: &Row) -> String {
 /// A row in words: how many cases agree, then whatever is wrong in parts of the sentence.
 pub fn sentence(row: &Row) -> String {
     // How many cases are wrong, of how many.
+    let (of, cases) = (row.cases, if row.cases == 1 { "case" } else { "cases" });
     let mut out = match row.wrong_cases {
-        0 => format!("{} cases agree", row.cases),
-        n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
-        n => format!("wrong in {n} of {} cases", row.cases),
+        0 if of == 1 => "1 case agrees".to_owned(),
+        0 => format!("{of} cases agree"),
+        n if row.sides.is_some() => format!("different in {n} of {of} {cases}"),
+        n => format!("wrong in {n} of {of} {cases}"),
     };
     // Then what is wrong with them, in the words of the check.
     for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {

@@ -60,8 +60,13 @@ pub(crate) fn leave_out(contents: &mut Contents, warnings: &mut Warnings) -> u64
             [0, _] => "a colour",
             _ => "a position or a colour",
         };
+        let are = match (left_out, all) {
+            (1, 1) => "face is",
+            (1, _) => "faces is",
+            _ => "faces are",
+        };
         let text = format!(
-            "{left_out} of {all} faces are left out, since {what} of each is not a finite number; the first is {place}: \
+            "{left_out} of {all} {are} left out, since {what} of each is not a finite number; the first is {place}: \
              repair it in the program that wrote the file"
         );
         warnings.add_at(line, "faces", &text);

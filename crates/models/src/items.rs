@@ -175,8 +175,9 @@ fn clear_materials(items: &[Item], origins: &[Origin], warnings: &mut Warnings) 
         }
     }
     for (name, count) in &counts {
+        let triangles = if *count == 1 { "triangle" } else { "triangles" };
         let text = format!(
-            "{} is fully transparent, so nothing is seen of its {count} triangles: give it another opacity, or all \
+            "{} is fully transparent, so nothing is seen of its {count} {triangles}: give it another opacity, or all \
              surfaces one by --opacity",
             named(name)
         );

@@ -27,8 +27,10 @@ use rasterproof_judge::ask::{
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::text::{Words, printable};
 
+/// How long a program is waited for.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
+    /// For each answer.
     pub answer: Duration,
     /// From the start to the answer of HELLO.
     pub start: Duration,
@@ -77,6 +79,7 @@ pub struct Program {
     strays: Vec<Misbehaviour>,
 }
 
+/// A program that is running: its processes, and the ends of its pipes that the threads hand to the judge.
 struct Live {
     group: Group,
     /// Has an end when its standard error has one.
@@ -110,9 +113,12 @@ enum Broken {
     Over,
 }
 
+/// Why no line comes.
 enum NoLine {
+    /// The program has ended, or has closed its output.
     Ended,
     TimeOut,
+    /// So many bytes came without an end of a line.
     TooLong(usize),
 }
 
@@ -153,15 +159,33 @@ impl Program {
         what
     }
 
+    /// Ends the program if it runs, starts it anew, and asks what it is.
     fn restart(&mut self) -> Result<Declared, Misbehaviour> {
         self.live = None;
         let mut live = Live::start(&self.command, &self.complaints)?;
         let mut declared = live.hello(self.limits_left())?;
-        self.extra.iter().for_each(|word| declared.hear(word));
+        for word in &self.extra {
+            declared.hear(word);
+        }
         self.live = Some(live);
         Ok(declared)
     }
 
+    /// The same for a program that does not run, so that questions can be sent.
+    fn ready(&mut self) -> Result<(), Broken> {
+        if self.is_over() {
+            return Err(Broken::Over);
+        }
+        if self.live.is_none()
+            && let Err(what) = self.restart()
+        {
+            // What is not ready when the time ends has done nothing wrong.
+            return Err(if self.is_over() { Broken::Over } else { Broken::Misbehaves(what, 1) });
+        }
+        Ok(())
+    }
+
+    /// Whether the time of the judge is over.
     fn is_over(&self) -> bool {
         self.end.is_some_and(|end| Instant::now() >= end)
     }
@@ -211,21 +235,14 @@ impl Program {
         batch: usize,
         answers: &mut Vec<Answer>,
     ) -> Result<(), Broken> {
-        if self.is_over() {
-            return Err(Broken::Over);
-        }
-        if self.live.is_none() {
-            let started = self.restart();
-            let is_over = self.is_over();
-            started.map_err(|m| if is_over { Broken::Over } else { Broken::Misbehaves(m, 1) })?;
-        }
+        self.ready()?;
         let limits_left = self.limits_left();
-        let is_over = |end: Option<Instant>| end.is_some_and(|end| Instant::now() >= end);
+        // Requests have numbers without gaps, and are answered in their order.
         let first_id = self.next_id;
         let (mut sent, mut answered) = (0, 0);
         while answered < questions.len() {
             // Filled up when half is answered, so that requests travel in blocks.
-            if sent < questions.len() && sent - answered <= batch / 2 && !is_over(self.end) {
+            if sent < questions.len() && sent - answered <= batch / 2 && !self.is_over() {
                 let mut block = Vec::new();
                 let end = questions.len().min(answered + batch);
                 for (question, id) in questions[sent..end].iter().zip(self.next_id..) {
@@ -236,25 +253,28 @@ impl Program {
                 // Where the pipe is closed, reading tells why.
                 let _ = self.live.as_ref().map(|live| live.requests.send(block));
             }
-            if sent == answered {
+            // Nothing is in flight, and nothing more is sent.
+            let in_flight = sent - answered;
+            if in_flight == 0 {
                 return Err(Broken::Over);
             }
             let id = first_id + answered as u64;
-            let (waiting, start) = (self.waiting(sent - answered), Instant::now());
+            let (waiting, start) = (self.waiting(in_flight), Instant::now());
             let Some(live) = &mut self.live else { return Ok(()) };
-            let answer = live
-                .answer(&questions[answered], id, first_id..self.next_id, waiting)
-                .map_err(|what| match what {
-                    Some(what) => {
-                        Broken::Misbehaves(live.or_flood(what, limits_left), sent - answered)
-                    }
-                    None => Broken::Over,
-                })?;
+            let ids = first_id..self.next_id;
+            let answer = match live.answer(&questions[answered], id, ids, waiting) {
+                Ok(answer) => answer,
+                Err(None) => return Err(Broken::Over),
+                Err(Some(what)) => {
+                    return Err(Broken::Misbehaves(live.or_flood(what, limits_left), in_flight));
+                }
+            };
             self.slowest = self.slowest.max(start.elapsed());
+            // Answers of a block are kept until all are there, so that their length has a bound, too.
             self.kept += live.heard;
             if self.kept > limits::PROGRAM_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
-                return Err(Broken::Misbehaves(Breach::Floods.by(said), sent - answered));
+                return Err(Broken::Misbehaves(Breach::Floods.by(said), in_flight));
             }
             answers.push(answer);
             live.answered = Some((id, questions[answered].clone()));
@@ -311,10 +331,12 @@ impl Subject for Program {
     fn finish(&mut self) -> Vec<Misbehaviour> {
         let Some(mut live) = self.live.take() else { return Vec::new() };
         // One that goes on after the end of its input is ended, and that is no fault of its answers.
-        let status = live.end(self.limits.answer);
-        let failed = status.filter(|status| !status.success());
-        let how = failed.map(|status| ending(Some(status)).how);
-        how.map(|how| Breach::FailsAtEnd.by(how)).into_iter().collect()
+        match live.end(self.limits.answer) {
+            Some(status) if !status.success() => {
+                vec![Breach::FailsAtEnd.by(ending(Some(status)).how)]
+            }
+            _ => Vec::new(),
+        }
     }
 
     fn complaints(&self) -> Complaints {
@@ -324,6 +346,7 @@ impl Subject for Program {
 }
 
 impl Live {
+    /// Starts the processes, and a thread for each pipe.
     fn start(
         command: &[OsString],
         complaints: &Arc<Mutex<StandardError>>,
@@ -342,6 +365,7 @@ impl Live {
         let (Some(mut stdin), Some(mut stdout), Some(stderr)) = pipes else {
             return Err(Breach::CannotStart.by("it has no pipes"));
         };
+        // A program that does not read its requests blocks their thread alone.
         let (requests, blocks) = mpsc::channel::<Vec<u8>>();
         serve(move || {
             for block in blocks {
@@ -350,6 +374,7 @@ impl Live {
                 }
             }
         })?;
+        // One that writes without an end waits where the queue is full, and takes no more memory.
         let (read, pieces) = mpsc::sync_channel(MOST_PIECES);
         serve(move || {
             let mut piece = vec![0; PIECE_BYTES];
@@ -448,24 +473,18 @@ impl Live {
         self.heard = line.len();
         let line = self.pending[line].trim_ascii_end();
         let mut words = Words(line);
-        let nonsense = |why: &str| {
-            let said = printable(line, 60);
-            Some(Breach::Nonsense.by(if said.is_empty() {
-                "an empty line".to_owned()
-            } else {
-                format!("{said} ({why})")
-            }))
-        };
         let letter = match words.word() {
             Some([letter]) if ANSWER_LETTERS.contains(letter) => *letter,
-            _ => return Err(nonsense("no answer begins like this")),
+            _ => return Err(Some(nonsense(line, "no answer begins like this"))),
         };
+        // The number of the request that is answered, which must be the one that is waited for.
         let named = words.word().unwrap_or(b"");
         let named_id = std::str::from_utf8(named).ok().and_then(|word| word.parse::<u64>().ok());
         if named_id != Some(id) {
-            let text = |id: u64, q: &Question| printable(q.text(id).as_bytes(), 80);
             return Err(Some(match (named_id, &self.answered) {
-                (Some(n), Some((last, q))) if n == *last => Breach::Twice.by(text(n, q)),
+                (Some(n), Some((last, question))) if n == *last => {
+                    Breach::Twice.by(printable(question.text(n).as_bytes(), 80))
+                }
                 (Some(n), _) if n < id && n > 0 => Breach::Twice.by(format!("request {n}")),
                 (Some(n), _) if n > id && asked.contains(&n) => {
                     Breach::OutOfOrder.by(format!("{n} before {id}"))
@@ -473,7 +492,7 @@ impl Live {
                 _ => Breach::Unasked.by(format!("{} for {id}", printable(named, 20))),
             }));
         }
-        question.read(letter, &mut words).map_err(nonsense)
+        question.read(letter, &mut words).map_err(|why| Some(nonsense(line, why)))
     }
 
     /// What it did, or that it floods its output: after a line that is no answer comes more without an end.
@@ -493,6 +512,7 @@ impl Live {
         Breach::Floods.by(format!("{more} bytes and more after it {what}"))
     }
 
+    /// What a program did that has sent no line. One that has ended is asked how.
     fn why(&mut self, no_line: NoLine, limit: f64) -> Misbehaviour {
         match no_line {
             NoLine::Ended => ending(self.group.end(LOOK * 50)),
@@ -515,6 +535,7 @@ impl Live {
                 return Err(NoLine::TooLong(searched - self.used));
             }
             let piece = self.piece(end)?;
+            // Lines that were used make room for what comes.
             if self.used > 0 {
                 self.pending.drain(..self.used);
                 searched -= self.used;
@@ -545,6 +566,14 @@ impl Live {
 impl Drop for Live {
     fn drop(&mut self) {
         self.end(LOOK);
+    }
+}
+
+/// A line that is no answer, and why.
+fn nonsense(line: &[u8], why: &str) -> Misbehaviour {
+    match printable(line, 60) {
+        said if said.is_empty() => Breach::Nonsense.by("an empty line"),
+        said => Breach::Nonsense.by(format!("{said} ({why})")),
     }
 }
 
@@ -580,6 +609,7 @@ fn signal_name(signal: i32) -> &'static str {
     }
 }
 
+/// Does the work of a pipe on a thread of its own, which ends with the pipe.
 fn serve(work: impl FnOnce() + Send + 'static) -> Result<(), Misbehaviour> {
     let refused = |error| {
         let why = "no thread can be started for its pipes; allow more processes (ulimit -u)";

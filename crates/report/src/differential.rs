@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use super::html::Outcome;
 use super::table::{self, Column, Mark, Row, Table};
+use super::words::noun;
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_registry::named;
@@ -208,9 +209,10 @@ pub fn judged_shapes(verdict: &Verdict) -> String {
     let [triangles, lines, free] = Kind::ALL.map(|(kind, _)| verdict.sum(kind, |f| f.shapes));
     let beside = match free {
         0 => String::new(),
-        n => format!(", {n} triangles off the grid"),
+        n => format!(", {n} {} off the grid", noun(n, "triangle", "triangles")),
     };
-    format!("{triangles} triangles and {lines} lines{beside}")
+    let of_triangles = noun(triangles, "triangle", "triangles");
+    format!("{triangles} {of_triangles} and {lines} {}{beside}", noun(lines, "line", "lines"))
 }
 
 /// The verdict in a word and a sentence, with the counts that `verify` prints.
@@ -227,9 +229,12 @@ pub fn outcome(verdict: &Verdict) -> Outcome {
                 0 => "panic or leave a value's bound",
                 _ => "panic, leave a value's bound or have fragments unlike their coverage",
             };
-            format!("No wrong pixels, but {cases} cases {what}: {judged}.")
+            format!(
+                "No wrong pixels, but {cases} {} {what}: {judged}.",
+                noun(cases, "case", "cases")
+            )
         }
-        (false, _) => format!("{wrong} wrong pixels in {judged}."),
+        (false, _) => format!("{wrong} wrong {} in {judged}.", noun(wrong, "pixel", "pixels")),
     };
     let answer = if good { "every engine is right" } else { "not every engine is right" };
     Outcome { answer: answer.to_owned(), ..Outcome::of(good, sentence) }
@@ -271,15 +276,20 @@ pub fn disagreements(verdict: &Verdict) -> Vec<String> {
             // Each pair of engines is wrong by itself, and says in how many cases.
             let kinds = kinds(pair);
             out.push(format!(
-                "{family}: {actual} against {target}: wrong in {wrong_cases} of {cases} cases{kinds}"
+                "{family}: {actual} against {target}: wrong in {wrong_cases} of {cases} {}{kinds}",
+                noun(cases, "case", "cases")
             ));
         }
         if let pixels @ 1.. = f.oracle_faults {
             let fault = match f.kind {
                 Kind::Unsnapped => {
-                    format!("does not hit {pixels} pixels of tiled windows exactly once")
+                    let of = noun(pixels, "pixel", "pixels");
+                    format!("does not hit {pixels} {of} of tiled windows exactly once")
                 }
-                _ => format!("hits {pixels} pixels of disjoint shapes twice"),
+                _ => {
+                    let of = noun(pixels, "pixel", "pixels");
+                    format!("hits {pixels} {of} of disjoint shapes twice")
+                }
             };
             out.push(format!("{family}: the oracle {fault}"));
         }

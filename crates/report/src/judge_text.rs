@@ -6,7 +6,7 @@ use super::html::{Chapter, Excerpt, Outcome, Report, Statement};
 use super::json;
 use super::table::{Row, Table};
 use super::text::SCREEN;
-use super::words::{of_bound, same, thousands};
+use super::words::{count, of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::{Breach, Complaints};
@@ -342,7 +342,7 @@ fn dangers(verdict: &Verdict) -> Table {
         }
         // What is right needs no details.
         let what = match row.wrong_cases {
-            0 => format!("{} cases, all right", thousands(row.cases)),
+            0 => format!("{}, all right", count(row.cases, "case", "cases")),
             _ => verdict::sentence(row),
         };
         out.push(summary::row(is_good(row.name), row.name, &what));

@@ -2,7 +2,7 @@
 //! 60 columns.
 
 use super::table::{Row, Table};
-use super::words::{of_bound, thousands};
+use super::words::{count, noun, of_bound, thousands};
 use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
@@ -129,11 +129,11 @@ fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
 impl Sum {
     /// In words: a line, and what there is to say beyond it.
     pub fn describe(&self) -> String {
-        let cases = thousands(self.cases);
+        let cases = count(self.cases, "case", "cases");
         if self.wrong_cases == 0 && self.oracle == 0 {
-            return format!("{cases} cases, all right");
+            return format!("{cases}, all right");
         }
-        let mut parts = vec![format!("wrong in {} of {cases} cases", thousands(self.wrong_cases))];
+        let mut parts = vec![format!("wrong in {} of {cases}", thousands(self.wrong_cases))];
         if self.tally.total() > 0 {
             parts.push(format!("pixels: {}", self.tally.describe()));
         }
@@ -141,10 +141,11 @@ impl Sum {
             parts.push(format!("fragments: {}", self.fragments.describe()));
         }
         if self.panics > 0 {
-            parts.push(format!("{} panics", self.panics));
+            parts.push(format!("{} {}", self.panics, noun(self.panics, "panic", "panics")));
         }
         if self.oracle > 0 {
-            parts.push(format!("the oracle errs at {} pixels", self.oracle));
+            let pixels = noun(self.oracle, "pixel", "pixels");
+            parts.push(format!("the oracle errs at {} {pixels}", self.oracle));
         }
         parts.join("\n")
     }

@@ -40,7 +40,12 @@ pub fn serialize_grouped<S: serde::Serializer>(
 
 /// A number with what is counted: `1 kind`, `2 kinds`.
 pub fn count(number: u64, one: &str, several: &str) -> String {
-    format!("{} {}", thousands(number), if number == 1 { one } else { several })
+    format!("{} {}", thousands(number), noun(number, one, several))
+}
+
+/// The noun behind a number: the singular behind 1 alone.
+pub fn noun<'a>(number: u64, one: &'a str, several: &'a str) -> &'a str {
+    if number == 1 { one } else { several }
 }
 
 /// The verdict of a comparison in a word.

@@ -60,8 +60,9 @@ pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), S
         return Err(format!("a picture of {width} x {height} px has no pixels"));
     }
     if sides.iter().any(|&side| side > MAX_SIDE_PX.into()) {
+        let samples = if scale == 1 { "sample" } else { "samples" };
         return Err(format!(
-            "a picture of {width} x {height} px, {scale} samples a side, is too large; \
+            "a picture of {width} x {height} px, {scale} {samples} a side, is too large; \
              a side has at most {MAX_SIDE_PX} samples"
         ));
     }

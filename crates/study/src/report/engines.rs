@@ -9,7 +9,7 @@ use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json::value;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words;
 use rasterproof_verify::cases::{Case, Shape};
 
 use super::studied::{Studied, has_pixel};
@@ -59,16 +59,18 @@ pub fn report(
     let mut table = Table::new("", "~engine 1 | ~found 1 | first fault", rows).judged();
     if left > 0 {
         let why = "whose texture coordinates are too large for the engines";
-        table.notes.push(format!("not judged: {} pieces, {why}", thousands(left as u64)));
+        let left = words::count(left as u64, "piece", "pieces");
+        table.notes.push(format!("not judged: {left}, {why}"));
     }
-    let pieces = thousands(count as u64);
+    let pieces = words::count(count as u64, "piece", "pieces");
+    let have = words::noun(count as u64, "has", "have");
     let outcome = match agrees {
-        Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
+        Some(agrees) => Outcome::of(agrees, format!("{pieces} of {shown}")),
         None => Outcome::new(
             false,
             "NOT JUDGED",
             format!(
-                "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
+                "the {pieces} of {shown} in the window {have} no pixel, so nothing was compared; \
                  look at it from another side (--yaw, --pitch, --zoom)"
             ),
         ),

@@ -533,9 +533,9 @@ pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
         }
     }
     if sampling.not_judged > 0 {
-        let count = thousands(sampling.not_judged);
+        let pieces = count(sampling.not_judged, "piece", "pieces");
         let why = "single precision does not hold a value or 1/w of a corner";
-        lines.push(format!("not judged: {count} pieces, since {why}"));
+        lines.push(format!("not judged: {pieces}, since {why}"));
     }
     lines
 }

@@ -8,7 +8,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_models::Origin;
 use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::{Hidden, Scene};
-use rasterproof_report::words::{count, thousands};
+use rasterproof_report::words::count;
 
 use super::Places;
 use crate::corner_grid::CornerGrid;
@@ -94,15 +94,15 @@ impl<'a> Studied<'a> {
     /// How much of the scene is in the window, and whether there is anything to compare.
     pub fn head(&self) -> String {
         let Self { scene, sampled, .. } = self;
-        let counts = [scene.triangles(), sampled.at_centres().len()];
-        let [triangles, pieces] = counts.map(|count| thousands(count as u64));
+        let triangles = count(scene.triangles() as u64, "triangle", "triangles");
+        let pieces = count(sampled.at_centres().len() as u64, "piece", "pieces");
         let none = match sampled.all().any(|piece| has_pixel(piece, sampled.window)) {
             true => "",
             false => {
                 "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
             }
         };
-        format!("{}: {triangles} triangles, {pieces} pieces in the window{none}", scene.name)
+        format!("{}: {triangles}, {pieces} in the window{none}", scene.name)
     }
 }
 

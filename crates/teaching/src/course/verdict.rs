@@ -6,6 +6,7 @@ use super::{STEPS, Step, number};
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::judge_text;
+use rasterproof_report::words::noun;
 use rasterproof_verify::mistakes::Mistakes;
 
 /// How a step came out, with its smallest failing case and how to ask for it again.
@@ -18,8 +19,11 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         _ => "",
     };
     let came_out = match outcome.passes() {
-        true => format!("PASSED, {cases} cases"),
-        false => format!("NOT YET, wrong in {wrong} of {cases} cases{late}"),
+        true => format!("PASSED, {cases} {}", noun(*cases, "case", "cases")),
+        false => {
+            let of = noun(*cases, "case", "cases");
+            format!("NOT YET, wrong in {wrong} of {cases} {of}{late}")
+        }
     };
     let about = format!("step {}, {}: {came_out}", number(step), step.title);
     let Some(failure) = &outcome.failure else { return Report { about, ..Report::default() } };

@@ -16,8 +16,10 @@ const MOST_BYTES: usize = 1 << 26;
 /// Seconds that a submission may take.
 const PATIENCE_S: u64 = 120;
 
+/// A vertex as the vertex shader passes it on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vertex {
+    /// Clip coordinates x, y, z, w.
     pub clip: [f32; 4],
     pub attributes: [f32; 2],
 }
@@ -29,6 +31,7 @@ impl Vertex {
     }
 }
 
+/// A triangle or a line, and where it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
     /// The cell; several may be drawn into one, in order. Cells of a list must not decrease.
@@ -50,6 +53,7 @@ pub enum Failing {
     OutOfMemory(u64),
 }
 
+/// What was read back: whole pages, one behind the other, each divided into cells.
 #[derive(PartialEq)]
 pub struct Pictures {
     kind: Kind,
@@ -57,6 +61,7 @@ pub struct Pictures {
 }
 
 impl Draw {
+    /// Draws that are equal in this need no other state between them.
     fn place(&self) -> (usize, [f32; 4], [u32; 2]) {
         (self.cell, self.viewport, self.window)
     }
@@ -104,11 +109,15 @@ impl Pictures {
     }
 }
 
+/// Draws on one device, one submission after the other.
 pub struct Painter {
     device: Arc<Opened>,
     pool: Arc<Pool>,
+    /// Signalled when a submission is done.
     fence: vk::Fence,
+    /// A page of each kind that was drawn before.
     kinds: HashMap<Kind, Page>,
+    /// Two buffers, the larger ones of those that were needed so far: what is drawn, and what is read back.
     vertices: Option<Buffer>,
     pages: Option<Buffer>,
     submissions: u64,
@@ -171,6 +180,7 @@ impl Painter {
         let mut bytes = Vec::with_capacity(pages * page_bytes);
         let mut rest = draws;
         for first in (0..pages).step_by(at_once) {
+            // Draws are in the order of their cells, so those of these pages come first.
             let end = pages.min(first + at_once);
             let (here, later) =
                 rest.split_at(rest.partition_point(|d| d.cell < end * kind.page_cells()));
@@ -210,6 +220,7 @@ impl Painter {
         done
     }
 
+    /// Refuses what cannot be drawn, and makes the page of a kind that is drawn for the first time.
     fn check(&mut self, kind: Kind, cells: usize, draws: &[Draw]) -> Result<(), Error> {
         self.supports(kind)?;
         if self.given_up {
@@ -231,6 +242,7 @@ impl Painter {
         Ok(())
     }
 
+    /// Refuses a kind that the device does not offer.
     fn supports(&self, kind: Kind) -> Result<(), Error> {
         let about = &self.device.about;
         let missing = match kind {
@@ -243,6 +255,7 @@ impl Painter {
         Err(Error::Unsupported(format!("{} has no {missing}", about.device)))
     }
 
+    /// Draws some pages and copies them into the buffer that is read.
     fn submit(
         &mut self,
         kind: Kind,
@@ -259,19 +272,12 @@ impl Painter {
             }
             _ => {}
         }
-        let page_bytes = page_bytes(kind);
-        let device = Arc::clone(&self.device);
-        let room = |buffer: &mut Option<Buffer>, size: usize, usage| {
-            if buffer.as_ref().is_none_or(|b| b.size < size) {
-                // The old one first: both may not fit.
-                *buffer = None;
-                *buffer = Some(Buffer::new(&device, size, usage)?);
-            }
-            Ok(())
-        };
+        // Room for what is drawn and for what is read back.
         let bytes = vertex_bytes(kind, draws);
-        room(&mut self.vertices, bytes.len().max(1), vk::BufferUsageFlags::VERTEX_BUFFER)?;
-        room(&mut self.pages, pages.len() * page_bytes, vk::BufferUsageFlags::TRANSFER_DST)?;
+        let (of_vertices, of_pages) =
+            (vk::BufferUsageFlags::VERTEX_BUFFER, vk::BufferUsageFlags::TRANSFER_DST);
+        make_room(&self.device, &mut self.vertices, bytes.len().max(1), of_vertices)?;
+        make_room(&self.device, &mut self.pages, pages.len() * page_bytes(kind), of_pages)?;
         if let Some(vertices) = &mut self.vertices {
             vertices.write(&bytes);
         }
@@ -279,6 +285,7 @@ impl Painter {
             return Err(Error::OutOfMemory("allocating buffers"));
         };
         let commands = self.record(kind, pages, draws, vertices, Some(into))?;
+        // After a failure the commands may still be read, so they are not freed.
         if let Err(error) = self.run(commands) {
             self.given_up = true;
             return Err(error);
@@ -311,6 +318,7 @@ impl Painter {
         self.end(commands)
     }
 
+    /// A buffer of commands that is being recorded.
     fn begin(&self) -> Result<vk::CommandBuffer, Error> {
         let raw = &self.device.raw;
         let info = vk::CommandBufferAllocateInfo::default()
@@ -404,6 +412,7 @@ impl Painter {
         }
     }
 
+    /// Submits commands and waits for their end.
     fn run(&self, commands: vk::CommandBuffer) -> Result<(), Error> {
         let raw = &self.device.raw;
         let buffers = [commands];
@@ -424,10 +433,27 @@ impl Painter {
     }
 }
 
+/// Replaces a buffer that is missing or too small.
+fn make_room(
+    device: &Arc<Opened>,
+    buffer: &mut Option<Buffer>,
+    size: usize,
+    usage: vk::BufferUsageFlags,
+) -> Result<(), Error> {
+    if buffer.as_ref().is_none_or(|b| b.size < size) {
+        // The old one first: both may not fit.
+        *buffer = None;
+        *buffer = Some(Buffer::new(device, size, usage)?);
+    }
+    Ok(())
+}
+
+/// Bytes of a whole page, which is what is copied.
 fn page_bytes(kind: Kind) -> usize {
     (kind.page_px() * kind.page_px()) as usize * kind.pixel_bytes()
 }
 
+/// The viewport and the window of a draw on its page.
 fn place(kind: Kind, draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
     let cell = (draw.cell % kind.page_cells()) as u32;
     let (x, y) = (cell % kind.cells() * CELL_PX, cell / kind.cells() * CELL_PX);
@@ -445,6 +471,7 @@ fn place(kind: Kind, draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
     (viewport, vk::Rect2D { offset, extent: vk::Extent2D { width, height } })
 }
 
+/// The vertices as the pipeline reads them: four floats of clip coordinates, then two attributes.
 fn vertex_bytes(kind: Kind, draws: &[Draw]) -> Vec<u8> {
     let corners = kind.corners() as usize;
     let mut bytes = Vec::with_capacity(draws.len() * corners * VERTEX_BYTES as usize);

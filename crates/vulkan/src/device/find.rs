@@ -22,6 +22,7 @@ impl Drop for Instance {
     }
 }
 
+/// A device with the number by which it is chosen.
 #[derive(Clone)]
 pub struct Listed {
     pub(super) instance: Arc<Instance>,
@@ -30,6 +31,7 @@ pub struct Listed {
     pub about: About,
 }
 
+/// What a device says of itself, as far as a judgement depends on it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct About {
     pub device: String,
@@ -65,10 +67,16 @@ impl About {
         format!("{} {}{also}", self.device, self.driver).to_lowercase()
     }
 
+    /// A name that fits a column of a table.
     pub fn short(&self) -> String {
         let words = self.words();
-        let known = ["llvmpipe", "SwiftShader"].iter().find(|n| words.contains(&n.to_lowercase()));
-        known.map_or_else(|| self.device.chars().take(13).collect(), |name| (*name).to_owned())
+        // Two that draw without a card have long names, whose beginnings say nothing.
+        for name in ["llvmpipe", "SwiftShader"] {
+            if words.contains(&name.to_lowercase()) {
+                return name.to_owned();
+            }
+        }
+        self.device.chars().take(13).collect()
     }
 }
 
@@ -112,11 +120,12 @@ pub fn list_by(loader: Option<&Path>) -> Result<Vec<Listed>, Error> {
     if handles.is_empty() {
         return Err(Error::NoDriver(icd::faults()));
     }
-    let listed = |(number, handle)| {
+    let mut all = Vec::new();
+    for (number, handle) in handles.into_iter().enumerate() {
         let about = about(&instance.raw, handle)?;
-        Ok(Listed { instance: Arc::clone(&instance), handle, number, about })
-    };
-    handles.into_iter().enumerate().map(listed).collect()
+        all.push(Listed { instance: Arc::clone(&instance), handle, number, about });
+    }
+    Ok(all)
 }
 
 /// The device of this number, or the first whose name or driver has this word in it.
@@ -135,15 +144,16 @@ pub fn choose(word: &str) -> Result<Listed, Error> {
     all.into_iter().find(is_it).ok_or_else(|| Error::Unknown(word.to_owned(), names, icd::faults()))
 }
 
-fn text(of: Option<&CStr>) -> String {
-    of.map_or_else(String::new, |text| text.to_string_lossy().into_owned())
-}
-
+/// A text of C; empty where no byte ends it.
 fn until_nul(chars: &[c_char]) -> String {
     let bytes: Vec<u8> = chars.iter().map(|c| c.to_ne_bytes()[0]).collect();
-    text(CStr::from_bytes_until_nul(&bytes).ok())
+    match CStr::from_bytes_until_nul(&bytes) {
+        Ok(text) => text.to_string_lossy().into_owned(),
+        Err(_) => String::new(),
+    }
 }
 
+/// The names of what a device has beyond the core of the specification.
 pub(super) fn extensions(
     instance: &ash::Instance,
     handle: vk::PhysicalDevice,
@@ -154,6 +164,7 @@ pub(super) fn extensions(
     Ok(all.iter().map(|e| until_nul(&e.extension_name)).collect())
 }
 
+/// Asks a device for its properties. Two groups of them belong to extensions, and stay zero where these are not there.
 fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, Error> {
     let extensions = extensions(instance, handle)?;
     let has = |name: &CStr| extensions.iter().any(|e| e.as_bytes() == name.to_bytes());
@@ -176,11 +187,7 @@ fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, 
     let depths =
         unsafe { instance.get_physical_device_format_properties(handle, vk::Format::D32_SFLOAT) };
     let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
-    let version = |v: u32| {
-        let [a, b, c] =
-            [vk::api_version_major(v), vk::api_version_minor(v), vk::api_version_patch(v)];
-        format!("{a}.{b}.{c}")
-    };
+    // A driver may say its version in words that its users know; the number is packed by each in its own way.
     let said = until_nul(&driver.driver_info);
     Ok(About {
         device: until_nul(&device_name),
@@ -202,6 +209,12 @@ fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, 
         },
         float_depth: depths.optimal_tiling_features.contains(drawn),
     })
+}
+
+/// A version as Vulkan packs it.
+fn version(packed: u32) -> String {
+    let (major, minor) = (vk::api_version_major(packed), vk::api_version_minor(packed));
+    format!("{major}.{minor}.{}", vk::api_version_patch(packed))
 }
 
 /// Whether rectangular and Bresenham lines can be chosen.

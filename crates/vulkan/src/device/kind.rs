@@ -44,6 +44,7 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Bytes that are read back for each pixel.
     pub fn pixel_bytes(self) -> usize {
         match self {
             Self::Flat | Self::Depths => 4,
@@ -53,6 +54,7 @@ impl Kind {
         }
     }
 
+    /// Cells along a side of a page.
     pub(super) fn cells(self) -> u32 {
         if self == Self::Alone { 1 } else { CELLS }
     }
@@ -65,6 +67,7 @@ impl Kind {
         self.cells() * CELL_PX
     }
 
+    /// Vertices of a primitive.
     pub fn corners(self) -> u32 {
         if self.is_lines() { 2 } else { 3 }
     }
@@ -84,6 +87,7 @@ impl Kind {
         }
     }
 
+    /// What a pixel has where nothing is drawn: no hit, or the farthest depth.
     pub(super) fn clear(self) -> vk::ClearValue {
         let farthest = vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 };
         match self.is_depths() {
@@ -119,6 +123,7 @@ impl Kind {
         }
     }
 
+    /// Samples of a pixel, which are told apart by drawing once for each.
     pub(super) fn samples(self) -> vk::SampleCountFlags {
         match self {
             Self::Samples => vk::SampleCountFlags::TYPE_4,
@@ -126,6 +131,7 @@ impl Kind {
         }
     }
 
+    /// Values are written by shaders of their own; all other kinds write that there was a hit.
     pub(super) fn fragment_shader(self) -> &'static [u8] {
         match self {
             Self::Values => include_bytes!("shaders/values.frag.spv"),

@@ -8,6 +8,7 @@ use super::kind::Kind;
 use super::open::Opened;
 use super::{Error, While as _};
 
+/// Memory of the device behind one buffer or one image.
 struct Memory {
     device: Arc<Opened>,
     raw: vk::DeviceMemory,
@@ -29,16 +30,18 @@ impl Memory {
         wanted: &[vk::MemoryPropertyFlags],
     ) -> Result<Self, Error> {
         let types = &device.memory.memory_types[..device.memory.memory_type_count as usize];
-        let fits = |flags: &vk::MemoryPropertyFlags| {
-            types.iter().zip(0..).find_map(|(kind, index)| {
+        let mut found = None;
+        for flags in wanted {
+            for (kind, index) in types.iter().zip(0_u32..) {
                 let is_allowed = needs.memory_type_bits & (1 << index) != 0;
-                (is_allowed && kind.property_flags.contains(*flags)).then_some(index)
-            })
+                if found.is_none() && is_allowed && kind.property_flags.contains(*flags) {
+                    found = Some(index);
+                }
+            }
+        }
+        let Some(index) = found else {
+            return Err(Error::Unsupported("no memory of a kind that is needed".to_owned()));
         };
-        let index = wanted
-            .iter()
-            .find_map(fits)
-            .ok_or_else(|| Error::Unsupported("no memory of a kind that is needed".to_owned()))?;
         let info =
             vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(index);
         // SAFETY: the type is one of the device's.
@@ -48,10 +51,12 @@ impl Memory {
     }
 }
 
+/// A buffer that the program writes and reads, as well as the device.
 pub struct Buffer {
     device: Arc<Opened>,
     pub(super) raw: vk::Buffer,
     pub size: usize,
+    /// Where it is mapped, as long as it lives.
     start: *mut u8,
     // Freed after the buffer: fields are dropped after `drop`.
     _memory: Memory,
@@ -129,6 +134,7 @@ impl Buffer {
     }
 }
 
+/// An image that the device alone reads and writes, with a view of all of it.
 pub struct Image {
     device: Arc<Opened>,
     pub(super) raw: vk::Image,
@@ -181,6 +187,7 @@ impl Image {
         Ok(Self { device: Arc::clone(device), raw, view, _memory: memory })
     }
 
+    /// Puts memory behind an image and makes its view; the caller destroys the image where that fails.
     fn bind(
         device: &Arc<Opened>,
         raw: vk::Image,

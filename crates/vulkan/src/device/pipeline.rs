@@ -99,6 +99,7 @@ pub(super) fn pipeline(
         // SAFETY: nobody else knows the shader.
         unsafe { device.raw.destroy_shader_module(vertex, None) };
     })?;
+    // Both shaders run from a function of this name.
     let stage = |module, stage| {
         vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
     };
@@ -115,6 +116,7 @@ pub(super) fn pipeline(
     made
 }
 
+/// The pipeline of two shaders. All states but viewport and scissor are part of it, so each kind has one of its own.
 fn of_shaders(
     device: &Opened,
     (layout, render_pass): (vk::PipelineLayout, vk::RenderPass),
@@ -123,10 +125,7 @@ fn of_shaders(
     shaders: &[vk::PipelineShaderStageCreateInfo<'_>],
 ) -> Result<vk::Pipeline, Error> {
     let bindings = [vk::VertexInputBindingDescription::default().stride(VERTEX_BYTES)];
-    let attribute = |location, format, offset| {
-        let any = vk::VertexInputAttributeDescription::default();
-        any.location(location).format(format).offset(offset)
-    };
+    // The two fields of a vertex, one behind the other: see `draw::Vertex`.
     let attributes = [
         attribute(0, vk::Format::R32G32B32A32_SFLOAT, 0),
         attribute(1, vk::Format::R32G32_SFLOAT, 16),
@@ -137,9 +136,11 @@ fn of_shaders(
     let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(kind.topology());
     let viewport =
         vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+    // A structure of the extension is chained only where a mode is asked for, since other devices do not know it.
     let mode = kind.line_mode();
     let mut line = vk::PipelineRasterizationLineStateCreateInfoEXT::default()
         .line_rasterization_mode(mode.unwrap_or_default());
+    // Both windings are drawn: culling is not what is judged.
     let mut raster = vk::PipelineRasterizationStateCreateInfo::default()
         .polygon_mode(vk::PolygonMode::FILL)
         .cull_mode(vk::CullModeFlags::NONE)
@@ -147,21 +148,17 @@ fn of_shaders(
     if mode.is_some() {
         raster = raster.push_next(&mut line);
     }
+    // A pass may write some of the samples of a pixel only.
     let masks = [sample_mask];
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(kind.samples())
         .sample_mask(&masks);
-    let blends = [vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)
-        .blend_enable(kind.pixel_bytes() == 1)
-        .src_color_blend_factor(vk::BlendFactor::ONE)
-        .dst_color_blend_factor(vk::BlendFactor::ONE)
-        .src_alpha_blend_factor(vk::BlendFactor::ONE)
-        .dst_alpha_blend_factor(vk::BlendFactor::ONE)];
+    let blends = [blending(kind)];
     let mut blend = vk::PipelineColorBlendStateCreateInfo::default();
     if !kind.is_depths() {
         blend = blend.attachments(&blends);
     }
+    // Of equal depths the one that was drawn first stays.
     let depth = vk::PipelineDepthStencilStateCreateInfo::default()
         .depth_test_enable(kind.is_depths())
         .depth_write_enable(kind.is_depths())
@@ -187,6 +184,28 @@ fn of_shaders(
     made.into_iter().next().ok_or(Error::Failed("creating a pipeline", "nothing".to_owned()))
 }
 
+/// A field of a vertex, so many bytes from its beginning.
+fn attribute(
+    location: u32,
+    format: vk::Format,
+    offset: u32,
+) -> vk::VertexInputAttributeDescription {
+    let any = vk::VertexInputAttributeDescription::default();
+    any.location(location).format(format).offset(offset)
+}
+
+/// Kinds of one byte count: what a shader writes is added to what is there.
+fn blending(kind: Kind) -> vk::PipelineColorBlendAttachmentState {
+    vk::PipelineColorBlendAttachmentState::default()
+        .color_write_mask(vk::ColorComponentFlags::RGBA)
+        .blend_enable(kind.pixel_bytes() == 1)
+        .src_color_blend_factor(vk::BlendFactor::ONE)
+        .dst_color_blend_factor(vk::BlendFactor::ONE)
+        .src_alpha_blend_factor(vk::BlendFactor::ONE)
+        .dst_alpha_blend_factor(vk::BlendFactor::ONE)
+}
+
+/// A shader from the bytes of its file, which are words in little-endian order.
 fn shader(device: &Opened, bytes: &[u8]) -> Result<vk::ShaderModule, Error> {
     let words: Vec<u32> = bytes
         .chunks_exact(4)

@@ -13,7 +13,7 @@ use rasterproof_judge::ask::{Answer, Complaints, Question, Subject};
 use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::run::{Changing, Failing, Row, RunFindings, run};
+use rasterproof_judge::run::{Failing, Row, RunFindings, run};
 use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::windings as first_stages;
 use rasterproof_judge::{Explained, Options, Patience, adapt_case, explain, for_families};
@@ -26,6 +26,7 @@ const STAGE_SHARE: u64 = 2;
 /// A device is asked this many cases of a stage at most.
 const MOST_OF_A_STAGE: u64 = 2048;
 
+/// What came of a device.
 #[derive(Clone, Debug)]
 pub struct DeviceReport {
     pub about: About,
@@ -37,6 +38,7 @@ pub struct DeviceReport {
 }
 
 impl DeviceReport {
+    /// Whether nothing was found that the specification forbids and nobody knew.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.findings.iter().all(|f| f.class.is_good())
@@ -46,6 +48,7 @@ impl DeviceReport {
 /// The device as somebody who is asked, while somebody else still holds it.
 struct SharedDevice(Arc<Mutex<Gpu>>, Declared);
 
+/// A device whose holder panicked is opened anew after its failure, so it can be asked on.
 fn lock(gpu: &Mutex<Gpu>) -> MutexGuard<'_, Gpu> {
     gpu.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -71,18 +74,24 @@ impl Subject for SharedDevice {
 /// The families that a device is asked: values of f32 end before w does, lines have a stage of their
 /// own, and depth tests and the near plane are not asked.
 pub fn families(wanted: &[String]) -> Vec<String> {
-    let of_triangles =
-        |f: &cases::Family| cases::triangles::FAMILIES.iter().any(|t| t.name == f.name);
-    let is_asked = |f: &&&cases::Family| f.name != "w-extreme" && of_triangles(f);
-    adapt_case::families(wanted).iter().filter(is_asked).map(|f| f.name.to_owned()).collect()
+    let mut asked = Vec::new();
+    for family in adapt_case::families(wanted) {
+        let is_of_triangles = cases::triangles::FAMILIES.iter().any(|t| t.name == family.name);
+        if is_of_triangles && family.name != "w-extreme" {
+            asked.push(family.name.to_owned());
+        }
+    }
+    asked
 }
 
+/// Judges a device with the known faults of its driver.
 #[must_use]
 pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> DeviceReport {
     let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), gpu.about());
     judge_with(gpu, options, &known, progress)
 }
 
+/// The same with other known faults, for tests.
 #[must_use]
 pub fn judge_with(
     gpu: Gpu,
@@ -95,6 +104,7 @@ pub fn judge_with(
     let about = gpu.about().clone();
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
+    // The device answers the families as a program would, and is needed again for the stages after them.
     let gpu = Arc::new(Mutex::new(gpu));
     let mut shared = SharedDevice(Arc::clone(&gpu), declared.clone());
     let mut options = options.clone();
@@ -108,12 +118,13 @@ pub fn judge_with(
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut found = run(&mut [&mut shared], &for_families(&options, start), &truth, progress);
     let first = &mut shared;
+    // From here on what is known of the driver counts no more; it is kept to see whether it still fails.
     let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
     let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
     found.failing = news;
     // Asked again, a triangle is drawn in another cell of the page, where its values may round otherwise.
-    let is_picture = |changing: &Changing| changing.check != Check::Values;
-    found.changing.retain(|changing| is_news(&changing.failing) && is_picture(changing));
+    found.changing.retain(|changing| is_news(&changing.failing) && changing.check != Check::Values);
+    // Answers that change have no cause that could be recognised.
     let is_explained = !found.failing.is_empty() && found.changing.is_empty();
     let patience = options.time_limit.is_none().then_some(AFTER_FAILURE / 2);
     let scope = Scope { triangles: true, lines: false, always: false, patience };
@@ -136,6 +147,7 @@ pub fn judge_with(
     let mut verdict = verdict(&options, more, failures, causes);
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
+    // A single case is repeated without the stages, which are no cases of a family.
     if options.only.is_none() {
         let cases = (options.cases * STAGE_SHARE).clamp(16, MOST_OF_A_STAGE);
         findings.extend(requirements::all(&mut lock(&gpu), options.seed, cases, known));
@@ -144,19 +156,23 @@ pub fn judge_with(
     DeviceReport { about, plant, verdict, findings, known }
 }
 
+/// The case as this device was asked it.
 fn case_of(family: &str, index: u64, options: &Options, declared: &Declared) -> Option<Case> {
     let family = cases::families().find(|f| f.name == family)?;
     Some(adapt_case::case(family, options.seed, index, declared))
 }
 
+/// Whether a known fault says that this case fails.
 fn is_known(
     known: &[KnownFault],
     failing: &Failing,
     options: &Options,
     declared: &Declared,
 ) -> bool {
-    case_of(failing.family, failing.index, options, declared)
-        .is_some_and(|case| known.iter().any(|k| k.covers(failing.property, &case)))
+    match case_of(failing.family, failing.index, options, declared) {
+        Some(case) => known.iter().any(|k| k.covers(failing.property, &case)),
+        None => false,
+    }
 }
 
 /// Properties of which a known fault says that cases fail, of which some were judged and none did.
@@ -167,18 +183,30 @@ fn stale(
     options: &Options,
     declared: &Declared,
 ) -> Vec<String> {
-    let named = known.iter().flat_map(|k| k.certain().map(move |p| (k, p)));
-    let is_stale = |(k, property): &(&KnownFault, &str)| {
-        let mut judged = found.judged.iter().filter(|(p, ..)| p == property);
-        !old.iter().any(|f| f.property == *property)
-            && judged.any(|(_, family, index)| {
-                case_of(family, *index, options, declared)
-                    .is_some_and(|case| k.covers(property, &case))
-            })
+    // Whether a case was judged that the fault says fails. Cases are made anew to see it, so this is asked last.
+    let was_judged = |k: &KnownFault, property: &str| {
+        for (name, family, index) in &found.judged {
+            let case =
+                if *name == property { case_of(family, *index, options, declared) } else { None };
+            if case.is_some_and(|case| k.covers(property, &case)) {
+                return true;
+            }
+        }
+        false
     };
-    named.filter(is_stale).map(|(_, property)| property.to_owned()).collect()
+    let mut stale = Vec::new();
+    for k in known {
+        for property in k.certain() {
+            let fails = old.iter().any(|failing| failing.property == property);
+            if !fails && was_judged(k, property) {
+                stale.push(property.to_owned());
+            }
+        }
+    }
+    stale
 }
 
+/// The rule by which a property is judged.
 fn rule(property: &str) -> Clause {
     VULKAN.clause(match property {
         "values" => "perspective",
@@ -191,6 +219,7 @@ fn rule(property: &str) -> Clause {
 fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
     let mut findings = Vec::new();
     for row in &verdict.families {
+        // A row of a property, and what is known of it.
         let is_of = |f: &&Failing| f.property == row.name;
         let known = old.iter().filter(is_of).count();
         let news = verdict.more.found.failing.iter().filter(is_of).count();
@@ -206,6 +235,7 @@ fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requ
             detail,
         });
     }
+    // What the judge of programs calls a failure may be allowed here, so its outcomes follow the findings.
     for property in &mut verdict.more.properties {
         if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
             property.outcome = match finding.class {
@@ -224,6 +254,7 @@ fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requ
     findings
 }
 
+/// How the device stands to the rule of a row, of whose failing cases so many are known and so many are new.
 fn class(row: &Row, known: usize, news: usize, stale: &[String]) -> Standing {
     // Checks that compare answers have no second opinion: what they find is no matter of ties.
     let compares = ["watertight", "vertex-order", "samples4"].contains(&row.name);

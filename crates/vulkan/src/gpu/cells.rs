@@ -31,12 +31,13 @@ pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
     })
 }
 
+/// The four floats of a pixel with values; the last is 0 where nothing was drawn.
 pub fn floats(pixel: &[u8]) -> [f64; 4] {
-    let word = |i: usize| {
-        let bytes = [pixel[4 * i], pixel[4 * i + 1], pixel[4 * i + 2], pixel[4 * i + 3]];
-        f64::from(f32::from_ne_bytes(bytes))
-    };
-    [word(0), word(1), word(2), word(3)]
+    let mut floats = [0.0; 4];
+    for (float, bytes) in floats.iter_mut().zip(pixel.as_chunks().0) {
+        *float = f64::from(f32::from_ne_bytes(*bytes));
+    }
+    floats
 }
 
 /// A draw whose window's corner is the middle of its viewport.
@@ -51,21 +52,26 @@ pub(super) fn pixels() -> impl Iterator<Item = (i32, i32)> {
     (0..side).flat_map(move |y| (0..side).map(move |x| (x, y)))
 }
 
+/// How often each pixel of a cell was drawn.
 pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
     for y in 0..CELL_PX {
         for (run, times) in runs_of(y as i32, pictures.row(cell, y, CELL_PX)) {
-            (0..times).for_each(|_| hits.hit(run.y_px, run.x0_px, run.x1_px));
+            for _ in 0..times {
+                hits.hit(run.y_px, run.x0_px, run.x1_px);
+            }
         }
     }
     hits
 }
 
+/// Twice the area, which is a whole number of square subpixels.
 pub fn twice_area_px2(corners: &Corners) -> f64 {
     let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
     rasterproof_core::geometry::twice_area(corners).unsigned_abs() as f64 / square
 }
 
+/// Triangles with equal, moderately and very different w, as many of each.
 pub fn in_perspective(declared: &Declared, seed: u64, cases: u64) -> Vec<Triangle> {
     let names = ["w-equal", "w-4", "w-100"].map(str::to_owned);
     let mut triangles = Vec::new();

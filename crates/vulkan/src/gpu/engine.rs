@@ -28,11 +28,14 @@ pub const PREFIX: &str = "vulkan:";
 /// Cases of a family that are asked at once: thousands of draws a submission.
 const CASES_AT_ONCE: u64 = 512;
 
+/// A device that is open, or is opened at the next question.
 pub struct Gpu {
     listed: Listed,
     plant: Option<Plant>,
+    /// None after a failure, since a lost device answers nothing more.
     painter: Option<Painter>,
     declared: Declared,
+    /// What the device said where it failed.
     complaints: Vec<String>,
 }
 
@@ -44,19 +47,17 @@ impl Gpu {
     /// There is no loader, driver or device of this name, or it cannot be made ready; nor a planted
     /// fault of this name.
     pub fn named(engine: &str) -> Result<Self, Error> {
-        let word = engine.strip_prefix(PREFIX).unwrap_or(engine);
-        let (word, plant) = match word.split_once('+') {
-            Some((word, name)) => (word, Some(name)),
-            None => (word, None),
-        };
-        let known = |name: &str| Plant::ALL.into_iter().find(|plant| plant.name() == name);
-        let plant = match plant {
-            Some(name) => Some(known(name).ok_or_else(|| {
+        let mut word = engine.strip_prefix(PREFIX).unwrap_or(engine);
+        let mut plant = None;
+        if let Some((device, name)) = word.split_once('+') {
+            word = device;
+            plant = Plant::ALL.into_iter().find(|plant| plant.name() == name);
+            if plant.is_none() {
                 let names = Plant::ALL.map(Plant::name).join(", ");
-                Error::Unsupported(format!("no planted fault is called '{name}'; see: {names}"))
-            })?),
-            None => None,
-        };
+                let why = format!("no planted fault is called '{name}'; see: {names}");
+                return Err(Error::Unsupported(why));
+            }
+        }
         let listed = find::choose(word)?;
         let name = format!("{PREFIX}{}", listed.number);
         let declared = declared(&name, &listed.about);
@@ -78,6 +79,7 @@ impl Gpu {
         self.painter.as_ref().map_or(0, Painter::submissions)
     }
 
+    /// The painter of the device, which is opened where it is not.
     pub(super) fn ready(&mut self) -> Result<&mut Painter, Error> {
         if self.painter.is_none() {
             // A planted failure happens once.
@@ -126,6 +128,7 @@ impl Gpu {
         self.painter = None;
     }
 
+    /// A step of the lattice on which the device puts corners.
     pub fn step_px(&self) -> f32 {
         1.0 / self.declared.grid() as f32
     }
@@ -159,11 +162,14 @@ impl Gpu {
     /// The answers of some questions of one kind, or why there are none.
     fn group(&mut self, kind: Kind, questions: &[&Question]) -> Result<Vec<Answer>, Error> {
         let side = self.viewport_px();
-        let draw = |(cell, question): (usize, &&Question)| {
-            let window = [question.width, question.height];
-            Some(Draw { window, ..draw_of(cell, vertices(&question.of, side / 2.0)?, side) })
-        };
-        let draws = (0..).zip(questions).filter_map(draw).collect();
+        // A cell for each question, empty where it is not declared.
+        let mut draws = Vec::new();
+        for (cell, question) in questions.iter().enumerate() {
+            if let Some(vertices) = vertices(&question.of, side / 2.0) {
+                let window = [question.width, question.height];
+                draws.push(Draw { window, ..draw_of(cell, vertices, side) });
+            }
+        }
         let pictures = self.draw(kind, questions.len(), draws)?;
         Ok((0..).zip(questions).map(|(cell, q)| answer(&pictures, kind, cell, q)).collect())
     }
@@ -182,12 +188,15 @@ pub fn hits_kind(twice_area_px2: f64) -> Kind {
 /// The largest power of two that the limits allow, cells anywhere on a page.
 fn viewport_px(about: &About) -> f32 {
     let [low, high] = about.viewport_bounds;
-    let most = about.largest_viewport.into_iter().min().unwrap_or(0).min(1 << 14);
-    let fits = |side: &u32| {
-        let half = *side as f32 / 2.0;
-        *side <= most && -half >= low && half + PAGE_PX as f32 <= high
-    };
-    (10..15).rev().map(|bits| 1 << bits).find(fits).unwrap_or(PAGE_PX) as f32
+    let [width, height] = about.largest_viewport;
+    let most = width.min(height).min(1 << 14);
+    for side in (10..15).rev().map(|bits| 1 << bits) {
+        let half = side as f32 / 2.0;
+        if side <= most && -half >= low && half + PAGE_PX as f32 <= high {
+            return side as f32;
+        }
+    }
+    PAGE_PX as f32
 }
 
 /// What a device promises: its lattice, the pixel centre, the top-left rule.
@@ -227,25 +236,30 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
     })
 }
 
+/// What was drawn in a cell, in the form of the question.
 fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> Answer {
-    let rows = (0..question.height).map(|y| (y as i32, pictures.row(cell, y, question.width)));
-    match kind {
-        Kind::Samples => Answer::Samples(rows.flat_map(|(y, row)| runs_of(y, row)).collect()),
-        Kind::Values | Kind::Linear => {
-            let pixels =
-                rows.flat_map(|(y, row)| (0..).zip(row.chunks_exact(16)).map(move |p| (y, p)));
-            let fragment = |(y_px, (x_px, pixel)): (i32, (i32, &[u8]))| {
-                let [depth, a, b, drawn] = floats(pixel);
-                let varying = DVec2::new(a, b);
-                (drawn != 0.0).then_some(Fragment { x_px, y_px, depth, varying })
-            };
-            Answer::Values(pixels.filter_map(fragment).collect())
+    let (mut runs, mut fragments): (Vec<(Span, u8)>, _) = (Vec::new(), Vec::new());
+    for y in 0..question.height {
+        let (y_px, row) = (y as i32, pictures.row(cell, y, question.width));
+        if !matches!(kind, Kind::Values | Kind::Linear) {
+            runs.extend(runs_of(y_px, row));
+            continue;
         }
+        // Four floats a pixel.
+        for (pixel, x_px) in row.chunks_exact(16).zip(0..) {
+            let [depth, a, b, drawn] = floats(pixel);
+            if drawn != 0.0 {
+                fragments.push(Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) });
+            }
+        }
+    }
+    match kind {
+        Kind::Samples => Answer::Samples(runs),
+        Kind::Values | Kind::Linear => Answer::Values(fragments),
         _ => {
             // A pixel that was hit n times is in n runs.
-            let runs = rows.flat_map(|(y, row)| runs_of(y, row));
             let times = |(run, n): (Span, u8)| std::iter::repeat_n(run, usize::from(n));
-            Answer::Coverage(runs.flat_map(times).collect())
+            Answer::Coverage(runs.into_iter().flat_map(times).collect())
         }
     }
 }
@@ -260,37 +274,44 @@ impl Subject for Gpu {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        let refused = |q: &Question| {
-            let word = "a device is not asked this".to_owned();
-            self.kind(&q.of).is_none().then_some(Answer::Refused(word))
-        };
-        let mut answers: Vec<Option<Answer>> = questions.iter().map(refused).collect();
+        // Questions of one kind are one list of draws; their answers return to the places of the questions.
+        let mut answers: Vec<Option<Answer>> = Vec::new();
+        for question in questions {
+            let refused = Answer::Refused("a device is not asked this".to_owned());
+            answers.push(self.kind(&question.of).is_none().then_some(refused));
+        }
         let mut deaths = 0;
         let kinds =
             [Kind::Hits, Kind::Alone, Kind::Samples, Kind::Values, Kind::Linear, Kind::Lines];
         for kind in kinds {
-            let is_of = |(_, q): &(usize, &Question)| self.kind(&q.of) == Some(kind);
-            let mine: Vec<(usize, &Question)> =
-                questions.iter().enumerate().filter(is_of).collect();
-            let mut rest = &mine[..];
-            while !rest.is_empty() && deaths < most_deaths {
-                let list: Vec<&Question> = rest.iter().map(|(_, q)| *q).collect();
-                match self.group(kind, &list) {
+            let (mut places, mut list) = (Vec::new(), Vec::new());
+            for (place, question) in questions.iter().enumerate() {
+                if self.kind(&question.of) == Some(kind) {
+                    places.push(place);
+                    list.push(question);
+                }
+            }
+            let mut first = 0;
+            while first < list.len() && deaths < most_deaths {
+                match self.group(kind, &list[first..]) {
                     Ok(drawn) => {
-                        rest.iter().zip(drawn).for_each(|((at, _), a)| answers[*at] = Some(a));
-                        rest = &[];
+                        for (place, answer) in places[first..].iter().zip(drawn) {
+                            answers[*place] = Some(answer);
+                        }
+                        first = list.len();
                     }
                     // Which draw it was is not known: the first one is given up, the others are asked
                     // of the device opened anew.
                     Err(error) => {
                         deaths += 1;
                         let what = Breach::Crashes.by(error.to_string());
-                        answers[rest[0].0] = Some(Answer::Died(what));
-                        rest = &rest[1..];
+                        answers[places[first]] = Some(Answer::Died(what));
+                        first += 1;
                     }
                 }
             }
         }
+        // What follows the last death was not asked any more.
         answers.into_iter().map_while(|answer| answer).collect()
     }
 

@@ -12,6 +12,7 @@ use rasterproof_verify::specification::Standing;
 
 pub const TEXT: &str = include_str!("known-faults.txt");
 
+/// A fault of one version of a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnownFault {
     /// Part of the driver's name, in small letters.
@@ -41,46 +42,55 @@ const ENOUGH: u64 = 512;
 /// # Errors
 /// The line that cannot be read, with what was expected.
 pub fn parse(text: &str) -> Result<Vec<KnownFault>, String> {
-    let lines = text.lines().zip(1..).filter(|(line, _)| {
+    let mut all = Vec::new();
+    for (line, number) in text.lines().zip(1..) {
         let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let known = |(line, number): (&str, u32)| {
-        let wrong = || {
-            format!(
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let Some(fault) = fault(line) else {
+            return Err(format!(
                 "line {number}: expected 'driver | version | properties | condition | about', where \
                  condition is 'twice-area-px2 >= N' or 'at most N in 1000'"
-            )
+            ));
         };
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let [driver, version, properties, condition, about] = cells[..] else {
-            return Err(wrong());
-        };
-        let least = condition.strip_prefix("twice-area-px2 >= ").and_then(|n| n.parse().ok());
-        let most = condition.strip_prefix("at most ").and_then(|n| n.strip_suffix(" in 1000"));
-        let most = most.and_then(|n| n.parse().ok());
-        let condition = least.map(Condition::TwiceAreaPx2).or(most.map(Condition::PerMille));
-        Ok(KnownFault {
-            driver: driver.to_lowercase(),
-            version: version.to_owned(),
-            properties: properties.split(';').map(property).collect(),
-            condition: condition.ok_or_else(wrong)?,
-            about: about.to_owned(),
-        })
-    };
-    lines.map(known).collect()
+        all.push(fault);
+    }
+    Ok(all)
 }
 
+/// The fault of a line, if it can be read.
+fn fault(line: &str) -> Option<KnownFault> {
+    let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+    let [driver, version, properties, condition, about] = cells[..] else { return None };
+    let condition = match condition.strip_prefix("twice-area-px2 >= ") {
+        Some(least) => Condition::TwiceAreaPx2(least.parse().ok()?),
+        None => {
+            let most = condition.strip_prefix("at most ")?.strip_suffix(" in 1000")?;
+            Condition::PerMille(most.parse().ok()?)
+        }
+    };
+    Some(KnownFault {
+        driver: driver.to_lowercase(),
+        version: version.to_owned(),
+        properties: properties.split(';').map(property).collect(),
+        condition,
+        about: about.to_owned(),
+    })
+}
+
+/// A property, and whether it fails in every run: then there is no `?` behind it.
 fn property(word: &str) -> (String, bool) {
     let word = word.trim();
     let name = word.trim_end_matches('?');
     (name.to_owned(), name == word)
 }
 
+/// The faults of this device's driver and its version.
 pub fn of(all: &[KnownFault], about: &About) -> Vec<KnownFault> {
-    let is_its =
-        |k: &&KnownFault| about.words().contains(&k.driver) && about.version.contains(&k.version);
-    all.iter().filter(is_its).cloned().collect()
+    let (mut its, words) = (all.to_vec(), about.words());
+    its.retain(|k| words.contains(&k.driver) && about.version.contains(&k.version));
+    its
 }
 
 impl KnownFault {
@@ -100,6 +110,7 @@ impl KnownFault {
         list.iter().any(|t| self.covers_area(property, twice_area_px2(&t.corners())))
     }
 
+    /// Whether a triangle of this area is one that it says fails.
     fn covers_area(&self, property: &str, px2: f64) -> bool {
         let is_large = matches!(self.condition, Condition::TwiceAreaPx2(least) if px2 >= least);
         is_large && self.names(property)
@@ -109,25 +120,34 @@ impl KnownFault {
 /// What a stage came to whose triangles have these areas, by whether each was right.
 #[must_use]
 pub fn class_of_areas(known: &[KnownFault], property: &str, judged: &[(f64, bool)]) -> Standing {
-    let is_known = |px2: f64| known.iter().any(|k| k.covers_area(property, px2));
-    let wrong: Vec<f64> = judged.iter().filter(|(_, right)| !right).map(|(px2, _)| *px2).collect();
-    match wrong.is_empty() {
-        true if judged.iter().any(|(px2, _)| is_known(*px2)) => Standing::Stale,
-        true => Standing::Equal,
-        false if wrong.iter().all(|px2| is_known(*px2)) => Standing::Known,
-        false => Standing::Outside,
+    // Of those that a known fault covers, and of all others.
+    let (mut covered, mut wrong_covered, mut wrong_others) = (0, 0, 0);
+    for &(px2, is_right) in judged {
+        let is_covered = known.iter().any(|k| k.covers_area(property, px2));
+        covered += u64::from(is_covered);
+        wrong_covered += u64::from(is_covered && !is_right);
+        wrong_others += u64::from(!is_covered && !is_right);
+    }
+    match (wrong_others, wrong_covered) {
+        (0, 0) if covered > 0 => Standing::Stale,
+        (0, 0) => Standing::Equal,
+        (0, _) => Standing::Known,
+        _ => Standing::Outside,
     }
 }
 
 /// What a stage came to in which so many of its cases are wrong.
 #[must_use]
 pub fn class_of_share(known: &[KnownFault], property: &str, wrong: u64, cases: u64) -> Standing {
-    let most = known.iter().filter(|k| k.names(property));
-    let most = most.filter_map(|k| match k.condition {
-        Condition::PerMille(most) => Some(most),
-        Condition::TwiceAreaPx2(_) => None,
-    });
-    match most.max() {
+    // What the most generous known fault allows.
+    let mut largest = None;
+    for k in known.iter().filter(|k| k.names(property)) {
+        if let Condition::PerMille(most) = k.condition {
+            largest = largest.max(Some(most));
+        }
+    }
+    match largest {
+        // With few cases it may be chance that none fails.
         Some(_) if wrong == 0 && cases >= ENOUGH => Standing::Stale,
         Some(most) if wrong > 0 && wrong * 1000 <= most * cases => Standing::Known,
         _ if wrong == 0 => Standing::Equal,

@@ -1,4 +1,7 @@
 //! Lines of a device: each alone, by the rules of its mode, and joined.
+//!
+//! The specification has three shapes for a line that is one pixel wide: a rectangle, a parallelogram, and the pixels whose diamonds
+//! the line leaves, as Bresenham's algorithm has them. Which of them is right depends on what the device offers and was asked for.
 
 use super::cells::{draw_of, plain};
 use super::engine::Gpu;
@@ -11,7 +14,7 @@ use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_judge::ask::runs_of;
-use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
+use rasterproof_verify::oracle::segments::{self as segment, Pixels};
 use rasterproof_verify::specification::Standing;
 
 /// Pixels between lines and the sides of their window, so that one that lies a pixel away is seen.
@@ -28,15 +31,17 @@ impl Places {
         Self { rng: Rng::new(name, seed, 0), step: step(gpu) }
     }
 
+    /// A coordinate of the point of this number.
     fn along(&mut self, of: u64) -> i32 {
         let (low, high) = (MARGIN_PX, CELL_PX as i32 - MARGIN_PX);
         let per_px = SUBPIXELS / self.step;
-        let mut int = |low: i32, high: i32| self.rng.int(i64::from(low), i64::from(high)) as i32;
-        match of % 3 {
-            0 => int(low * per_px, high * per_px) * self.step,
-            1 => int(low, high - 1) * SUBPIXELS + SUBPIXELS / 2,
-            _ => int(low, high) * SUBPIXELS,
-        }
+        // The first and the last whole number of units, and what they are counted in and from.
+        let (first, last, unit, offset) = match of % 3 {
+            0 => (low * per_px, high * per_px, self.step, 0),
+            1 => (low, high - 1, SUBPIXELS, SUBPIXELS / 2),
+            _ => (low, high, SUBPIXELS, 0),
+        };
+        self.rng.int(i64::from(first), i64::from(last)) as i32 * unit + offset
     }
 
     fn point(&mut self, of: u64) -> SubpixelPoint {
@@ -49,40 +54,54 @@ fn step(gpu: &Gpu) -> i32 {
     SUBPIXELS >> gpu.about().line_subpixel_bits.clamp(0, 8)
 }
 
+/// Draws lines, each into the cell beside it; cells do not decrease.
 fn draw(gpu: &mut Gpu, kind: Kind, lines: &[(usize, segment::Ends)]) -> Result<Pictures, Error> {
     let side = gpu.viewport_px();
-    let cells = lines.last().map_or(0, |(cell, _)| cell + 1);
-    let draws =
-        lines.iter().map(|(cell, [a, b])| draw_of(*cell, plain(&[*a, *b, *b], side / 2.0), side));
-    gpu.draw(kind, cells, draws.collect())
+    let (mut draws, mut cells) = (Vec::new(), 0);
+    for (cell, [a, b]) in lines {
+        draws.push(draw_of(*cell, plain(&[*a, *b, *b], side / 2.0), side));
+        cells = cell + 1;
+    }
+    gpu.draw(kind, cells, draws)
 }
 
+/// The pixels of a cell that were drawn, however often.
 fn lit(pictures: &Pictures, cell: usize) -> Pixels {
-    let rows = (0..CELL_PX).flat_map(|y| runs_of(y as i32, pictures.row(cell, y, CELL_PX)));
-    rows.flat_map(|(run, _)| (run.x0_px..run.x1_px).map(move |x| (x, run.y_px))).collect()
+    let mut lit = Pixels::default();
+    for y in 0..CELL_PX {
+        for (run, _) in runs_of(y as i32, pictures.row(cell, y, CELL_PX)) {
+            lit.extend((run.x0_px..run.x1_px).map(|x| (x, run.y_px)));
+        }
+    }
+    lit
 }
 
+/// How lines fit a shape, counted by [`segment::Fit`]: equal, allowed, outside.
 fn class([_, allowed, outside]: [u64; 3]) -> Standing {
     Standing::of(allowed + outside == 0, outside == 0)
 }
 
+/// Lines alone, each compared with all three shapes; the mode decides which of them counts.
 pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<Outcome, Error> {
     let step = step(gpu);
     let mut places = Places::new("vulkan-lines", gpu, seed);
-    let segments = (0..cases).map(|n| [places.point(n), places.point(n)]);
-    let segments: Vec<_> = (0..).zip(segments.filter(|[a, b]| a != b)).collect();
-    let pictures = draw(gpu, kind, &segments)?;
-    let by = |rule: &dyn Fn(&segment::Ends, &Pixels) -> Fit| {
-        let mut fits = [0u64; 3];
-        for (cell, ends) in &segments {
-            fits[rule(ends, &lit(&pictures, *cell)) as usize] += 1;
+    let mut segments: Vec<(usize, segment::Ends)> = Vec::new();
+    for n in 0..cases {
+        let ends = [places.point(n), places.point(n)];
+        // A line without a length has no shape to be judged by.
+        if ends[0] != ends[1] {
+            segments.push((segments.len(), ends));
         }
-        fits
-    };
+    }
+    let pictures = draw(gpu, kind, &segments)?;
+    let (mut rectangle, mut parallelogram, mut diamond) = ([0u64; 3], [0u64; 3], [0u64; 3]);
     let side = CELL_PX as i32;
-    let rectangle = by(&|ends, lit| segment::rectangle(ends, lit, side, step));
-    let parallelogram = by(&|ends, lit| segment::parallelogram(ends, lit, side, step));
-    let diamond = by(&|ends, lit| segment::diamond_exit(ends, lit, side));
+    for (cell, ends) in &segments {
+        let lit = lit(&pictures, *cell);
+        rectangle[segment::rectangle(ends, &lit, side, step) as usize] += 1;
+        parallelogram[segment::parallelogram(ends, &lit, side, step) as usize] += 1;
+        diamond[segment::diamond_exit(ends, &lit, side) as usize] += 1;
+    }
     let fits =
         [("rectangles", rectangle), ("parallelograms", parallelogram), ("diamond-exit", diamond)];
     let said = fits.map(|(name, [equal, allowed, outside])| {
@@ -96,6 +115,17 @@ pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<
         }
         _ => (class(rectangle), said),
     })
+}
+
+/// The first two pixels in a list that follow each other and do not touch, not even with their corners.
+fn first_gap(pixels: &[(i32, i32)]) -> Option<[(i32, i32); 2]> {
+    for pair in pixels.windows(2) {
+        let [before, after] = [pair[0], pair[1]];
+        if (before.0 - after.0).abs() > 1 || (before.1 - after.1).abs() > 1 {
+            return Some([before, after]);
+        }
+    }
+    None
 }
 
 pub(super) const JOINED: &str = "lines, joined";
@@ -112,19 +142,20 @@ pub(super) fn joined(
     for n in 0..cases {
         let points = [places.point(n), places.point(n), places.point(n)];
         let mut points = sorted(points, |a, b| a.x > b.x);
+        // Both directions along the lines, in turn.
         if n % 2 == 1 {
             points.reverse();
         }
         let [a, b, c] = points;
+        // Both have more columns than rows, so that neither may draw two pixels in a column.
         let is_wide = |a: SubpixelPoint, b: SubpixelPoint| (b.x - a.x).abs() > (b.y - a.y).abs();
         if is_wide(a, b) && is_wide(b, c) {
             let cell = lines.len() / 2;
             // Half of them the other way round: rows for columns.
-            let turned = |p: SubpixelPoint| match n / 2 % 2 {
-                0 => p,
-                _ => SubpixelPoint::new(p.y, p.x),
+            let [a, b, c] = match n / 2 % 2 {
+                0 => points,
+                _ => points.map(|p| SubpixelPoint::new(p.y, p.x)),
             };
-            let [a, b, c] = [a, b, c].map(turned);
             lines.extend([(cell, [a, b]), (cell, [b, c])]);
         }
     }
@@ -133,16 +164,15 @@ pub(super) fn joined(
     for (cell, pair) in (0..).zip(lines.chunks_exact(2)) {
         let mut hits = (0..CELL_PX).flat_map(|y| pictures.row(cell, y, CELL_PX));
         twice += u64::from(hits.any(|hits| *hits > 1));
+        // The pixels in the order in which the lines run.
         let [a, c] = [pair[0].1[0], pair[1].1[1]];
         let is_wide = (c.x - a.x).abs() >= (c.y - a.y).abs();
         let mut lit: Vec<_> = lit(&pictures, cell).into_iter().collect();
         lit.sort_by_key(|&(x, y)| if is_wide { (x, y) } else { (y, x) });
-        let touch = |p: &[(i32, i32)]| (p[0].0 - p[1].0).abs() <= 1 && (p[0].1 - p[1].1).abs() <= 1;
-        if let Some(gap) = lit.windows(2).find(|pixels| !touch(pixels)) {
+        if let Some([before, after]) = first_gap(&lit) {
             gaps += 1;
             if example.is_empty() {
                 let [a, b, c] = [a, pair[0].1[1], c].map(|p| p.to_px());
-                let [before, after] = [gap[0], gap[1]];
                 example = format!(
                     ", the first from {a:?} over {b:?} to {c:?} between {before:?} and {after:?}"
                 );

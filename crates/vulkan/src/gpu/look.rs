@@ -6,7 +6,7 @@ use crate::device::Error;
 use crate::device::draw::{Draw, Vertex};
 use crate::device::kind::{CELL_PX, Kind};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::ask::runs_of;
 
@@ -20,12 +20,12 @@ pub fn coverage(gpu: &mut Gpu, list: &[Corners], window: PixelRect) -> Result<Co
 
 /// The same of many lists, each in a window of its own: one list of draws.
 pub fn coverages(gpu: &mut Gpu, jobs: &[(&[Corners], PixelRect)]) -> Result<Vec<Coverage>, Error> {
-    let px = |p: SubpixelPoint| <[f64; 2]>::from(p.to_px());
-    let jobs: Vec<_> = jobs
-        .iter()
-        .map(|(list, window)| (list.iter().map(|c| c.map(px)).collect(), *window))
-        .collect();
-    coverages_px(gpu, &jobs)
+    let mut jobs_px = Vec::new();
+    for (list, window) in jobs {
+        let corners = list.iter().map(|corners| corners.map(|p| p.to_px().into())).collect();
+        jobs_px.push((corners, *window));
+    }
+    coverages_px(gpu, &jobs_px)
 }
 
 /// The same of corners in pixels, wherever they lie.
@@ -34,6 +34,7 @@ pub fn coverages_px(
     jobs: &[(Vec<[[f64; 2]; 3]>, PixelRect)],
 ) -> Result<Vec<Coverage>, Error> {
     let half = gpu.viewport_px() / 2.0;
+    // A window larger than a cell is drawn in parts, each of which sees all triangles.
     let (mut draws, mut tiles) = (Vec::new(), Vec::new());
     for (list, window) in jobs {
         for tile in cut(*window) {
@@ -52,31 +53,38 @@ pub fn coverages_px(
         false => Kind::Hits,
     };
     let pictures = gpu.draw(kind, tiles.len(), draws)?;
-    let mut cells = tiles.iter().enumerate();
-    let mut whole = |window: PixelRect| {
-        let mut hits = Coverage::new(window, 0);
-        for (cell, tile) in cells.by_ref().take(cut(window).count()) {
+    // The parts follow each other in the order of the windows.
+    let mut all = Vec::new();
+    let mut cell = 0;
+    for (_, window) in jobs {
+        let mut hits = Coverage::new(*window, 0);
+        for tile in cut(*window) {
             for y in 0..tile.height() {
-                for (run, times) in runs_of(tile.y0 + y as i32, pictures.row(cell, y, tile.width()))
-                {
-                    let (x0, x1) = (tile.x0 + run.x0_px, tile.x0 + run.x1_px);
-                    (0..times).for_each(|_| hits.hit(run.y_px, x0, x1));
+                let row = pictures.row(cell, y, tile.width());
+                for (run, times) in runs_of(tile.y0 + y as i32, row) {
+                    for _ in 0..times {
+                        hits.hit(run.y_px, tile.x0 + run.x0_px, tile.x0 + run.x1_px);
+                    }
                 }
             }
+            cell += 1;
         }
-        hits
-    };
-    Ok(jobs.iter().map(|(_, window)| whole(*window)).collect())
+        all.push(hits);
+    }
+    Ok(all)
 }
 
-fn cut(window: PixelRect) -> impl Iterator<Item = PixelRect> {
+/// A window in parts of the size of a cell, row by row; those at its right and lower side are smaller.
+fn cut(window: PixelRect) -> Vec<PixelRect> {
     let side = CELL_PX as i32;
-    (window.y0..window.y1).step_by(CELL_PX as usize).flat_map(move |y0| {
-        (window.x0..window.x1).step_by(CELL_PX as usize).map(move |x0| {
-            PixelRect { x0, y0, x1: x0.saturating_add(side), y1: y0.saturating_add(side) }
-                .intersect(&window)
-        })
-    })
+    let mut parts = Vec::new();
+    for y0 in (window.y0..window.y1).step_by(CELL_PX as usize) {
+        for x0 in (window.x0..window.x1).step_by(CELL_PX as usize) {
+            let (x1, y1) = (x0.saturating_add(side), y0.saturating_add(side));
+            parts.push(PixelRect { x0, y0, x1, y1 }.intersect(&window));
+        }
+    }
+    parts
 }
 
 /// The corners as seen from a place, where no corner leaves the viewport; exact on the lattice.
@@ -88,18 +96,20 @@ pub(super) fn seen_from(
     (x_px, y_px): (i32, i32),
     half_px: f32,
 ) -> Result<[Vertex; 3], Error> {
-    let [a, b, c] = corners.map(|[x, y]| {
-        let [x, y] = [x - f64::from(x_px), y - f64::from(y_px)];
-        if x.abs().max(y.abs()) > f64::from(half_px) {
-            return Err(Error::Unsupported(format!(
-                "a corner lies further than {half_px} px from the window"
-            )));
+    let mut vertices = [Vertex::default(); 3];
+    let half = f64::from(half_px);
+    for (vertex, [x, y]) in vertices.iter_mut().zip(corners) {
+        let (x, y) = (x - f64::from(x_px), y - f64::from(y_px));
+        if x.abs().max(y.abs()) > half {
+            let why = format!("a corner lies further than {half_px} px from the window");
+            return Err(Error::Unsupported(why));
         }
-        Ok(Vertex::flat([x, y].map(|v| (v / f64::from(half_px)) as f32)))
-    });
-    Ok([a?, b?, c?])
+        *vertex = Vertex::flat([(x / half) as f32, (y / half) as f32]);
+    }
+    Ok(vertices)
 }
 
+/// The same as [`super::cells::twice_area_px2`], of corners that need not lie on the lattice.
 fn twice_area_px2([a, b, c]: &[[f64; 2]; 3]) -> f64 {
     ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }

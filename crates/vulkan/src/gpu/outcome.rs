@@ -14,6 +14,7 @@ pub struct Errors {
 }
 
 impl Errors {
+    /// Adds an error with the bound that is derived for it, and the one up to which it is allowed.
     pub fn add(&mut self, error: f64, bound: f64, allowed: f64) {
         self.values += 1;
         self.beyond += u64::from(error > bound);

@@ -1,6 +1,6 @@
 //! Planted faults: what a wrong driver, or a failing one, would look like.
 
-use crate::device::draw::{Draw, Failing};
+use crate::device::draw::{Draw, Failing, Vertex};
 
 rasterproof_core::named! {
     /// A fault that is planted between the judge and the device.
@@ -32,6 +32,7 @@ rasterproof_core::named! {
 }
 
 impl Plant {
+    /// The failure that the painter is made to have; other faults spoil what is drawn.
     pub fn failing(self) -> Option<Failing> {
         match self {
             Self::Lost => Some(Failing::Lost(3)),
@@ -43,37 +44,52 @@ impl Plant {
     /// Spoils a list of draws; `samples` says that it is for masks, `step_px` is the lattice's step, and so many submissions came before.
     pub(super) fn spoil(self, draws: &mut Vec<Draw>, samples: bool, step_px: f32, before: u64) {
         match self {
+            Self::DrawsTwice => *draws = draws.iter().flat_map(|d| [*d, *d]).collect(),
             Self::ForgetsAtTimes if before % 3 == 2 => {
-                draws.iter_mut().take(1).for_each(|d| d.vertices[1] = d.vertices[0]);
-            }
-            Self::ShiftedSamples => draws.iter_mut().for_each(|d| d.viewport[0] += 1.0 / 16.0),
-            Self::ShiftedMasks if samples => {
-                draws.iter_mut().for_each(|d| d.viewport[1] -= 1.0 / 16.0);
-            }
-            Self::BottomRightRule => {
-                for d in draws {
-                    d.viewport[0] += step_px;
-                    d.viewport[1] += step_px;
+                if let Some(first) = draws.first_mut() {
+                    lose(first);
                 }
             }
-            Self::LosesLarge => draws
-                .iter_mut()
-                .filter(|d| twice_area_px2(d) >= 8_388_608.0)
-                .for_each(|d| d.vertices[1] = d.vertices[0]),
-            Self::CoarseDepths => clips(draws).for_each(|[.., z, w]| {
-                *z = (*z / *w * 4096.0).round() / 4096.0 * *w;
-            }),
-            Self::NoNearPlane => clips(draws).for_each(|[.., z, _]| *z = z.max(0.0)),
-            Self::DrawsTwice => *draws = draws.iter().flat_map(|d| [*d, *d]).collect(),
+            _ => {
+                for draw in draws {
+                    self.spoil_one(draw, samples, step_px);
+                }
+            }
+        }
+    }
+
+    /// Spoils a draw by a fault that each draw has for itself.
+    fn spoil_one(self, draw: &mut Draw, samples: bool, step_px: f32) {
+        match self {
+            Self::ShiftedSamples => draw.viewport[0] += 1.0 / 16.0,
+            Self::ShiftedMasks if samples => draw.viewport[1] -= 1.0 / 16.0,
+            Self::BottomRightRule => {
+                draw.viewport[0] += step_px;
+                draw.viewport[1] += step_px;
+            }
+            Self::LosesLarge if twice_area_px2(draw) >= 8_388_608.0 => lose(draw),
+            Self::CoarseDepths => {
+                // Depth is z / w.
+                for Vertex { clip: [.., z, w], .. } in &mut draw.vertices {
+                    *z = (*z / *w * 4096.0).round() / 4096.0 * *w;
+                }
+            }
+            Self::NoNearPlane => {
+                for Vertex { clip: [.., z, _], .. } in &mut draw.vertices {
+                    *z = z.max(0.0);
+                }
+            }
             _ => {}
         }
     }
 }
 
-fn clips(draws: &mut [Draw]) -> impl Iterator<Item = &mut [f32; 4]> {
-    draws.iter_mut().flat_map(|d| &mut d.vertices).map(|v| &mut v.clip)
+/// Makes a triangle so thin that it has no pixel.
+fn lose(draw: &mut Draw) {
+    draw.vertices[1] = draw.vertices[0];
 }
 
+/// Twice the area on the screen, from clip coordinates.
 fn twice_area_px2(draw: &Draw) -> f64 {
     let [.., width, height] = draw.viewport.map(f64::from);
     let [a, b, c] = draw.vertices.map(|v| {

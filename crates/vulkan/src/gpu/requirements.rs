@@ -25,87 +25,96 @@ use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 use rasterproof_verify::specification::{Standing, VULKAN};
 
-type Judge = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
-
-const REQUIREMENTS: [(&str, &str, Judge); 12] = [
-    ("snapping", "snapping", snapping),
-    ("noperspective", "linear", linear),
-    ("depths, 16 bits", "depths", |gpu, seed, cases| {
-        depth::stored(gpu, seed, cases, Kind::Depths16)
-    }),
-    ("depths, f32", "depths", |gpu, seed, cases| depth::stored(gpu, seed, cases, Kind::Depths)),
-    ("depth test", "depth-test", depth::nearer),
-    ("near and far plane", "clipping", depth::clipped),
-    ("clipped, near", "clipping", |gpu, seed, cases| clipping(gpu, seed, cases, false)),
-    ("clipped, far", "clipping", |gpu, seed, cases| clipping(gpu, seed, cases, true)),
-    ("lines", "rectangles", |gpu, seed, cases| lines::apart(gpu, seed, cases, Kind::Lines)),
-    ("lines, rectangular", "rectangles", |gpu, seed, cases| {
-        lines::apart(gpu, seed, cases, Kind::RectangularLines)
-    }),
-    ("lines, Bresenham", "bresenham", |gpu, seed, cases| {
-        lines::apart(gpu, seed, cases, Kind::BresenhamLines)
-    }),
-    ("the same twice", "repeatability", twice),
-];
-
-/// Runs every stage; what the device does not answer is said in its place.
+/// Runs every stage; what the device does not answer is said in its place. The names and their order are those of the report.
 pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[KnownFault]) -> Vec<Requirement> {
-    let finding = |name: &str, rule: &str, outcome: Result<Outcome, Error>| {
-        let (class, detail) = outcome.unwrap_or_else(|error| match error {
-            Error::Unsupported(what) => (Standing::NotOffered, what),
-            other => (Standing::NoAnswer, other.to_string()),
-        });
-        Requirement { name: name.to_owned(), rule: VULKAN.clause(rule), class, detail }
-    };
-    let mut findings: Vec<Requirement> = REQUIREMENTS
-        .iter()
-        .map(|(name, rule, stage)| {
-            let strict = gpu.about().strict_lines;
-            let rule = if *name == "lines" && !strict { "loose-lines" } else { *rule };
-            finding(name, rule, stage(gpu, seed, cases))
-        })
-        .collect();
-    findings.push(finding(LARGE, "polygons", large(gpu, seed, cases, known)));
-    let joined = lines::joined(gpu, seed, cases, known);
-    findings.push(finding(lines::JOINED, "joined", joined));
-    findings
+    // Without strict lines a device may choose between two other shapes.
+    let lines_rule = if gpu.about().strict_lines { "rectangles" } else { "loose-lines" };
+    vec![
+        finding("snapping", "snapping", snapping(gpu, seed, cases)),
+        finding("noperspective", "linear", linear(gpu, seed, cases)),
+        finding("depths, 16 bits", "depths", depth::stored(gpu, seed, cases, Kind::Depths16)),
+        finding("depths, f32", "depths", depth::stored(gpu, seed, cases, Kind::Depths)),
+        finding("depth test", "depth-test", depth::nearer(gpu, seed, cases)),
+        finding("near and far plane", "clipping", depth::clipped(gpu, seed, cases)),
+        finding("clipped, near", "clipping", clipping(gpu, seed, cases, false)),
+        finding("clipped, far", "clipping", clipping(gpu, seed, cases, true)),
+        finding("lines", lines_rule, lines::apart(gpu, seed, cases, Kind::Lines)),
+        finding(
+            "lines, rectangular",
+            "rectangles",
+            lines::apart(gpu, seed, cases, Kind::RectangularLines),
+        ),
+        finding(
+            "lines, Bresenham",
+            "bresenham",
+            lines::apart(gpu, seed, cases, Kind::BresenhamLines),
+        ),
+        finding("the same twice", "repeatability", twice(gpu, seed, cases)),
+        finding(LARGE, "polygons", large(gpu, seed, cases, known)),
+        finding(lines::JOINED, "joined", lines::joined(gpu, seed, cases, known)),
+    ]
 }
 
+/// What came of a stage, with the rule by which it was judged.
+fn finding(name: &str, rule: &str, outcome: Result<Outcome, Error>) -> Requirement {
+    let (class, detail) = match outcome {
+        Ok(outcome) => outcome,
+        Err(Error::Unsupported(what)) => (Standing::NotOffered, what),
+        Err(other) => (Standing::NoAnswer, other.to_string()),
+    };
+    Requirement { name: name.to_owned(), rule: VULKAN.clause(rule), class, detail }
+}
+
+/// Known faults name this stage, as they name families.
 const LARGE: &str = "far up and left";
+
+/// A random position on the device's lattice, both coordinates between two whole steps.
+fn random_point(rng: &mut Rng, (low, high): (i64, i64), step: i32) -> SubpixelPoint {
+    let x = rng.int(low, high) as i32 * step;
+    let y = rng.int(low, high) as i32 * step;
+    SubpixelPoint::new(x, y)
+}
+
+/// A step of the lattice of corners, in subpixels.
+fn step(gpu: &Gpu) -> i32 {
+    (gpu.step_px() * SUBPIXELS as f32) as i32
+}
 
 /// Triangles within the viewport that reach from the window far beyond its upper left corner. Nothing is
 /// clipped, so each has the oracle's pixels.
 fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[KnownFault]) -> Result<Outcome, Error> {
-    let step = (gpu.step_px() * SUBPIXELS as f32) as i32;
+    let step = step(gpu);
     let per_px = i64::from(SUBPIXELS / step);
     let reach = gpu.viewport_px() as i64 / 2 * per_px;
     let mut rng = Rng::new("vulkan-large", seed, 0);
-    let mut point = |low: i64, high: i64| {
-        let mut along = || rng.int(low, high) as i32 * step;
-        SubpixelPoint::new(along(), along())
-    };
-    let triangles: Vec<Corners> =
-        (0..cases).map(|_| [point(0, 64 * per_px), point(-reach, 0), point(-reach, 0)]).collect();
+    let mut triangles: Vec<Corners> = Vec::new();
+    for _ in 0..cases {
+        // One corner in the window, two up to half a viewport away from it.
+        let inside = random_point(&mut rng, (0, 64 * per_px), step);
+        let mut far = || random_point(&mut rng, (-reach, 0), step);
+        triangles.push([inside, far(), far()]);
+    }
     let half = gpu.viewport_px() / 2.0;
     // A picture of its own for each: see `engine::hits_kind`.
     let pictures = gpu.draw_each(Kind::Alone, triangles.iter().map(|t| plain(t, half)))?;
-    let mut wrong_px = 0u64;
-    let judged: Vec<(f64, bool)> = (0..)
-        .zip(&triangles)
-        .map(|(cell, corners)| {
-            let (drawn, right) = (hits_of(&pictures, cell), oracle(corners));
-            let wrong = pixels().filter(|&(x, y)| drawn.get(x, y) != right.get(x, y)).count();
-            wrong_px += wrong as u64;
-            (twice_area_px2(corners), wrong == 0)
-        })
-        .collect();
-    let wrong = judged.iter().filter(|(_, right)| !right);
-    let least = wrong.clone().fold(f64::INFINITY, |least, (px2, _)| least.min(*px2));
-    let large = judged.iter().filter(|(px2, _)| *px2 >= LARGE_PX2).count();
+    let (mut wrong, mut wrong_px, mut large, mut least) = (0, 0, 0, f64::INFINITY);
+    let mut judged: Vec<(f64, bool)> = Vec::new();
+    for (cell, corners) in triangles.iter().enumerate() {
+        let (drawn, right) = (hits_of(&pictures, cell), oracle(corners));
+        let different = pixels().filter(|&(x, y)| drawn.get(x, y) != right.get(x, y)).count();
+        // Known faults begin at an area, so each triangle is noted with its own.
+        let px2 = twice_area_px2(corners);
+        judged.push((px2, different == 0));
+        large += u64::from(px2 >= LARGE_PX2);
+        if different > 0 {
+            wrong += 1;
+            wrong_px += different;
+            least = px2.min(least);
+        }
+    }
     let mut said = format!(
-        "{} triangles, {large} with twice an area of 2^23 px^2 or more; {} differ, in {wrong_px} px",
+        "{} triangles, {large} with twice an area of 2^23 px^2 or more; {wrong} differ, in {wrong_px} px",
         triangles.len(),
-        wrong.count()
     );
     if least.is_finite() {
         said += &format!(", the smallest with {least:.0} px^2");
@@ -113,6 +122,7 @@ fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[KnownFault]) -> Result<O
     Ok((known::class_of_areas(known, LARGE, &judged), said))
 }
 
+/// The hits that a triangle has in a window, by the oracle.
 fn oracle(corners: &Corners) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
     Oracle.cover(*corners, WINDOW, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
@@ -137,36 +147,44 @@ fn toward(halves: i32, parity: i32) -> i32 {
 
 /// Corners halfway between two positions of the lattice, near pixel centres, where it shows.
 fn snapping(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
-    let step = (gpu.step_px() * SUBPIXELS as f32) as i32;
+    let step = step(gpu);
+    // Coordinates are counted in halves of a step, of which a pixel has so many.
     let per_px = 2 * SUBPIXELS / step;
     let mut rng = Rng::new("vulkan-snapping", seed, 0);
-    let mut halves = || {
-        let centre = rng.int(0, 23) as i32 * per_px + per_px / 2;
-        centre + rng.int(-3, 3) as i32
-    };
-    let triangles: Vec<[[i32; 2]; 3]> =
-        (0..cases).map(|_| [0; 3].map(|_| [halves(), halves()])).collect();
+    let mut triangles = Vec::new();
+    for _ in 0..cases {
+        let mut corners = [[0; 2]; 3];
+        for halves in corners.as_flattened_mut() {
+            let centre = rng.int(0, 23) as i32 * per_px + per_px / 2;
+            *halves = centre + rng.int(-3, 3) as i32;
+        }
+        triangles.push(corners);
+    }
     let half_px = gpu.viewport_px() / 2.0;
     let vertices = |corners: &[[i32; 2]; 3]| {
         corners.map(|p| Vertex::flat(p.map(|halves| halves as f32 / per_px as f32 / half_px)))
     };
     let pictures = gpu.draw_each(Kind::Hits, triangles.iter().map(vertices))?;
-    let right = ROUNDINGS.map(|(name, round)| {
-        let is_right = |(cell, corners): &(usize, &[[i32; 2]; 3])| {
-            let snapped = corners.map(|p| {
-                let [x, y] = p.map(|halves| round(halves) * step);
-                SubpixelPoint::new(x, y)
-            });
-            oracle(&snapped) == hits_of(&pictures, *cell)
-        };
-        (name, (0..).zip(&triangles).filter(is_right).count())
-    });
+    // How many triangles each way to round explains; the specification leaves the way open.
     let total = triangles.len();
-    let said: Vec<String> = right.iter().map(|(name, n)| format!("{name} {n}")).collect();
-    let said = format!("of {total} triangles with corners halfway, right are {}", said.join(", "));
-    Ok(match right.iter().find(|(_, n)| *n == total) {
-        Some(("half to even", _)) => (Standing::Equal, said),
-        Some((name, _)) => (Standing::Allowed, format!("positions are rounded {name}: {said}")),
+    let (mut counts, mut explains) = (Vec::new(), None);
+    for (name, round) in ROUNDINGS {
+        let mut right = 0;
+        for (cell, corners) in triangles.iter().enumerate() {
+            let snapped =
+                corners.map(|[x, y]| SubpixelPoint::new(round(x) * step, round(y) * step));
+            right += usize::from(oracle(&snapped) == hits_of(&pictures, cell));
+        }
+        counts.push(format!("{name} {right}"));
+        if right == total {
+            explains = explains.or(Some(name));
+        }
+    }
+    let counts = counts.join(", ");
+    let said = format!("of {total} triangles with corners halfway, right are {counts}");
+    Ok(match explains {
+        Some("half to even") => (Standing::Equal, said),
+        Some(name) => (Standing::Allowed, format!("positions are rounded {name}: {said}")),
         None => (Standing::Allowed, format!("no rounding explains all: {said}")),
     })
 }
@@ -180,12 +198,14 @@ fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     for (cell, triangle) in (0..).zip(&triangles) {
         let v = &triangle.vertices;
         let attributes = v.map(|v| v.varying.to_array());
+        // With w = 1 everywhere, what is exact is linear on the screen. A triangle without an area has no values.
         let Some(exact) =
             ExactTriangle::new(&triangle.corners(), v.map(|v| v.inv_w), [1.0; 3], attributes)
         else {
             continue;
         };
         let bounds = linear_bounds(triangle, f64::from(PAGE_PX));
+        // Every fifth pixel is enough, since exact values take most of the time.
         for (x, y) in pixels().filter(|(x, y)| (x + y) % 5 == 0) {
             let row = pictures.row(cell, y as u32, CELL_PX);
             let [inv_w, a, b, drawn] = floats(&row[16 * x as usize..]);
@@ -212,19 +232,19 @@ fn clipping(gpu: &mut Gpu, seed: u64, cases: u64, far: bool) -> Result<Outcome, 
     // Sides are powers of two and corners multiples that f32 holds, so that only clipping rounds.
     let side = if far { gpu.viewport_px() } else { NEAR_PX as f32 };
     let reach_px = if far { 1 << 20 } else { 1 << 12 };
-    let quantum = if far { SUBPIXELS } else { (gpu.step_px() * SUBPIXELS as f32) as i32 };
+    let quantum = if far { SUBPIXELS } else { step(gpu) };
+    let reach = i64::from(reach_px) * i64::from(SUBPIXELS / quantum);
     let mut rng = Rng::new("vulkan-clipping", seed, u64::from(far));
-    let mut corner = || {
-        let reach = i64::from(reach_px) * i64::from(SUBPIXELS / quantum);
-        let mut along = || {
-            // As many near the window as far from it.
-            let bits = rng.int(6, 62 - reach.leading_zeros() as i64);
-            let most = (1i64 << bits).min(reach);
-            (rng.int(-most, most) as i32).saturating_mul(quantum)
-        };
-        SubpixelPoint::new(along(), along())
+    let mut along = || {
+        // As many near the window as far from it.
+        let bits = rng.int(6, 62 - reach.leading_zeros() as i64);
+        let most = (1i64 << bits).min(reach);
+        (rng.int(-most, most) as i32).saturating_mul(quantum)
     };
-    let triangles: Vec<Corners> = (0..cases).map(|_| [0; 3].map(|_| corner())).collect();
+    let mut triangles: Vec<Corners> = Vec::new();
+    for _ in 0..cases {
+        triangles.push([0; 3].map(|_| SubpixelPoint::new(along(), along())));
+    }
     let (middle_px, shown) = match far {
         true => (0, WINDOW),
         false => {
@@ -232,27 +252,30 @@ fn clipping(gpu: &mut Gpu, seed: u64, cases: u64, far: bool) -> Result<Outcome, 
             (CELL_PX as i32 / 2, PixelRect { x0: low, y0: low, x1: high, y1: high })
         }
     };
-    let draws = (0..).zip(&triangles).map(|(cell, corners)| {
+    let mut draws = Vec::new();
+    for (cell, corners) in triangles.iter().enumerate() {
         let mut draw = draw_of(cell, plain(corners, side / 2.0), side);
         // Corners are counted from the middle of the viewport.
         draw.viewport[0] += middle_px as f32;
         draw.viewport[1] += middle_px as f32;
-        draw
-    });
-    let pictures = gpu.draw(Kind::Hits, triangles.len(), draws.collect())?;
+        draws.push(draw);
+    }
+    let pictures = gpu.draw(Kind::Hits, triangles.len(), draws)?;
     // New corners are f32 of what is clipped, four roundings, then snapped by half a step.
     let u = f64::from(f32::EPSILON) / 2.0;
     let bound_px = f64::from(gpu.step_px()) + 4.0 * u * f64::from(reach_px);
     let (mut different, mut wrong_px, mut furthest, mut beyond) = (0u64, 0u64, 0.0f64, 0u64);
     let mut large = 0u64;
     for (cell, corners) in (0..).zip(&triangles) {
-        let moved = |sub: i32| sub + middle_px * SUBPIXELS;
-        let corners = corners.map(|p| SubpixelPoint::new(moved(p.x), moved(p.y)));
+        // The oracle's window begins at the corner of the cell.
+        let middle = middle_px * SUBPIXELS;
+        let corners = corners.map(|p| SubpixelPoint::new(p.x + middle, p.y + middle));
         large += u64::from(twice_area_px2(&corners) >= LARGE_PX2);
         let (drawn, right) = (hits_of(&pictures, cell), oracle(&corners));
         let mut differs = false;
         for (x, y) in pixels() {
             let is_shown = shown.contains(x, y);
+            // Beyond the viewport nothing may be drawn at all; within it, clipping may move an edge a little.
             beyond += u64::from(!is_shown && drawn.get(x, y) != Some(0));
             if is_shown && drawn.get(x, y) != right.get(x, y) {
                 differs = true;
@@ -280,14 +303,18 @@ const LARGE_PX2: f64 = 8_388_608.0;
 /// The distance of a pixel's centre from the nearest of the lines through the edges, in px.
 fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
     let s = centre_of(x, y);
-    let distance = |i: usize| {
+    let mut nearest = f64::INFINITY;
+    for i in 0..3 {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         let (x, y) = (f64::from(b.x - a.x), f64::from(b.y - a.y));
         let length = (x * x + y * y).sqrt();
+        // The height of the triangle of the edge and the centre; an edge without a length has no line.
         let twice = twice_area(&[a, b, s]).unsigned_abs() as f64;
-        if length > 0.0 { twice / length / f64::from(SUBPIXELS) } else { f64::INFINITY }
-    };
-    distance(0).min(distance(1)).min(distance(2))
+        if length > 0.0 {
+            nearest = nearest.min(twice / length / f64::from(SUBPIXELS));
+        }
+    }
+    nearest
 }
 
 /// The same list drawn twice, and once more on a device opened anew, of which the specification does
@@ -296,9 +323,11 @@ fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let declared = rasterproof_judge::ask::Subject::declared(gpu).clone();
     let half = gpu.viewport_px() / 2.0;
     let mut triangles = Vec::new();
-    for family in
-        cases::triangles::FAMILIES.iter().filter(|f| f.name != "far" && f.name != "w-extreme")
-    {
+    for family in cases::triangles::FAMILIES {
+        // Corners of these lie beyond the viewport, or have a w that f32 does not hold.
+        if ["far", "w-extreme"].contains(&family.name) {
+            continue;
+        }
         for index in 0..cases.div_ceil(64) {
             let case = adapt_case::case(family, seed, index, &declared);
             let Shape::Triangles { list, .. } = case.shape else { continue };
@@ -307,11 +336,10 @@ fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     }
     let (mut again, mut anew) = (true, true);
     for kind in [Kind::Hits, Kind::Values] {
-        let draw = |gpu: &mut Gpu| gpu.draw_each(kind, triangles.iter().copied());
-        let first = draw(gpu)?;
-        again &= first == draw(gpu)?;
+        let first = gpu.draw_each(kind, triangles.iter().copied())?;
+        again &= first == gpu.draw_each(kind, triangles.iter().copied())?;
         gpu.close();
-        anew &= first == draw(gpu)?;
+        anew &= first == gpu.draw_each(kind, triangles.iter().copied())?;
     }
     let cells = triangles.len();
     let said = format!("{cells} triangles, hits and values, drawn twice and after opening anew");

@@ -16,6 +16,7 @@ pub struct Specified {
 }
 
 impl Specified {
+    /// Pixels are expected by the convention that the device declares.
     pub fn new(declared: &Declared) -> Self {
         Self { declaration: declared.convention }
     }

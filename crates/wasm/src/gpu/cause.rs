@@ -55,15 +55,16 @@ impl WaitingSearch {
     /// Reads the answers off a picture.
     fn take(&mut self, device: Device, pixels: &str) -> Result<(), String> {
         let read = Pixels::read(Topic::Coverage, device, LAYOUT, pixels)?;
-        let answer = |(index, question): (usize, &TriangleQuestion)| {
+        let mut answers = Vec::new();
+        for (index, question) in self.of_picture().iter().enumerate() {
+            // A window may be smaller than its cell.
             let (cell, window) = (read.cell(index), question.window);
             let mut picture = Coverage::new(window, 0);
             for y in 0..window.y1 {
                 picture.row_mut(y).copy_from_slice(&cell.row(y)[..window.x1 as usize]);
             }
-            Some(picture)
-        };
-        let answers: Vec<_> = self.of_picture().iter().enumerate().map(answer).collect();
+            answers.push(Some(picture));
+        }
         self.answered += answers.len();
         self.answers.extend(answers);
         Ok(())

@@ -1,4 +1,7 @@
 //! What each check expects in a cell, and how a pixel that differs stands to the specification.
+//!
+//! Where a rule decides, the pixels of the top-left rule are expected, and a pixel that differs is looked at more closely: whether any
+//! rule, any rounding of positions, or a bound of depths allows it. So a device is not called wrong for a choice that is its own.
 
 use super::place::{Place, RULES, cover, on_shared_edge, place};
 use super::subjects::{area, is_front, whole};
@@ -18,6 +21,7 @@ pub(super) const SAMPLES: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160,
 /// Pixels whose centres, or samples, are judged: hits in planes of a cell, one for each sample that is read.
 pub(super) type Planes = Vec<Vec<u8>>;
 
+/// How many planes a check reads.
 pub(super) fn planes(check: Topic, device: Device) -> usize {
     match check {
         Topic::Samples if device.samples_apart => 4,
@@ -29,36 +33,28 @@ pub(super) fn planes(check: Topic, device: Device) -> usize {
 
 /// What is expected of a subject, by the top-left rule where a rule decides.
 pub(super) fn expected(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Planes {
+    // Values are compared elsewhere; of all other checks this is the number of hits in each pixel.
     let mut hits = vec![vec![0; (cell * cell) as usize]; planes(check, device)];
     match check {
         Topic::Lines => {
-            for (x, y) in subject.ends().iter().flat_map(|ends| segments::diamonds(ends, cell)) {
-                hits[0][(y * cell + x) as usize] = 1;
+            for ends in subject.ends() {
+                for (x, y) in segments::diamonds(&ends, cell) {
+                    hits[0][(y * cell + x) as usize] = 1;
+                }
             }
         }
         Topic::NearPlane => {
-            let borders = whole(subject).and_then(|corners| borders(&corners));
-            each(cell, |x, y, at| {
-                let inside = |b: &clipped::Linear| b.at((x as u32, y as u32)) >= 0;
-                hits[0][at] = u8::from(borders.is_some_and(|b| b.iter().all(inside)));
-            });
+            if let Some(borders) = whole(subject).and_then(|corners| borders(&corners)) {
+                for (pixel, hits) in pixels(cell).zip(&mut hits[0]) {
+                    let (x, y) = (pixel.0 as u32, pixel.1 as u32);
+                    *hits = u8::from(borders.iter().all(|border| border.at((x, y)) >= 0));
+                }
+            }
         }
-        Topic::Depth => {
-            let covered = subject.triangles().into_iter().map(|t| {
-                let mut hits = vec![0; (cell * cell) as usize];
-                cover(&t.corners(), RULES[0], [0, 0], cell, &mut hits);
-                (t, hits)
-            });
-            let covered: Vec<_> = covered.collect();
-            each(cell, |x, y, at| {
-                let drawn = covered.iter().filter(|(_, hits)| hits[at] > 0).map(|(t, _)| t);
-                let nearest =
-                    drawn.reduce(|a, b| if depth(b, x, y) < depth(a, x, y) { b } else { a });
-                hits[0][at] = nearest.map_or(0, number);
-            });
-        }
+        Topic::Depth => hits[0] = nearest(&subject.triangles(), cell),
         Topic::Samples => {
             for (sample, [x, y]) in SAMPLES.into_iter().enumerate() {
+                // The oracle samples at centres, so the triangle is moved until the sample lies there.
                 let moved = [HALF_PIXEL - x, HALF_PIXEL - y];
                 let plane = sample % hits.len();
                 for corners in subject.corners() {
@@ -67,8 +63,11 @@ pub(super) fn expected(check: Topic, device: Device, subject: &Drawing, cell: i3
             }
         }
         Topic::Facing => {
-            for corners in subject.corners().iter().filter(|c| is_front(device, c)) {
-                cover(corners, RULES[0], [0, 0], cell, &mut hits[0]);
+            // What faces the other way is culled.
+            for corners in subject.corners() {
+                if is_front(device, &corners) {
+                    cover(&corners, RULES[0], [0, 0], cell, &mut hits[0]);
+                }
             }
         }
         Topic::Tiling if fills(subject, cell) => hits[0].fill(1),
@@ -77,14 +76,35 @@ pub(super) fn expected(check: Topic, device: Device, subject: &Drawing, cell: i3
             if check == Topic::Twice {
                 hits[1] = hits[0].clone();
             }
+            // All six orders of the corners are drawn.
             if check == Topic::Order {
-                hits[0].iter_mut().for_each(|hits| *hits *= 6);
+                for hits in &mut hits[0] {
+                    *hits *= 6;
+                }
             }
         }
     }
     hits
 }
 
+/// In each pixel the number of the nearest triangle there, of two at one depth that of the first; 0 where there is none.
+fn nearest(triangles: &[Triangle], cell: i32) -> Vec<u8> {
+    let mut numbers = vec![0; (cell * cell) as usize];
+    let mut depths = vec![f64::INFINITY; numbers.len()];
+    for triangle in triangles {
+        let mut hits = vec![0; numbers.len()];
+        cover(&triangle.corners(), RULES[0], [0, 0], cell, &mut hits);
+        for (at, (x, y)) in pixels(cell).enumerate().filter(|(at, _)| hits[*at] > 0) {
+            let depth = depth(triangle, x, y);
+            if depth < depths[at] {
+                (numbers[at], depths[at]) = (number(triangle), depth);
+            }
+        }
+    }
+    numbers
+}
+
+/// How often the triangles of a subject hit each pixel, by the top-left rule.
 pub(super) fn covered(subject: &Drawing, cell: i32) -> Vec<u8> {
     let mut hits = vec![0; (cell * cell) as usize];
     for corners in subject.corners() {
@@ -95,14 +115,16 @@ pub(super) fn covered(subject: &Drawing, cell: i32) -> Vec<u8> {
 
 /// Whether triangles that do not overlap fill a cell: their area says so, up to its rounding.
 fn fills(Drawing(shapes): &Drawing, cell: i32) -> bool {
-    let twice: f64 = shapes.iter().map(|t| area(t).abs()).sum();
+    let mut twice = 0.0;
+    for triangle in shapes {
+        twice += area(triangle).abs();
+    }
     (twice - f64::from(2 * cell * cell)).abs() < 1e-6
 }
 
-fn each(cell: i32, mut see: impl FnMut(i32, i32, usize)) {
-    for (y, x) in (0..cell).flat_map(|y| (0..cell).map(move |x| (y, x))) {
-        see(x, y, (y * cell + x) as usize);
-    }
+/// The pixels of a cell, row by row.
+pub(super) fn pixels(cell: i32) -> impl Iterator<Item = (i32, i32)> {
+    (0..cell * cell).map(move |at| (at % cell, at / cell))
 }
 
 /// The depth of a triangle's plane at a pixel's centre, in f64, whose error is far below any bound here.
@@ -120,11 +142,15 @@ fn number(triangle: &Triangle) -> u8 {
 }
 
 impl Drawing {
+    /// The ends of its lines.
     pub(super) fn ends(&self) -> Vec<Ends> {
-        let ends = |shape: &Vec<Vertex>| {
-            Some([super::subjects::at(shape.first()?), super::subjects::at(shape.get(1)?)])
-        };
-        self.0.iter().filter_map(ends).collect()
+        let mut ends = Vec::new();
+        for shape in &self.0 {
+            if let [a, b, ..] = &shape[..] {
+                ends.push([a, b].map(super::subjects::at));
+            }
+        }
+        ends
     }
 }
 
@@ -143,6 +169,7 @@ pub(super) struct Forgiving<'a> {
 }
 
 impl<'a> Forgiving<'a> {
+    /// What is derived of a subject is derived once for all of its pixels.
     pub fn new(check: Topic, device: Device, subject: &'a Drawing) -> Self {
         let borders = whole(subject).and_then(|corners| borders(&corners));
         Self { check, device, subject, corners: subject.corners(), borders }
@@ -150,16 +177,11 @@ impl<'a> Forgiving<'a> {
 
     /// A pixel of a plane with so many hits, that are not the expected ones.
     pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Standing {
+        // Which of the reasons applies depends on what the check leaves open.
         let free = match self.check {
             Topic::Lattice => hits <= 1 && self.is_near_edge(x, y),
             Topic::Tiling => self.tiling_is_open(x, y, hits),
-            Topic::NearPlane => {
-                let near = |b: clipped::Linear| b.distance_px((x as u32, y as u32));
-                hits <= 1
-                    && self
-                        .borders
-                        .is_none_or(|b| b.into_iter().any(|b| near(b) <= self.bound_px()))
-            }
+            Topic::NearPlane => hits <= 1 && self.is_near_border((x as u32, y as u32)),
             Topic::Depth => self.depth_is_open(x, y, hits),
             Topic::Twice => self.device.interface == Interface::Webgpu,
             // Where samples lie is open in WebGL and said in WebGPU.
@@ -175,14 +197,27 @@ impl<'a> Forgiving<'a> {
         if free { Standing::Allowed } else { Standing::Outside }
     }
 
+    /// Whether clipping may have moved a border over a pixel. A subject without borders has no pixels to be sure of.
+    fn is_near_border(&self, pixel: (u32, u32)) -> bool {
+        let Some(borders) = self.borders else { return true };
+        borders.into_iter().any(|border| border.distance_px(pixel) <= self.bound_px())
+    }
+
     /// Whether so many hits are possible by some rule for samples on edges.
     fn is_between(&self, sample: SubpixelPoint, hits: u8) -> bool {
         let times = if self.check == Topic::Order { 6 } else { 1 };
-        let is_drawn = |c: &&Corners| self.check != Topic::Facing || is_front(self.device, c);
-        let places: Vec<_> =
-            self.corners.iter().filter(is_drawn).map(|c| place(c, sample)).collect();
-        let inside = places.iter().filter(|p| **p == Place::Inside).count();
-        let edges = places.iter().filter(|p| **p == Place::Edge).count();
+        let (mut inside, mut edges) = (0, 0);
+        for corners in &self.corners {
+            if self.check == Topic::Facing && !is_front(self.device, corners) {
+                continue;
+            }
+            match place(corners, sample) {
+                Place::Inside => inside += 1,
+                Place::Edge => edges += 1,
+                Place::Outside => {}
+            }
+        }
+        // Inside of a shared edge one of two triangles has the sample, where the interface promises that.
         let (least, most) = (times * inside, times * (inside + edges));
         let is_shared = self.device.interface.source().shares
             && inside == 0
@@ -195,19 +230,25 @@ impl<'a> Forgiving<'a> {
     fn sample_is_open(&self, x: i32, y: i32, hits: u8, all: u8) -> bool {
         let square = [[0, 0], [1, 0], [0, 1], [1, 1]]
             .map(|[i, j]| SubpixelPoint::new((x + i) * SUBPIXELS, (y + j) * SUBPIXELS));
-        self.corners.iter().all(|c| {
-            let inside = square.iter().all(|p| place(c, *p) != Place::Outside);
-            let beyond = |i: usize| {
-                let (a, b) = (c[i], c[(i + 1) % 3]);
-                let turn = twice_area(c).signum();
-                square.iter().all(|p| twice_area(&[a, b, *p]) * turn < 0)
-            };
-            match (inside, (0..3).any(beyond)) {
+        for corners in &self.corners {
+            let is_inside = square.iter().all(|p| place(corners, *p) != Place::Outside);
+            // A pixel that lies beyond one edge as a whole is outside.
+            let turn = twice_area(corners).signum();
+            let mut is_outside = false;
+            for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                let sides = square.map(|p| twice_area(&[corners[a], corners[b], p]) * turn);
+                is_outside |= sides.iter().all(|side| *side < 0);
+            }
+            let is_possible = match (is_inside, is_outside) {
                 (true, _) => hits == all,
                 (_, true) => hits == 0,
                 _ => hits <= all,
+            };
+            if !is_possible {
+                return false;
             }
-        })
+        }
+        true
     }
 
     /// The edges of a triangle on which a pixel's centre may lie once corners are moved to the device's lattice:
@@ -215,17 +256,22 @@ impl<'a> Forgiving<'a> {
     fn near_edges(&self, t: &[Vertex], x: i32, y: i32) -> Vec<[[f64; 2]; 2]> {
         let s = [f64::from(x) + 0.5, f64::from(y) + 0.5];
         let step = f64::from(self.device.step()) / f64::from(SUBPIXELS);
-        let is_near = |[a, b]: &[[f64; 2]; 2]| {
+        let mut near = Vec::new();
+        for [a, b] in edges(t) {
+            // The point of the edge that is nearest to the centre, as a share of the way from a to b.
             let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
             let along = (dx * (s[0] - a[0]) + dy * (s[1] - a[1]))
                 / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
             let t = along.clamp(0.0, 1.0);
             let [ex, ey] = [a[0] + t * dx - s[0], a[1] + t * dy - s[1]];
-            ex * ex + ey * ey <= 2.0 * step * step
-        };
-        edges(t).into_iter().filter(is_near).collect()
+            if ex * ex + ey * ey <= 2.0 * step * step {
+                near.push([a, b]);
+            }
+        }
+        near
     }
 
+    /// Whether a centre may lie on an edge of any triangle once corners are moved.
     fn is_near_edge(&self, x: i32, y: i32) -> bool {
         self.subject.0.iter().any(|t| !self.near_edges(t, x, y).is_empty())
     }
@@ -234,14 +280,18 @@ impl<'a> Forgiving<'a> {
     /// leaves open whether a sample on an edge is covered, so holes along edges too.
     fn tiling_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
         let all = &self.subject.0;
-        let near: Vec<_> = all.iter().map(|t| self.near_edges(t, x, y)).collect();
-        let is_shared = |[a, b]: &[[f64; 2]; 2]| {
-            all.iter().flat_map(|t| edges(t)).filter(|edge| *edge == [*b, *a]).count() == 1
-        };
-        let most = near.iter().filter(|edges| !edges.is_empty()).count();
-        let is_open = !self.device.interface.source().shares
-            || near.iter().flatten().any(|edge| !is_shared(edge));
-        most > 0 && usize::from(hits) <= most && is_open
+        // Each triangle with an edge here may have the pixel.
+        let (mut most, mut is_open) = (0, !self.device.interface.source().shares);
+        for triangle in all {
+            let near = self.near_edges(triangle, x, y);
+            most += u8::from(!near.is_empty());
+            for [a, b] in near {
+                // An edge is shared where exactly one triangle has it the other way round.
+                let others = all.iter().flat_map(|t| edges(t)).filter(|edge| *edge == [b, a]);
+                is_open |= others.count() != 1;
+            }
+        }
+        most > 0 && hits <= most && is_open
     }
 
     /// A new corner is f32 of what is clipped: x, y and w reach 12, divided by a w of at least 1. Six roundings
@@ -255,24 +305,28 @@ impl<'a> Forgiving<'a> {
     /// Where depths are nearer than they are exact, or a rule decides about an edge, either may be kept.
     fn depth_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
         let triangles = self.subject.triangles();
-        let places = triangles.iter().map(|t| place(&t.corners(), centre_of(x, y)));
-        let places: Vec<_> = places.collect();
-        let mut covering = triangles.iter().zip(&places).filter(|(_, p)| **p != Place::Outside);
-        if places.contains(&Place::Edge) {
-            return hits == 0 || covering.any(|(t, _)| number(t) == hits);
+        let (mut edges, mut inside, mut is_of_one) = (0, 0, false);
+        for triangle in &triangles {
+            let place = place(&triangle.corners(), centre_of(x, y));
+            edges += usize::from(place == Place::Edge);
+            inside += usize::from(place == Place::Inside);
+            is_of_one |= place != Place::Outside && number(triangle) == hits;
+        }
+        if edges > 0 {
+            return hits == 0 || is_of_one;
         }
         let [first, second] = &triangles[..] else { return false };
-        let bounds = [first, second].map(|t| depth_bounds(t, 1024.0)[1]);
         // A buffer of 24 bits keeps steps of 2^-24.
+        let bounds = [first, second].map(|t| depth_bounds(t, 1024.0)[1]);
         let bound = bounds[0] + bounds[1] + 2f64.powi(-24);
-        let both = places.iter().all(|p| *p == Place::Inside);
-        both && covering.any(|(t, _)| number(t) == hits)
-            && (depth(first, x, y) - depth(second, x, y)).abs() <= bound
+        let difference = (depth(first, x, y) - depth(second, x, y)).abs();
+        inside == 2 && is_of_one && difference <= bound
     }
 }
 
 /// How the pixels of a line stand to the diamond-exit rule, to a rectangle and to a parallelogram.
 pub(super) fn line_fits(device: Device, ends: &Ends, lit: &Pixels, cell: i32) -> [Fit; 3] {
+    // A rectangle, a parallelogram and a diamond are three permitted shapes of a line; the page shows which one was drawn.
     let step = device.step();
     [
         segments::diamond_exit(ends, lit, cell),
@@ -284,20 +338,21 @@ pub(super) fn line_fits(device: Device, ends: &Ends, lit: &Pixels, cell: i32) ->
 /// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
 /// device's lattice, and do not overlap; two share an edge.
 pub(super) fn is_tiling(subject: &Drawing, cell: i32) -> bool {
-    let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
-    let is_thick = |t: &Vec<Vertex>| {
-        let longest = [(0, 1), (1, 2), (2, 0)]
-            .map(|(i, j)| (t[i][0] - t[j][0]).powi(2) + (t[i][1] - t[j][1]).powi(2))
-            .into_iter()
-            .fold(0.0, f64::max);
-        area(t).powi(2) >= longest / 4.0
-    };
     let [first, rest @ ..] = &subject.0[..] else { return false };
-    let shares = |t: &Vec<Vertex>| edges(first).iter().any(|[a, b]| edges(t).contains(&[*b, *a]));
-    let is_apart = match rest {
+    for triangle in &subject.0 {
+        let mut longest: f64 = 0.0;
+        for [a, b] in edges(triangle) {
+            longest = longest.max((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
+        }
+        // Twice the area is the longest edge by the height on it.
+        let area_px2 = area(triangle);
+        if area_px2.powi(2) < longest / 4.0 || area_px2.signum() != area(first).signum() {
+            return false;
+        }
+    }
+    match rest {
         [] => true,
-        [second] => shares(second),
+        [second] => edges(first).iter().any(|[a, b]| edges(second).contains(&[*b, *a])),
         _ => covered(subject, cell).iter().all(|hits| *hits <= 1),
-    };
-    is_apart && subject.0.iter().all(|t| turns(t) && is_thick(t))
+    }
 }

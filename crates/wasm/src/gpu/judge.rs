@@ -1,6 +1,9 @@
 //! Compares what was read back with what is expected.
+//!
+//! A pixel that differs is a mark: it is allowed where the interface leaves the pixel open, and outside of what it promises elsewhere. A
+//! check is worth the worst of its marks. Of the lattice no subject alone says anything; all together show which one the device has.
 
-use super::expected::{Forgiving, Planes, expected, is_tiling, line_fits, planes};
+use super::expected::{Forgiving, Planes, expected, is_tiling, line_fits, pixels, planes};
 use super::place::{Place, RULES, cover, place};
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
 use base64::Engine as _;
@@ -8,6 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use glam::DVec2;
 use rasterproof_core::geometry::centre_of;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::perspective_bounds;
 use rasterproof_verify::oracle::segments::Fit;
@@ -57,6 +61,13 @@ struct Mark {
 /// A way to round a position, given in subpixels, to a step.
 type Rounding = fn(i32, i32) -> i32;
 
+/// Positions are rounded in one way to a lattice of so many bits below the pixel.
+struct Hypothesis {
+    bits: u32,
+    name: &'static str,
+    round: Rounding,
+}
+
 /// The ways that are told apart, by their names.
 const ROUNDINGS: [(&str, Rounding); 4] = [
     ("half to even", |v, step| nearest(v, step, |below| below % 2 != 0)),
@@ -69,49 +80,57 @@ const BITS: std::ops::RangeInclusive<u32> = 2..=8;
 /// Fewer than these break a promise of WebGL, which calls what a device says of itself an estimate.
 const LEAST_BITS: u32 = 4;
 
+/// The nearest multiple of a step; halfway between two, whether it is the upper one depends on the number of the lower one.
 fn nearest(v: i32, step: i32, up_of_half: fn(i32) -> bool) -> i32 {
     let (below, rest) = (v.div_euclid(step), 2 * v.rem_euclid(step));
     (below + i32::from(rest > step || (rest == step && up_of_half(below)))) * step
 }
 
 /// All hypotheses about positions, the coarsest lattice first.
-fn hypotheses() -> impl Iterator<Item = (u32, &'static str, Rounding)> {
-    BITS.flat_map(|bits| ROUNDINGS.iter().map(move |(name, round)| (bits, *name, *round)))
+fn hypotheses() -> Vec<Hypothesis> {
+    let mut all = Vec::new();
+    for bits in BITS {
+        for (name, round) in ROUNDINGS {
+            all.push(Hypothesis { bits, name, round });
+        }
+    }
+    all
 }
 
 impl Judge {
+    /// What the pixels of a batch are worth, with the first subject that breaks a promise and the first that differs as it may.
     pub fn answer(&self) -> Result<Value, String> {
         let Batch { check, device, .. } = self.batch;
         let (layout, list) = self.batch.subjects()?;
-        let is_overlapping = |s: &Drawing| !is_tiling(s, layout.cell);
-        if check == Topic::Tiling && self.batch.only.as_ref().is_some_and(is_overlapping) {
+        // A subject that the page sends need not be a tiling.
+        if let (Topic::Tiling, Some(subject)) = (check, &self.batch.only)
+            && !is_tiling(subject, layout.cell)
+        {
             return Err(
                 "the triangles overlap, share no edge, turn differently, or are thin".to_owned()
             );
         }
         let read = Pixels::read(check, device, layout, &self.pixels)?;
         let mut tally = self.tally.clone();
-        let mut examples: [Option<&Drawing>; 2] = [None, None];
+        let (mut broken, mut free) = (None, None);
         let (mut coarse, mut view) = (None, Value::Null);
         for (index, subject) in list.iter().enumerate() {
             let cell = read.cell(index);
             let judged = judged(check, device, subject, &cell);
             judged.add_to(&mut tally, subject);
-            let word = judged.word();
-            for (example, wanted) in examples.iter_mut().zip([Standing::Outside, Standing::Allowed])
-            {
-                if word == wanted {
-                    example.get_or_insert(subject);
-                }
+            // The first of each kind is shown; later ones say nothing more.
+            match judged.word() {
+                Standing::Outside => broken = broken.or(Some(subject)),
+                Standing::Allowed => free = free.or(Some(subject)),
+                _ => {}
             }
             if check == Topic::Lattice && judged.fails(check, device) {
-                coarse.get_or_insert(subject);
+                coarse = coarse.or(Some(subject));
             }
             if self.batch.only.is_some() {
                 view = judged.view(check, device, subject, &cell);
             }
         }
-        let [mut broken, free] = examples;
         let mut word = word(check, device, &tally);
         // One case alone breaks no promise about the lattice: all together do, and this one is why.
         if check == Topic::Lattice {
@@ -136,10 +155,11 @@ pub(super) fn failing(
     subjects: &[Drawing],
 ) -> Result<Vec<bool>, String> {
     let read = Pixels::read(check, device, layout, pixels)?;
-    let fails = |(index, subject): (usize, &Drawing)| {
-        judged(check, device, subject, &read.cell(index)).fails(check, device)
-    };
-    Ok(subjects.iter().enumerate().map(fails).collect())
+    let mut fail = Vec::new();
+    for (index, subject) in subjects.iter().enumerate() {
+        fail.push(judged(check, device, subject, &read.cell(index)).fails(check, device));
+    }
+    Ok(fail)
 }
 
 /// What was read back of a picture.
@@ -151,6 +171,7 @@ pub(super) struct Pixels {
 }
 
 impl Pixels {
+    /// Decodes what the page sends; a picture of another size than the layout's is refused.
     pub(super) fn read(
         check: Topic,
         device: Device,
@@ -158,6 +179,7 @@ impl Pixels {
         pixels: &str,
     ) -> Result<Self, String> {
         let values = check == Topic::Values;
+        // Digits are shorter than numbers and need no decoder; values are too many bits for a digit.
         let bytes = match values {
             true => STANDARD.decode(pixels).map_err(|e| e.to_string())?,
             false => pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
@@ -176,6 +198,7 @@ impl Pixels {
     }
 }
 
+/// The part of a picture in which one subject was drawn.
 pub(super) struct Cell<'a> {
     layout: Layout,
     origin: [i32; 2],
@@ -184,17 +207,21 @@ pub(super) struct Cell<'a> {
 }
 
 impl Cell<'_> {
+    /// The bytes of a row of the cell.
     pub(super) fn row(&self, y: i32) -> &[u8] {
         let [x0, y0] = self.origin;
         let start = ((y0 + y) * self.layout.side + x0) as usize * self.size;
         &self.bytes[start..start + self.layout.cell as usize * self.size]
     }
 
+    /// The hits of the cell, plane by plane: in the picture the planes of a pixel lie side by side.
     fn planes(&self) -> Planes {
         let mut planes = vec![Vec::new(); self.size];
         for y in 0..self.layout.cell {
             for pixel in self.row(y).chunks_exact(self.size) {
-                planes.iter_mut().zip(pixel).for_each(|(plane, hits)| plane.push(*hits));
+                for (plane, hits) in planes.iter_mut().zip(pixel) {
+                    plane.push(*hits);
+                }
             }
         }
         planes
@@ -203,14 +230,15 @@ impl Cell<'_> {
     /// Depth, two attributes, and whether anything is drawn.
     fn values(&self, x: i32, y: i32) -> [f64; 4] {
         let pixel = &self.row(y)[x as usize * 16..][..16];
-        let word = |i: usize| {
-            let bytes = [pixel[i], pixel[i + 1], pixel[i + 2], pixel[i + 3]];
-            f64::from(f32::from_le_bytes(bytes))
-        };
-        [word(0), word(4), word(8), word(12)]
+        let mut values = [0.0; 4];
+        for (value, bytes) in values.iter_mut().zip(pixel.as_chunks().0) {
+            *value = f64::from(f32::from_le_bytes(*bytes));
+        }
+        values
     }
 }
 
+/// What came of one subject.
 #[derive(Default)]
 struct PictureJudgement {
     ours: Planes,
@@ -221,15 +249,18 @@ struct PictureJudgement {
     worst: f64,
 }
 
+/// Compares what was read of a subject with what is expected of it.
 fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
     let side = cell.layout.cell;
     if check == Topic::Values {
         return values(device, subject, cell);
     }
     let (mut ours, mut theirs) = (expected(check, device, subject, side), cell.planes());
+    // The first drawing is what the second is judged by.
     if check == Topic::Twice {
         ours = vec![theirs.remove(0)];
     }
+    // The marks say how each pixel that differs stands to the interface.
     let mut marks = Vec::new();
     if ours != theirs {
         let forgiving = Forgiving::new(check, device, subject);
@@ -249,14 +280,14 @@ fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Pictu
     match check {
         Topic::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
         Topic::Coverage | Topic::Reach if judged.word() == Standing::Allowed => {
-            judged.explained = RULES[1..]
-                .iter()
-                .map(|rule| {
-                    let mut hits = vec![0; (side * side) as usize];
-                    subject.corners().iter().for_each(|c| cover(c, *rule, [0, 0], side, &mut hits));
-                    hits == judged.theirs[0]
-                })
-                .collect();
+            // Another rule for samples on edges may be what the device has.
+            for rule in &RULES[1..] {
+                let mut hits = vec![0; (side * side) as usize];
+                for corners in subject.corners() {
+                    cover(&corners, *rule, [0, 0], side, &mut hits);
+                }
+                judged.explained.push(hits == judged.theirs[0]);
+            }
         }
         Topic::Lines => lines(device, subject, side, &mut judged),
         _ => {}
@@ -267,52 +298,71 @@ fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Pictu
 /// Which hypotheses about positions explain the pixels of a subject, whatever the rule for samples on edges.
 fn explaining(subject: &Drawing, hits: &[u8], side: i32) -> Vec<bool> {
     let corners = subject.corners();
-    let total: u32 = hits.iter().map(|hits| u32::from(*hits)).sum();
-    let explains = |(bits, _, round): (u32, &str, Rounding)| {
+    let mut explained = Vec::new();
+    for Hypothesis { bits, round, .. } in hypotheses() {
         let step = SUBPIXELS >> bits;
-        corners.iter().all(|c| {
-            let snapped = c.map(|p| SubpixelPoint::new(round(p.x, step), round(p.y, step)));
-            let px = |v: [i32; 3]| {
-                let (low, high) = v.iter().fold((i32::MAX, 0), |(a, b), v| (a.min(*v), b.max(*v)));
-                (low / SUBPIXELS).max(0)..(high / SUBPIXELS + 1).min(side)
+        let mut all = true;
+        for corners in &corners {
+            let snapped = corners.map(|p| SubpixelPoint::new(round(p.x, step), round(p.y, step)));
+            all = all && has_pixels(&snapped, hits, side);
+        }
+        explained.push(all);
+    }
+    explained
+}
+
+/// Whether a triangle may have these hits and no others, whatever the rule for samples on edges.
+fn has_pixels(corners: &Corners, hits: &[u8], side: i32) -> bool {
+    let columns = pixels_of(corners.map(|p| p.x), side);
+    let mut inside = 0;
+    for y in pixels_of(corners.map(|p| p.y), side) {
+        for x in columns.clone() {
+            let hits = hits[(y * side + x) as usize];
+            inside += u32::from(hits);
+            let is_possible = match place(corners, centre_of(x, y)) {
+                Place::Inside => hits == 1,
+                Place::Edge => hits <= 1,
+                Place::Outside => hits == 0,
             };
-            let (columns, rows) = (px(snapped.map(|p| p.x)), px(snapped.map(|p| p.y)));
-            // Outside of the box around the corners nothing may be hit, so all hits are inside.
-            let mut inside = 0;
-            rows.into_iter().all(|y| {
-                columns.clone().all(|x| {
-                    let hits = hits[(y * side + x) as usize];
-                    inside += u32::from(hits);
-                    match place(&snapped, centre_of(x, y)) {
-                        Place::Inside => hits == 1,
-                        Place::Edge => hits <= 1,
-                        Place::Outside => hits == 0,
-                    }
-                })
-            }) && inside == total
-        })
-    };
-    hypotheses().map(explains).collect()
+            if !is_possible {
+                return false;
+            }
+        }
+    }
+    // Outside of the box around the corners nothing may be hit, so all hits are inside.
+    inside == hits.iter().map(|hits| u32::from(*hits)).sum::<u32>()
+}
+
+/// The columns or rows of a cell from the smallest to the largest of three coordinates.
+fn pixels_of([a, b, c]: [i32; 3], side: i32) -> std::ops::Range<i32> {
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c).max(0));
+    (low / SUBPIXELS).max(0)..(high / SUBPIXELS + 1).min(side)
 }
 
 /// Whether only lattices that are too coarse for WebGL explain a case.
 fn is_coarse(explained: &[bool]) -> bool {
-    let bits = hypotheses().zip(explained).filter(|(_, so)| **so).map(|((bits, ..), _)| bits);
-    bits.max().is_some_and(|most| most < LEAST_BITS)
+    let mut finest = None;
+    for (hypothesis, explains) in hypotheses().iter().zip(explained) {
+        if *explains {
+            finest = finest.max(Some(hypothesis.bits));
+        }
+    }
+    finest.is_some_and(|bits| bits < LEAST_BITS)
 }
 
 /// What the specification asks of lines: WebGL the diamond-exit rule, give or take a pixel; WebGPU nothing.
 fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut PictureJudgement) {
-    let hits = &judged.theirs[0];
-    let lit = (0..).zip(hits).filter(|(_, hits)| **hits > 0);
-    let lit = lit.map(|(at, _)| (at % side, at / side)).collect();
     let Some(ends) = subject.ends().first().copied() else { return };
+    let hits = &judged.theirs[0];
+    let lit = pixels(side).zip(hits).filter(|(_, hits)| **hits > 0).map(|(px, _)| px).collect();
     let fits = line_fits(device, &ends, &lit, side);
     judged.explained = fits.iter().map(|fit| *fit == Fit::Equal).collect();
     let broken = device.interface == Interface::Webgl2
         && (fits[0] == Fit::Outside || hits.iter().any(|hits| *hits > 1));
-    let word = if broken { Standing::Outside } else { Standing::Allowed };
-    judged.marks.iter_mut().for_each(|mark| mark.word = word);
+    // The rule is about all pixels of a line together, so all of its marks are alike.
+    for mark in &mut judged.marks {
+        mark.word = if broken { Standing::Outside } else { Standing::Allowed };
+    }
 }
 
 /// Depth and attributes in perspective against exact ones.
@@ -329,13 +379,15 @@ fn values(device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
         ExactTriangle::new(&triangle.corners(), v.map(|v| v.depth), v.map(|v| v.inv_w), attributes);
     let Some(exact) = exact else { return judged };
     let step = f64::from(device.step()) / f64::from(SUBPIXELS);
-    for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
+    for (at, (x, y)) in pixels(side).enumerate() {
         let drawn = cell.values(x, y);
-        judged.theirs[0][(y * side + x) as usize] = u8::from(drawn[3] != 0.0);
+        judged.theirs[0][at] = u8::from(drawn[3] != 0.0);
+        // On an edge the pixel itself is open, and so are its values.
         if place(&triangle.corners(), centre_of(x, y)) != Place::Inside {
             continue;
         }
-        judged.ours[0][(y * side + x) as usize] = 1;
+        judged.ours[0][at] = 1;
+        // Every fifth pixel is enough, since exact values take most of the time.
         if drawn[3] == 0.0 || (x + y) % 5 != 0 {
             continue;
         }
@@ -353,6 +405,7 @@ fn values(device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
                 let note = format!("{}: exact {}, drawn {}", names[i], exact.to_f64(), drawn[i]);
                 judged.marks.push(Mark { plane: 0, x, y, word, note });
             }
+            // How near the worst value came to its bound is shown also where all of them keep it.
             if error.is_finite() && bound > 0.0 {
                 judged.worst = judged.worst.max(error / bound);
             }
@@ -364,30 +417,36 @@ fn values(device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
 /// How much depth and attributes change within a step of the lattice around a pixel's centre: an interface
 /// promises positions no more exactly. A quotient of linear functions is largest and smallest at corners.
 fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
+    let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let middle = values_at(triangle, centre);
+    let mut most = [0.0_f64; 3];
+    for (dx, dy) in [(-step, -step), (step, -step), (-step, step), (step, step)] {
+        let corner = values_at(triangle, DVec2::new(centre.x + dx, centre.y + dy));
+        for i in 0..3 {
+            most[i] = most[i].max((corner[i] - middle[i]).abs());
+        }
+    }
+    most
+}
+
+/// Depth and two attributes of a triangle's plane at a place, in f64.
+fn values_at(triangle: &Triangle, s: DVec2) -> [f64; 3] {
     let v = &triangle.vertices;
     let px = triangle.corners().map(|p| DVec2::from(p.to_px()));
-    let at = |dx: f64, dy: f64| {
-        let s = DVec2::new(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
-        let cross = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-        let area = cross(px[0], px[1], px[2]);
-        let weights = [0, 1, 2].map(|i| cross(px[(i + 1) % 3], px[(i + 2) % 3], s) / area);
-        let sum = |values: [f64; 3]| weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
-        let over_w = |values: [f64; 3]| sum([0, 1, 2].map(|i| values[i] * v[i].inv_w));
-        let w = over_w([1.0; 3]);
-        // Where w vanishes within the step nothing bounds the value.
-        let quotient = |values| if w > 0.0 { over_w(values) / w } else { f64::INFINITY };
-        [
-            sum(v.map(|v| v.depth)),
-            quotient(v.map(|v| v.varying.x)),
-            quotient(v.map(|v| v.varying.y)),
-        ]
-    };
-    let middle = at(0.0, 0.0);
-    let corners = [at(-step, -step), at(step, -step), at(-step, step), at(step, step)];
-    [0, 1, 2].map(|i| corners.iter().fold(0.0, |most: f64, c| most.max((c[i] - middle[i]).abs())))
+    let cross = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+    let area = cross(px[0], px[1], px[2]);
+    let weights = [0, 1, 2].map(|i| cross(px[(i + 1) % 3], px[(i + 2) % 3], s) / area);
+    let sum = |values: [f64; 3]| weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
+    let over_w = |values: [f64; 3]| sum([0, 1, 2].map(|i| values[i] * v[i].inv_w));
+    let w = over_w([1.0; 3]);
+    // Where w vanishes within the step nothing bounds the value.
+    let quotient = |values| if w > 0.0 { over_w(values) / w } else { f64::INFINITY };
+    let (a, b) = (v.map(|v| v.varying.x), v.map(|v| v.varying.y));
+    [sum(v.map(|v| v.depth)), quotient(a), quotient(b)]
 }
 
 impl PictureJudgement {
+    /// The worst of its marks.
     fn word(&self) -> Standing {
         self.marks.iter().map(|mark| mark.word).max().unwrap_or(Standing::Equal)
     }
@@ -400,6 +459,7 @@ impl PictureJudgement {
         }
     }
 
+    /// Counts it among the subjects of the check.
     fn add_to(&self, tally: &mut Tally, Drawing(shapes): &Drawing) {
         tally.subjects += 1;
         tally.shapes += shapes.len() as u64;
@@ -415,15 +475,13 @@ impl PictureJudgement {
 
     /// The subject for the page to draw large.
     fn view(&self, check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Value {
-        let digits = |planes: &Planes| -> Vec<String> {
-            let digit = |hits: &u8| char::from(b'0' + (*hits).min(9));
-            planes.iter().map(|plane| plane.iter().map(digit).collect()).collect()
-        };
-        // A triangle behind the eye has no outline.
-        let outline = |t: &Vec<super::Vertex>| -> Option<Vec<[f64; 2]>> {
-            t.iter().map(|v| (v[3] > 0.0).then(|| [v[0] / v[3], v[1] / v[3]])).collect()
-        };
-        let outlines: Vec<_> = subject.0.iter().filter_map(outline).collect();
+        let mut outlines: Vec<Vec<[f64; 2]>> = Vec::new();
+        for shape in &subject.0 {
+            // A triangle behind the eye has no outline.
+            if shape.iter().all(|v| v[3] > 0.0) {
+                outlines.push(shape.iter().map(|v| [v[0] / v[3], v[1] / v[3]]).collect());
+            }
+        }
         let samples = match check {
             Topic::Samples if device.samples_apart => super::expected::SAMPLES.to_vec(),
             _ => Vec::new(),
@@ -435,19 +493,42 @@ impl PictureJudgement {
     }
 }
 
-/// The hypothesis about positions that explains most.
-fn best_hypothesis(tally: &Tally) -> Option<(u64, u32, &'static str)> {
-    let all = hypotheses().zip(&tally.explained).map(|((bits, name, _), n)| (*n, bits, name));
-    // The first of those that explain as much.
-    all.reduce(|best, next| if next.0 > best.0 { next } else { best })
+/// Hits as a digit for each pixel, as the page sends them.
+fn digits(planes: &Planes) -> Vec<String> {
+    let mut lines = Vec::new();
+    for plane in planes {
+        lines.push(plane.iter().map(|hits| char::from(b'0' + (*hits).min(9))).collect());
+    }
+    lines
 }
 
+/// What positions are rounded to, and how many subjects that explains.
+#[derive(Default)]
+struct RoundedPositions {
+    explained: u64,
+    bits: u32,
+    rounding: &'static str,
+}
+
+/// The hypothesis about positions that explains most; the first of those that explain as much.
+fn best_hypothesis(tally: &Tally) -> RoundedPositions {
+    let mut best: Option<RoundedPositions> = None;
+    for (Hypothesis { bits, name, .. }, &explained) in hypotheses().iter().zip(&tally.explained) {
+        if best.as_ref().is_none_or(|best| explained > best.explained) {
+            best = Some(RoundedPositions { explained, bits: *bits, rounding: name });
+        }
+    }
+    best.unwrap_or_default()
+}
+
+/// What a check is worth after all of its batches.
 fn word(check: Topic, device: Device, tally: &Tally) -> Standing {
     if tally.broken > 0 {
         return Standing::Outside;
     }
     if check == Topic::Lattice {
-        let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
+        let RoundedPositions { explained, bits, rounding } = best_hypothesis(tally);
+        // Who rounds down has moved the pixel's centre, which is no lattice.
         let is_known = explained == tally.subjects && rounding != "down";
         // WebGPU says nothing of positions: what is finer than every question is as they are given.
         let wanted = match device.interface {
@@ -467,12 +548,17 @@ fn word(check: Topic, device: Device, tally: &Tally) -> Standing {
 fn facts(check: Topic, tally: &Tally) -> Value {
     match check {
         Topic::Lattice => {
-            let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
-            let finest = hypotheses().zip(&tally.explained).filter(|(_, n)| **n == tally.subjects);
-            let finest = finest.map(|((bits, ..), _)| bits).max();
+            let RoundedPositions { explained, bits, rounding } = best_hypothesis(tally);
+            let mut finest = None;
+            for (hypothesis, n) in hypotheses().iter().zip(&tally.explained) {
+                if *n == tally.subjects {
+                    finest = finest.max(Some(hypothesis.bits));
+                }
+            }
             json!({ "bits": bits, "rounding": rounding, "explained": explained, "finest": finest })
         }
         Topic::Coverage | Topic::Reach => {
+            // The rule, in the order of `RULES`, that explains every subject which differs.
             let names = ["top-right", "bottom-left", "bottom-right"];
             let rule = names.iter().zip(&tally.explained).find(|(_, n)| **n == tally.free);
             json!({ "rule": rule.map(|(name, _)| name) })

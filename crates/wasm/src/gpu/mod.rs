@@ -119,6 +119,7 @@ struct Layout {
 }
 
 impl Layout {
+    /// Cells in a row of the picture.
     fn columns(self) -> i32 {
         self.side / self.cell - 2 * self.margin
     }
@@ -155,14 +156,18 @@ pub(crate) struct Plan {}
 
 impl Plan {
     pub fn answer(&self) -> Value {
-        let all = subjects::PLAN.iter().flat_map(|(check, batches)| {
-            (0..*batches).map(move |number| json!({ "check": check, "number": number }))
-        });
-        json!({ "batches": all.collect::<Vec<_>>() })
+        let mut all = Vec::new();
+        for (check, batches) in &subjects::PLAN {
+            for number in 0..*batches {
+                all.push(json!({ "check": check, "number": number }));
+            }
+        }
+        json!({ "batches": all })
     }
 }
 
 impl Batch {
+    /// Draws a subject of its own in place of those of a number.
     fn subjects(&self) -> Result<(Layout, Vec<Drawing>), String> {
         let (mut layout, mut list) = subjects::of(self.check, self.device, self.seed, self.number);
         if let Some(subject) = &self.only {
@@ -205,8 +210,9 @@ impl Device {
             let origin = layout.origin(index);
             draws.push([vertices.len() as i32, origin[0], origin[1]]);
             for vertex in vertices {
-                let numbers = self.clip(vertex, layout.side, origin);
-                bytes.extend(numbers.iter().flat_map(|v| v.to_le_bytes()));
+                for number in self.clip(vertex, layout.side, origin) {
+                    bytes.extend(number.to_le_bytes());
+                }
             }
         }
         json!({

@@ -18,14 +18,17 @@ pub(super) enum Place {
 /// The place of a sample. Of a triangle without area nothing is inside and everything on it is an edge.
 pub(super) fn place(&[a, b, c]: &Corners, sample: SubpixelPoint) -> Place {
     let area = twice_area(&[a, b, c]);
-    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| twice_area(&[p, q, sample]) * area.signum());
-    if area == 0 {
-        let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(p, q)| on_segment(p, q, sample));
-        return if ab || bc || ca { Place::Edge } else { Place::Outside };
+    // The smallest of the three edge functions decides, with their signs turned where the corners run the other way round.
+    let mut least = i128::MAX;
+    for (p, q) in [(a, b), (b, c), (c, a)] {
+        if area == 0 && on_segment(p, q, sample) {
+            return Place::Edge;
+        }
+        least = least.min(twice_area(&[p, q, sample]) * area.signum());
     }
-    match sides.iter().min() {
-        Some(0) => Place::Edge,
-        Some(1..) => Place::Inside,
+    match least {
+        0 if area != 0 => Place::Edge,
+        1.. => Place::Inside,
         _ => Place::Outside,
     }
 }
@@ -38,15 +41,20 @@ fn on_segment(p: SubpixelPoint, q: SubpixelPoint, sample: SubpixelPoint) -> bool
 
 /// Whether a sample lies on an edge that two triangles share, one on each side, and on no end of it.
 pub(super) fn on_shared_edge(triangles: &[Corners], sample: SubpixelPoint) -> bool {
-    let edges = |t: &Corners| [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(i, j, k)| (t[i], t[j], t[k]));
-    let mut found = Vec::new();
-    for (p, q, apex) in triangles.iter().flat_map(edges) {
-        if p != sample && q != sample && on_segment(p, q, sample) {
-            found.push(if (p.x, p.y) < (q.x, q.y) { (p, q, apex) } else { (q, p, apex) });
+    // The edges through the sample, from left to right, and the corners opposite to them.
+    let (mut edges, mut apexes) = (Vec::new(), Vec::new());
+    for corners in triangles {
+        for i in 0..3 {
+            let (p, q) = (corners[i], corners[(i + 1) % 3]);
+            if p != sample && q != sample && on_segment(p, q, sample) {
+                edges.push(if (p.x, p.y) < (q.x, q.y) { [p, q] } else { [q, p] });
+                apexes.push(corners[(i + 2) % 3]);
+            }
         }
     }
-    let [(p, q, a), (r, s, b)] = found[..] else { return false };
-    (p, q) == (r, s) && twice_area(&[p, q, a]).signum() * twice_area(&[p, q, b]).signum() < 0
+    let [[p, q], other] = edges[..] else { return false };
+    let [one_side, other_side] = [0, 1].map(|i| twice_area(&[p, q, apexes[i]]).signum());
+    [p, q] == other && one_side * other_side < 0
 }
 
 /// The rules that are told apart: those of a window whose axes may be turned over.
@@ -62,6 +70,7 @@ pub(super) fn cover(
     cell: i32,
     hits: &mut [u8],
 ) {
+    // The corners are turned over before the oracle sees them, and its pixels are turned back: so its left edges are right ones.
     let flip = |v: i32, turn: bool| if turn { cell * SUBPIXELS - v } else { v };
     let image = corners
         .map(|p| SubpixelPoint::new(flip(p.x + moved[0], turn_x), flip(p.y + moved[1], turn_y)));

@@ -1,5 +1,8 @@
 //! The search for the smallest subject that fails. Subjects that are a step smaller are drawn in one picture, and the search goes on from
 //! the first of them that fails.
+//!
+//! A subject is smaller with fewer shapes, then with a smaller box, then with simpler numbers. Each step keeps it a subject that its check
+//! could ask for, so that what is found can be drawn on the page and reported.
 
 use std::cell::RefCell;
 
@@ -31,6 +34,7 @@ impl Judge {
         let Batch { check, device, ref only, .. } = self.batch;
         let steps = DrawingSteps { check, device };
         WAITING.with_borrow_mut(|waiting| {
+            // A page that sends a subject begins anew; one that sends a picture alone goes on.
             if let Some(subject) = only {
                 layout_for(check, subject)?;
                 let search = SmallerSearch::new(subject.clone(), &steps);
@@ -63,11 +67,10 @@ impl Steps for DrawingSteps {
     type Case = Drawing;
 
     fn candidates(&self, _: usize, subject: &Drawing) -> Vec<Drawing> {
-        let layout = layout_for(self.check, subject);
-        layout.map_or_else(
-            |_| Vec::new(),
-            |layout| smaller(self.check, self.device, subject, layout.cell),
-        )
+        match layout_for(self.check, subject) {
+            Ok(layout) => smaller(self.check, self.device, subject, layout.cell),
+            Err(_) => Vec::new(),
+        }
     }
 
     /// Candidates are smaller as they are made.
@@ -102,125 +105,183 @@ fn smaller_corners(check: Topic, device: Device, subject: &Drawing, cell: i32) -
     let list = subject.corners().into_iter().map(plain_triangle).collect();
     let window = PixelRect::window(cell as u32, cell as u32);
     let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
-    let corners = |case: Case| match case.shape {
-        Shape::Triangles { list, .. } => list.iter().map(|t| t.corners()).collect::<Vec<_>>(),
-        _ => Vec::new(),
-    };
-    let fits = |v: i32| {
-        let range = if check == Topic::Reach { -7 * cell..=8 * cell } else { 0..=cell };
-        v % step == 0 && (range.start() * SUBPIXELS..=range.end() * SUBPIXELS).contains(&v)
-    };
-    let fits = |all: &Vec<Corners>| all.iter().flatten().all(|p| fits(p.x) && fits(p.y));
-    smaller_cases(&case)
-        .into_iter()
-        .filter(|smaller| smaller.window == window)
-        .map(corners)
-        .filter(fits)
-        .map(|all| Drawing(all.into_iter().map(triangle).collect()))
-        .collect()
+    // Corners that reach beyond their cell do so in this check alone.
+    let (low, high) = if check == Topic::Reach { (-7 * cell, 8 * cell) } else { (0, cell) };
+    let range = low * SUBPIXELS..=high * SUBPIXELS;
+    let fits = |v: i32| v % step == 0 && range.contains(&v);
+    let mut found = Vec::new();
+    // The cell stays as large as it is, since the picture is divided into such cells.
+    for case in smaller_cases(&case).into_iter().filter(|smaller| smaller.window == window) {
+        let Shape::Triangles { list, .. } = case.shape else { continue };
+        let all: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+        if all.iter().flatten().all(|p| fits(p.x) && fits(p.y)) {
+            found.push(Drawing(all.into_iter().map(triangle).collect()));
+        }
+    }
+    found
 }
 
 /// Of a triangle in clip space: a coordinate nearer to 0, of which few bits are kept. No corner comes to lie in
 /// the near plane, or nearer than w = 1 before the eye: those are dangers of their own.
 fn smaller_whole(subject: &Drawing) -> Vec<Drawing> {
     let Some(corners) = whole(subject) else { return Vec::new() };
-    let coordinates = (0..3).flat_map(|corner| (0..4).map(move |axis| (corner, axis)));
-    coordinates
-        .flat_map(|(corner, axis)| {
+    let mut found = Vec::new();
+    for corner in 0..3 {
+        for axis in 0..4 {
             let v: i64 = corners[corner][axis];
-            let simpler = [0, v / 2, v / 64 * 64, v / 8 * 8, v - v.signum()];
-            simpler.into_iter().filter(move |smaller| *smaller != v).map(move |smaller| {
-                let mut corners = corners;
-                corners[corner][axis] = smaller;
-                corners
-            })
-        })
-        .filter(|corners| corners.iter().all(|[.., z, w]| *z != 0 && (*w <= 0 || *w >= 64)))
-        .map(|corners| Drawing(vec![corners.map(from_whole).to_vec()]))
-        .collect()
+            for simpler in [0, v / 2, v / 64 * 64, v / 8 * 8, v - v.signum()] {
+                let mut smaller = corners;
+                smaller[corner][axis] = simpler;
+                let is_safe = smaller.iter().all(|[.., z, w]| *z != 0 && (*w <= 0 || *w >= 64));
+                if simpler != v && is_safe {
+                    found.push(Drawing(vec![smaller.map(from_whole).to_vec()]));
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The shapes of a subject with x, y and depth divided by w.
 type Shapes = Vec<Vec<Vertex>>;
 
-/// Divides x, y and depth by w, or multiplies them by it.
-fn scaled([x, y, z, w, a, b]: Vertex, by: f64) -> Vertex {
-    [x * by, y * by, z * by, w, a, b]
+/// Divides x, y and depth by w.
+fn divided(Drawing(shapes): &Drawing) -> Shapes {
+    let mut all = shapes.clone();
+    for vertex in all.iter_mut().flatten() {
+        let by = 1.0 / vertex[3];
+        for number in &mut vertex[..3] {
+            *number *= by;
+        }
+    }
+    all
+}
+
+/// Multiplies x, y and depth by w.
+fn multiplied(mut shapes: Shapes) -> Drawing {
+    for vertex in shapes.iter_mut().flatten() {
+        let by = vertex[3];
+        for number in &mut vertex[..3] {
+            *number *= by;
+        }
+    }
+    Drawing(shapes)
 }
 
 /// Of subjects with values: fewer shapes, nearer to each other and to the cell's corner, with simpler numbers.
 fn smaller_numbers(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
-    let shapes: Shapes =
-        subject.0.iter().map(|t| t.iter().map(|v| scaled(*v, 1.0 / v[3])).collect()).collect();
+    let shapes = divided(subject);
     let mut found = fewer(&shapes);
-    found.extend([1.0, 2.0, 4.0, 8.0].map(|px| canonical(check, &shapes, px)));
-    let mut moved = |by: &dyn Fn(f64, usize) -> f64| {
-        let mut all = shapes.clone();
-        for vertex in all.iter_mut().flatten() {
-            [0, 1].into_iter().for_each(|axis| vertex[axis] = by(vertex[axis], axis));
-        }
-        found.push(all);
-    };
-    for px in [16.0, 4.0, 1.0] {
-        moved(&|v, axis| if axis == 0 { v - px } else { v });
-        moved(&|v, axis| if axis == 1 { v - px } else { v });
+    for px in [1.0, 2.0, 4.0, 8.0] {
+        found.push(canonical(check, &shapes, px));
     }
+    add_changed_alike(&shapes, &mut found);
+    // Of more shapes than a pixel needs some go first.
+    if shapes.len() <= 4 {
+        add_changed_singly(&shapes, &mut found);
+    }
+    // The smallest first, so that few steps lead far.
+    found.sort_by(|a, b| size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal));
+    // Many of them are larger or are none that the check could ask for.
+    let current = size(&shapes);
+    let mut smaller = Vec::new();
+    for all in found {
+        if size(&all) < current && is_valid(check, device, &shapes, &all, cell) {
+            let subject = multiplied(all);
+            if check != Topic::Tiling || is_tiling(&subject, cell) {
+                smaller.push(subject);
+            }
+        }
+    }
+    smaller
+}
+
+/// Adds shapes all of whose vertices are changed in one way.
+fn add_changed_alike(shapes: &Shapes, found: &mut Vec<Shapes>) {
+    // To the left or up by some pixels.
+    for px in [16.0, 4.0, 1.0] {
+        for axis in 0..2 {
+            let mut all = shapes.clone();
+            for vertex in all.iter_mut().flatten() {
+                vertex[axis] -= px;
+            }
+            found.push(all);
+        }
+    }
+    // To coarser positions, as large as they are or half as large.
     for per_px in [0.5, 1.0, 2.0, 4.0] {
-        moved(&|v, _| (v * per_px).floor() / per_px);
-        moved(&|v, _| (v / 2.0 * per_px).floor() / per_px);
+        for scale in [1.0, 0.5] {
+            let mut all = shapes.clone();
+            for vertex in all.iter_mut().flatten() {
+                for number in &mut vertex[..2] {
+                    *number = (*number * scale * per_px).floor() / per_px;
+                }
+            }
+            found.push(all);
+        }
     }
     // A value alike at all vertices, or depths one before the other.
-    for (axis, value) in (2..6).flat_map(|axis| [0.0, 0.5, 1.0].map(|value| (axis, value))) {
-        let mut all = shapes.clone();
-        all.iter_mut().flatten().for_each(|v| v[axis] = value);
-        found.push(all);
+    for axis in 2..6 {
+        for value in [0.0, 0.5, 1.0] {
+            let mut all = shapes.clone();
+            for vertex in all.iter_mut().flatten() {
+                vertex[axis] = value;
+            }
+            found.push(all);
+        }
     }
     for depths in [[0.25, 0.75], [0.75, 0.25]] {
         let mut all = shapes.clone();
         for (shape, depth) in all.iter_mut().zip(depths) {
-            shape.iter_mut().for_each(|v| v[2] = depth);
+            for vertex in shape {
+                vertex[2] = depth;
+            }
         }
         found.push(all);
     }
-    // Of more shapes than a pixel needs some go first.
-    let vertices: Vec<Vertex> = if shapes.len() <= 4 { shapes.concat() } else { Vec::new() };
+}
+
+/// Adds shapes with a simpler place or a simpler value of one vertex.
+fn add_changed_singly(shapes: &Shapes, found: &mut Vec<Shapes>) {
+    // The other numbers of a vertex stay as they are: what is changed singly is seen singly.
+    let vertices = shapes.concat();
     for v in &vertices {
-        // Vertices at one place move together.
-        let mut with = |axis: usize, value: [f64; 2]| {
-            let mut all = shapes.clone();
-            for vertex in all.iter_mut().flatten() {
-                match axis {
-                    0 if vertex[..2] == v[..2] => vertex[..2].copy_from_slice(&value),
-                    2.. if vertex == v => vertex[axis] = value[0],
-                    _ => {}
-                }
-            }
-            found.push(all);
-        };
+        // Halfway to the other vertices, on quarters of a pixel.
         for other in &vertices {
             let middle = |axis: usize| ((v[axis] + other[axis]) * 2.0).floor() / 4.0;
-            with(0, [middle(0), middle(1)]);
+            found.push(at_place(shapes, v, [middle(0), middle(1)]));
         }
-        let [xs, ys] = [v[0], v[1]].map(positions);
-        xs.iter().zip(&ys).for_each(|(x, y)| with(0, [*x, *y]));
-        xs.iter().for_each(|x| with(0, [*x, v[1]]));
-        ys.iter().for_each(|y| with(0, [v[0], *y]));
-        for (axis, number) in v.iter().enumerate().skip(2) {
-            simpler(*number).into_iter().for_each(|value| with(axis, [value, 0.0]));
+        let (xs, ys) = (positions(v[0]), positions(v[1]));
+        for (x, y) in xs.iter().zip(&ys) {
+            found.push(at_place(shapes, v, [*x, *y]));
+        }
+        for x in xs {
+            found.push(at_place(shapes, v, [x, v[1]]));
+        }
+        for y in ys {
+            found.push(at_place(shapes, v, [v[0], y]));
+        }
+        for axis in 2..6 {
+            for value in simpler(v[axis]) {
+                let mut all = shapes.clone();
+                for vertex in all.iter_mut().flatten().filter(|vertex| *vertex == v) {
+                    vertex[axis] = value;
+                }
+                found.push(all);
+            }
         }
     }
-    // The smallest first, so that few steps lead far.
-    found.sort_by(|a, b| size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal));
-    let current = size(&shapes);
-    let multiplied = |all: Shapes| {
-        Drawing(all.iter().map(|t| t.iter().map(|v| scaled(*v, v[3])).collect()).collect())
-    };
-    found
-        .into_iter()
-        .filter(|all| size(all) < current && is_valid(check, device, &shapes, all, cell))
-        .map(multiplied)
-        .filter(|subject| check != Topic::Tiling || is_tiling(subject, cell))
-        .collect()
+}
+
+/// The shapes with a vertex at another place. Vertices at one place move together.
+fn at_place(shapes: &Shapes, v: &Vertex, place: [f64; 2]) -> Shapes {
+    let mut all = shapes.clone();
+    for vertex in all.iter_mut().flatten() {
+        if vertex[..2] == v[..2] {
+            vertex[..2].copy_from_slice(&place);
+        }
+    }
+    all
 }
 
 /// The shapes with their values, as halves of a square at the origin: of a tiling one beside the other, else one
@@ -230,19 +291,28 @@ fn canonical(check: Topic, shapes: &Shapes, px: f64) -> Shapes {
     for (index, shape) in all.iter_mut().enumerate() {
         let is_second = check == Topic::Tiling && index % 2 == 1;
         let corners = [[px, 0.0], if is_second { [px, px] } else { [0.0, 0.0] }, [0.0, px]];
-        shape.iter_mut().zip(corners).for_each(|(v, corner)| v[..2].copy_from_slice(&corner));
+        for (vertex, corner) in shape.iter_mut().zip(corners) {
+            vertex[..2].copy_from_slice(&corner);
+        }
     }
     all
 }
 
 /// Each shape alone, each two, and all but one.
 fn fewer(shapes: &Shapes) -> Vec<Shapes> {
-    let n = shapes.len();
-    let alone = (0..n).map(|i| vec![shapes[i].clone()]);
-    let pairs =
-        (0..n).flat_map(|j| (0..j).map(move |i| vec![shapes[i].clone(), shapes[j].clone()]));
-    let without = (0..n).map(|i| [&shapes[..i], &shapes[i + 1..]].concat());
-    alone.chain(pairs).chain(without).filter(|all| !all.is_empty()).collect()
+    let mut found: Vec<Shapes> = shapes.iter().map(|shape| vec![shape.clone()]).collect();
+    for (j, second) in shapes.iter().enumerate() {
+        for first in &shapes[..j] {
+            found.push(vec![first.clone(), second.clone()]);
+        }
+    }
+    // Without the only shape nothing would be left.
+    if shapes.len() > 1 {
+        for i in 0..shapes.len() {
+            found.push([&shapes[..i], &shapes[i + 1..]].concat());
+        }
+    }
+    found
 }
 
 /// Simpler places of a coordinate in px.
@@ -262,15 +332,26 @@ fn simpler(v: f64) -> Vec<f64> {
 /// The number of shapes, then how far they reach in px, then how many bits behind the point their numbers need, then how large
 /// they are.
 pub(super) fn size(shapes: &Shapes) -> (usize, u32, u32, f64) {
-    let numbers = || shapes.iter().flatten().flatten();
-    let reach = |axis: usize| {
-        let values = || shapes.iter().flatten().map(|v| v[axis]);
-        (values().fold(0.0, f64::max) - values().fold(f64::INFINITY, f64::min)).ceil() as u32
-    };
-    // Behind the point.
-    let bits =
-        |v: &f64| (0..=52).find(|bits| (v * (1u64 << bits) as f64).fract() == 0.0).unwrap_or(53);
-    (shapes.len(), reach(0) + reach(1), numbers().map(bits).sum(), numbers().map(|v| v.abs()).sum())
+    let (mut low, mut high) = ([f64::INFINITY; 2], [0.0_f64; 2]);
+    let (mut bits, mut sum) = (0, 0.0);
+    for vertex in shapes.iter().flatten() {
+        for axis in 0..2 {
+            low[axis] = low[axis].min(vertex[axis]);
+            high[axis] = high[axis].max(vertex[axis]);
+        }
+        for number in vertex {
+            bits += bits_behind_point(*number);
+            sum += number.abs();
+        }
+    }
+    // Columns and rows count alike.
+    let reach = |axis: usize| (high[axis] - low[axis]).ceil() as u32;
+    (shapes.len(), reach(0) + reach(1), bits, sum)
+}
+
+/// How many bits behind the point a number needs; 53 where none are enough.
+fn bits_behind_point(v: f64) -> u32 {
+    (0..=52).find(|bits| (v * (1u64 << bits) as f64).fract() == 0.0).unwrap_or(53)
 }
 
 /// Whether a check could ask for these shapes, which were made of others.
@@ -279,10 +360,14 @@ fn is_valid(check: Topic, device: Device, before: &Shapes, shapes: &Shapes, cell
     let is_tiling = check == Topic::Tiling;
     let step = if is_tiling { 1.0 } else { f64::from(device.step()) } / f64::from(SUBPIXELS);
     let is_old = |v: f64| is_tiling && before.iter().flatten().any(|old| old[..2].contains(&v));
-    let lies =
-        |v: f64| (0.0..=f64::from(cell)).contains(&v) && ((v / step).fract() == 0.0 || is_old(v));
-    let is_right = |v: &Vertex| {
-        let [x, y, depth, w, a, _] = *v;
+    for vertex in shapes.iter().flatten() {
+        let [x, y, depth, w, a, _] = *vertex;
+        for v in [x, y] {
+            let is_in_cell = (0.0..=f64::from(cell)).contains(&v);
+            if !is_in_cell || (v / step).fract() != 0.0 && !is_old(v) {
+                return false;
+            }
+        }
         // Within the planes, even when rounded.
         let is_deep = (1.0 / 64.0..=63.0 / 64.0).contains(&depth);
         let has_values = match check {
@@ -291,17 +376,20 @@ fn is_valid(check: Topic, device: Device, before: &Shapes, shapes: &Shapes, cell
             Topic::Depth => w == 1.0 && before.iter().any(|t| t[0][4] == a),
             _ => depth == 0.5 && w == 1.0 && a == 1.0,
         };
-        lies(x) && lies(y) && is_deep && has_values
-    };
-    let has_extent = |shape: &Vec<Vertex>| {
-        let at = |i: usize| [shape[i][0], shape[i][1]];
-        if check == Topic::Lines { at(0) != at(1) } else { area(shape) != 0.0 }
-    };
-    let is_one = |t: &Vec<Vertex>| check != Topic::Depth || t.iter().all(|v| v[4] == t[0][4]);
-    let all_differ =
-        check != Topic::Depth || shapes.len() < 2 || shapes[0][0][4] != shapes[1][0][4];
-    shapes.iter().flatten().all(is_right)
-        && shapes.iter().all(has_extent)
-        && shapes.iter().all(is_one)
-        && all_differ
+        if !is_deep || !has_values {
+            return false;
+        }
+    }
+    for shape in shapes {
+        // A line of one point and a triangle without an area have no pixels that a rule decides.
+        let has_extent = match check {
+            Topic::Lines => shape[0][..2] != shape[1][..2],
+            _ => area(shape) != 0.0,
+        };
+        let is_one = check != Topic::Depth || shape.iter().all(|v| v[4] == shape[0][4]);
+        if !has_extent || !is_one {
+            return false;
+        }
+    }
+    check != Topic::Depth || shapes.len() < 2 || shapes[0][0][4] != shapes[1][0][4]
 }

@@ -1,4 +1,7 @@
 //! The subjects of each check: the hard cases of the comparison on the device's lattice, and some of this page.
+//!
+//! Every subject follows from a seed and its number, so that a page can ask for one again. A batch is as many subjects as one picture
+//! has cells; some that do not fit a cell are left out, and the next ones take their places.
 
 use super::{Device, Drawing, Interface, Layout, Topic, Vertex};
 use rasterproof_core::geometry::{ORDERS, twice_area};
@@ -50,6 +53,7 @@ const VALUES_SIDE: i32 = 512;
 /// Subjects of one picture at most.
 const MOST: usize = 4096;
 
+/// How cells of this size lie in the picture of a check.
 fn layout(check: Topic, cell: i32) -> Layout {
     let plain = Layout { side: SIDE, cell, margin: 0, scissor: false };
     match check {
@@ -64,6 +68,7 @@ fn layout(check: Topic, cell: i32) -> Layout {
 /// Cells that corners of [`Topic::Reach`] may be away.
 const REACH: i32 = 7;
 
+/// The side of the cells of a batch: as large as its subjects need, so that many fit into a picture.
 fn cell_of(check: Topic, number: u64) -> i32 {
     match check {
         Topic::Coverage | Topic::Twice => FAMILIES[(number % FAMILIES.len() as u64) as usize].1,
@@ -74,28 +79,34 @@ fn cell_of(check: Topic, number: u64) -> i32 {
     }
 }
 
+/// The layout for one subject, which comes from the page and may be anything.
 pub(super) fn layout_for(check: Topic, Drawing(shapes): &Drawing) -> Result<Layout, String> {
     let wanted = match check {
         Topic::Lines => 2,
         _ => 3,
     };
     let most = f64::from(SIDE);
-    let is_near = |[x, y, .., w, _, _]: &Vertex| {
-        check == Topic::NearPlane || (*w > 0.0 && (x / w).abs() <= most && (y / w).abs() <= most)
-    };
-    let vertices = || shapes.iter().flatten();
-    if shapes.is_empty()
-        || shapes.len() > 64
-        || shapes.iter().any(|shape| shape.len() != wanted)
-        || !vertices().flatten().all(|v| v.is_finite() && v.abs() <= most * most)
-        || !vertices().all(is_near)
-    {
+    let mut is_right = (1..=64).contains(&shapes.len());
+    for shape in shapes {
+        is_right &= shape.len() == wanted;
+        for [x, y, z, w, a, b] in shape {
+            let numbers = [x, y, z, w, a, b];
+            is_right &= numbers.iter().all(|v| v.is_finite() && v.abs() <= most * most);
+            // The near plane is asked about corners behind the eye, too.
+            let is_near = *w > 0.0 && (x / w).abs() <= most && (y / w).abs() <= most;
+            is_right &= check == Topic::NearPlane || is_near;
+        }
+    }
+    if !is_right {
         return Err(format!(
             "the case must hold 1 to 64 shapes of {wanted} vertices before the eye, within {SIDE} px"
         ));
     }
     // As large as the largest window of the check that has to be: corners decide.
-    let reach = vertices().fold(0, |most: i32, v| most.max(at(v).x).max(at(v).y));
+    let mut reach = 0;
+    for corner in shapes.iter().flatten().map(at) {
+        reach = reach.max(corner.x).max(corner.y);
+    }
     let least = match check {
         Topic::Coverage | Topic::Twice | Topic::Values => {
             *[8, 16, 32, 48].iter().find(|c| reach <= **c * SUBPIXELS).unwrap_or(&48)
@@ -111,6 +122,7 @@ fn plain(p: SubpixelPoint) -> Vertex {
     [px(p.x), px(p.y), 0.5, 1.0, 1.0, 0.0]
 }
 
+/// A triangle of such vertices.
 pub(super) fn triangle(corners: Corners) -> Vec<Vertex> {
     corners.map(plain).to_vec()
 }
@@ -124,36 +136,46 @@ pub(super) fn at([x, y, _, w, ..]: &Vertex) -> SubpixelPoint {
 impl Drawing {
     /// The corners of its triangles on the finest lattice.
     pub(super) fn corners(&self) -> Vec<Corners> {
-        self.0.iter().filter_map(|t| Some([at(t.first()?), at(t.get(1)?), at(t.get(2)?)])).collect()
+        let mut all = Vec::new();
+        for shape in &self.0 {
+            if let [a, b, c, ..] = &shape[..] {
+                all.push([a, b, c].map(at));
+            }
+        }
+        all
     }
 
+    /// Its triangles with depths, w and attributes.
     pub(super) fn triangles(&self) -> Vec<Triangle> {
-        let vertex = |v: &Vertex| ScreenVertex {
-            position: at(v),
-            depth: v[2] / v[3],
-            inv_w: 1.0 / v[3],
-            varying: glam::DVec2::new(v[4], v[5]),
-        };
-        let of = |t: &Vec<Vertex>| {
-            Some(ScreenTriangle {
-                vertices: [vertex(t.first()?), vertex(t.get(1)?), vertex(t.get(2)?)],
-            })
-        };
-        self.0.iter().filter_map(of).collect()
+        let mut all = Vec::new();
+        for shape in &self.0 {
+            if let [a, b, c, ..] = &shape[..] {
+                let vertices = [a, b, c].map(|v| ScreenVertex {
+                    position: at(v),
+                    depth: v[2] / v[3],
+                    inv_w: 1.0 / v[3],
+                    varying: glam::DVec2::new(v[4], v[5]),
+                });
+                all.push(ScreenTriangle { vertices });
+            }
+        }
+        all
     }
 }
 
 /// The vertices that are drawn of a subject. To see whether the order of corners matters, all six are drawn.
 pub(super) fn drawn(check: Topic, Drawing(shapes): &Drawing) -> Vec<Vertex> {
-    let orders: &[[usize; 3]] = match check {
-        Topic::Order => &ORDERS,
-        _ => return shapes.concat(),
-    };
-    let in_order =
-        |t: &Vec<Vertex>| orders.iter().flat_map(|o| o.map(|i| t[i])).collect::<Vec<_>>();
-    shapes.iter().flat_map(in_order).collect()
+    if check != Topic::Order {
+        return shapes.concat();
+    }
+    let mut vertices = Vec::new();
+    for shape in shapes {
+        vertices.extend(ORDERS.as_flattened().iter().map(|i| shape[*i]));
+    }
+    vertices
 }
 
+/// The family of this name.
 fn family(name: &str) -> Option<&'static Family> {
     triangles::FAMILIES.iter().find(|family| family.name == name)
 }
@@ -161,12 +183,17 @@ fn family(name: &str) -> Option<&'static Family> {
 /// The triangles of a case on the device's lattice; none where a corner leaves the cell.
 fn snapped(family: &Family, seed: u64, index: u64, step: i32, cell: i32) -> Option<Vec<Corners>> {
     let Shape::Triangles { list, .. } = family.case(seed, index).shape else { return None };
-    let all: Vec<Corners> = list
-        .iter()
-        .map(|t| t.corners().map(|p| SubpixelPoint::new(p.x & -step, p.y & -step)))
-        .collect();
-    let inside = |v: i32| (0..=cell * SUBPIXELS).contains(&v);
-    all.iter().flatten().all(|p| inside(p.x) && inside(p.y)).then_some(all)
+    let mut all: Vec<Corners> = Vec::new();
+    let range = 0..=cell * SUBPIXELS;
+    for triangle in list {
+        // A step is a power of two, so the mask rounds down.
+        let corners = triangle.corners().map(|p| SubpixelPoint::new(p.x & -step, p.y & -step));
+        if !corners.iter().all(|p| range.contains(&p.x) && range.contains(&p.y)) {
+            return None;
+        }
+        all.push(corners);
+    }
+    Some(all)
 }
 
 /// The subjects of a batch, and how they lie.
@@ -178,6 +205,7 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
     let name = format!("your-gpu-{check:?}");
     let one = |index: usize| -> Option<Drawing> {
         let index = number * MOST as u64 + index as u64;
+        // One generator for each subject, so that leaving one out changes no other.
         let mut rng = Rng::new(&name, seed, index);
         let mut on_lattice = |low_px: i32, high_px: i32| {
             let per_px = i64::from(SUBPIXELS / step);
@@ -192,6 +220,7 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
                 all.into_iter().map(triangle).collect()
             }
             Topic::Reach => {
+                // One corner in the cell, two of them up to seven cells away.
                 let far = |p: &mut dyn FnMut(i32, i32) -> SubpixelPoint| p(-REACH * cell, 8 * cell);
                 vec![triangle([on_lattice(0, cell), far(&mut on_lattice), far(&mut on_lattice)])]
             }
@@ -221,10 +250,13 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
             Topic::NearPlane => vec![clip_space(&mut rng, index)],
         }))
     };
+    // Twice as many as there is room for are tried, since some leave their cell.
     let mut list: Vec<Drawing> = (0..2 * room).filter_map(one).take(room).collect();
     // What faces the other way is drawn too, and is culled.
     if check == Topic::Facing {
-        list.iter_mut().step_by(2).for_each(|Drawing(shapes)| shapes[0].swap(1, 2));
+        for Drawing(shapes) in list.iter_mut().step_by(2) {
+            shapes[0].swap(1, 2);
+        }
     }
     (layout, list)
 }
@@ -249,24 +281,31 @@ fn tiling(rng: &mut Rng, cell: i32) -> Vec<Vec<Vertex>> {
         let whole = i * cell / 3 + rng.int(-1, 1) as i32;
         f64::from(whole) + (rng.signed() * 0.375) as f32 as f64
     };
-    let along = |i: i32, at: f64| match i {
-        0 => 0.0,
-        3 => f64::from(cell),
-        _ => at,
-    };
+    // Corners of the quadrilaterals; those on the border stay there.
     let mut points = [[[0.0; 2]; 4]; 4];
     for (j, row) in (0..).zip(&mut points) {
         for (i, point) in (0..).zip(row) {
-            *point = [along(i, inner(i)), along(j, inner(j))];
+            for (at, number) in point.iter_mut().zip([i, j]) {
+                let inside = inner(number);
+                *at = match number {
+                    0 => 0.0,
+                    3 => f64::from(cell),
+                    _ => inside,
+                };
+            }
         }
     }
-    let vertex = |[x, y]: [f64; 2]| [x, y, 0.5, 1.0, 1.0, 0.0];
     let mut shapes = Vec::new();
-    for (j, i) in (0..3).flat_map(|j| (0..3).map(move |i| (j, i))) {
-        let [a, b] = [points[j][i], points[j][i + 1]];
-        let [d, c] = [points[j + 1][i], points[j + 1][i + 1]];
-        let split = if rng.chance(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-        shapes.extend(split.map(|t| t.map(vertex).to_vec()));
+    for j in 0..3 {
+        for i in 0..3 {
+            let [a, b] = [points[j][i], points[j][i + 1]];
+            let [d, c] = [points[j + 1][i], points[j + 1][i + 1]];
+            // Either diagonal, so that the edges of neighbours meet in every way.
+            let split = if rng.chance(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+            for triangle in split {
+                shapes.push(triangle.map(|[x, y]| [x, y, 0.5, 1.0, 1.0, 0.0]).to_vec());
+            }
+        }
     }
     shapes
 }
@@ -274,45 +313,45 @@ fn tiling(rng: &mut Rng, cell: i32) -> Vec<Vec<Vertex>> {
 /// A line between positions of the lattice, pixel centres, or pixel corners, in turn.
 fn line(rng: &mut Rng, step: i32, cell: i32, index: u64) -> Option<Vec<Vertex>> {
     let (low, high) = (2, cell - 2);
-    let mut v = || {
-        let mut int = |low: i32, high: i32| rng.int(i64::from(low), i64::from(high)) as i32;
-        match index % 3 {
-            0 => int(low * SUBPIXELS / step, high * SUBPIXELS / step) * step,
-            1 => int(low, high - 1) * SUBPIXELS + HALF_PIXEL,
-            _ => int(low, high) * SUBPIXELS,
-        }
+    // The first and the last whole number of units, and what they are counted in and from.
+    let (first, last, unit, offset) = match index % 3 {
+        0 => (low * SUBPIXELS / step, high * SUBPIXELS / step, step, 0),
+        1 => (low, high - 1, SUBPIXELS, HALF_PIXEL),
+        _ => (low, high, SUBPIXELS, 0),
     };
+    let mut v = || rng.int(i64::from(first), i64::from(last)) as i32 * unit + offset;
     let ends = [(); 2].map(|()| SubpixelPoint::new(v(), v()));
     (ends[0] != ends[1]).then(|| ends.map(plain).to_vec())
 }
 
 /// Two triangles whose depths lean through each other; their first attributes tell them apart.
 fn crossing(rng: &mut Rng, step: i32, cell: i32) -> Vec<Vec<Vertex>> {
-    [1.0, 2.0]
-        .map(|number| {
-            [(); 3].map(|()| {
-                let per_px = i64::from(SUBPIXELS / step);
-                let mut v = || rng.int(0, i64::from(cell) * per_px) as i32 * step;
-                let p = SubpixelPoint::new(v(), v());
-                let [x, y, ..] = plain(p);
-                [x, y, rng.int(64, 960) as f64 / 1024.0, 1.0, number, 0.0]
-            })
-        })
-        .map(|t| t.to_vec())
-        .to_vec()
+    let steps = i64::from(cell) * i64::from(SUBPIXELS / step);
+    let mut shapes = vec![Vec::new(); 2];
+    for (shape, number) in shapes.iter_mut().zip([1.0, 2.0]) {
+        for _ in 0..3 {
+            let mut v = || rng.int(0, steps) as i32 * step;
+            let [x, y, ..] = plain(SubpixelPoint::new(v(), v()));
+            shape.push([x, y, rng.int(64, 960) as f64 / 1024.0, 1.0, number, 0.0]);
+        }
+    }
+    shapes
 }
 
 /// A triangle of the families with its values rounded to f32.
 fn valued(triangle: &Triangle, step: i32) -> Vec<Vertex> {
     let f32 = |v: f64| f64::from(v as f32);
-    let vertex = |v: &ScreenVertex<glam::DVec2>| {
+    let px = |v: i32| f64::from(v & -step) / f64::from(SUBPIXELS);
+    let mut vertices = Vec::new();
+    for v in &triangle.vertices {
         let w = f32(1.0 / v.inv_w);
-        let px = |v: i32| f64::from(v & -step) / f64::from(SUBPIXELS);
+        // Off both planes, so that nothing is clipped.
         let depth = f32(0.0625 + 0.875 * v.depth);
+        // All three have a w of their own, by which x, y and depth are multiplied.
         let [x, y] = [px(v.position.x) * w, px(v.position.y) * w];
-        [x, y, depth * w, w, f32(v.varying.x), f32(v.varying.y)]
-    };
-    triangle.vertices.iter().map(vertex).collect()
+        vertices.push([x, y, depth * w, w, f32(v.varying.x), f32(v.varying.y)]);
+    }
+    vertices
 }
 
 /// A triangle that the near plane may cut.
@@ -320,6 +359,7 @@ fn clip_space(rng: &mut Rng, index: u64) -> Vec<Vertex> {
     (0..3).map(|_| from_whole(clipped::corner(rng, index.is_multiple_of(2)))).collect()
 }
 
+/// A corner in clip space as a vertex of a cell, in whose middle the view volume's axis lies.
 pub(super) fn from_whole(corner: clipped::Whole) -> Vertex {
     let half = f64::from(clipped::CELL_PX) / 2.0;
     let [x, y, z, w] = corner.map(|v| v as f64 / f64::from(clipped::UNIT));
