@@ -12,7 +12,7 @@ use super::picture::Picture;
 use super::quantity::{Name, Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
 use super::walk::Walk;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
 /// Answers that rules are learned from, wrong and right.
@@ -368,7 +368,8 @@ impl Search<'_> {
     fn pixels_seen(&self) -> [Vec<PixelSeen<'_>>; 2] {
         let mut all = [Vec::new(), Vec::new()];
         let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
-        for a in some.into_iter().flatten().filter(|a| !a.question.is_line()) {
+        let of_triangles = some.into_iter().flatten().filter(|a| !a.question.is_line());
+        for (group, a) in of_triangles.enumerate() {
             let is_wrong = |at: &[i32; 2]| a.drawn.has(*at) != a.right.has(*at);
             let is_at_edge = |at: &[i32; 2]| {
                 let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]];
@@ -379,7 +380,7 @@ impl Search<'_> {
             for (kind, pixels) in [wrong, right].into_iter().enumerate() {
                 let step = pixels.len().div_ceil(MOST_SEEN).max(1);
                 let seen = pixels.into_iter().step_by(step);
-                all[kind].extend(seen.map(|at| PixelSeen { answer: a, at }));
+                all[kind].extend(seen.map(|at| PixelSeen { group, answer: a, at }));
             }
         }
         all
@@ -395,9 +396,16 @@ impl Search<'_> {
     ) -> f64 {
         let sample = self.drawer.sample();
         let owned = self.drawer.ties(test.ties);
+        // The pixels of an answer come one after another, and what is the same for all of them is computed once.
+        let last = Cell::new(None);
         let is_drawn = |seen: &PixelSeen<'_>| {
-            let a = seen.answer;
-            test.draws(&a.question, seen.at, sample, owned) == a.drawn.has(seen.at)
+            let of_answer = match last.get() {
+                Some((group, numbers)) if group == seen.group => numbers,
+                _ => test.numbers(&seen.answer.question),
+            };
+            last.set(Some((seen.group, of_answer)));
+            let is_inside = of_answer.is_some_and(|numbers| numbers.draws(seen.at, sample, owned));
+            is_inside == seen.answer.drawn.has(seen.at)
         };
         let step = wrong.len().div_ceil(FEW_BORDERS).max(1);
         let few = wrong.iter().step_by(step);
@@ -478,15 +486,27 @@ impl Search<'_> {
         }
     }
 
-    /// How many of some answers a model predicts, less a little for each pixel that it misses.
-    fn worth_of_model(&self, model: &Model, answers: &[&LearnedAnswer]) -> f64 {
-        let mut worth = 0.0;
-        for a in answers {
-            let picture = model.predict(a, self.drawer, self.vocabulary);
-            match picture.map_or(MOST_PIXELS, |p| p.differs(&a.drawn).min(MOST_PIXELS)) {
-                0 => worth += 1.0,
-                missed => worth -= 0.02 * missed as f64,
+    /// How many of some wrong answers a model predicts, and half as much of right ones, less a little for each pixel that it
+    /// misses and for each change; what is below `least` is not counted to its end. In hundredths, so that sums are exact.
+    fn worth_of_model(
+        &self,
+        model: &Model,
+        changes: usize,
+        [wrong, right]: [&[&LearnedAnswer]; 2],
+        least: f64,
+    ) -> f64 {
+        // What is not looked at yet is taken for predicted.
+        let mut worth = (100 * wrong.len() + 50 * right.len()) as f64 - 30.0 * changes as f64;
+        let of_wrong = wrong.iter().map(|a| (a, 1.0));
+        for (a, weight) in of_wrong.chain(right.iter().map(|a| (a, 0.5))) {
+            if worth < least {
+                break;
             }
+            let picture = model.predict(a, self.drawer, self.vocabulary);
+            worth -= match picture.map_or(MOST_PIXELS, |p| p.differs(&a.drawn).min(MOST_PIXELS)) {
+                0 => 0.0,
+                missed => weight * (100 + 2 * missed) as f64,
+            };
         }
         worth
     }
@@ -498,9 +518,8 @@ impl Search<'_> {
             return None;
         }
         let of = |rows: &RowRule| Model { rows: *rows, ..Model::default() };
-        let worth = |rows: &RowRule, _: f64| {
-            let [wrong, right] = [&wrong, &right].map(|some| self.worth_of_model(&of(rows), some));
-            wrong + 0.5 * right - 0.3 * rows.changes() as f64
+        let worth = |rows: &RowRule, least: f64| {
+            self.worth_of_model(&of(rows), rows.changes(), [&wrong, &right], least)
         };
         let best = climbed(RowRule::default(), &RowRule::variants, &worth);
         best.first().map(|(_, rows)| of(rows))
@@ -904,6 +923,8 @@ fn row_is_empty(site: &Site, picture: &Picture) -> bool {
 
 /// A pixel by which tests are compared, with the answer that shows it.
 struct PixelSeen<'a> {
+    /// The number of the answer.
+    group: usize,
     answer: &'a LearnedAnswer,
     at: [i32; 2],
 }
