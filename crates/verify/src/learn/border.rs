@@ -332,17 +332,25 @@ impl Crossing {
 pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
     let (num, den) = if den < 0 { (-num, -den) } else { (num, den) };
     match toward {
-        Toward::Down => num.div_euclid(den),
-        Toward::Up => -(-num).div_euclid(den),
-        Toward::Nearest => (2 * num + den).div_euclid(2 * den),
-        Toward::NearestDown => -(den - 2 * num).div_euclid(2 * den),
-        Toward::Zero => num / den,
-        Toward::HalfAway => num.signum() * (2 * num.abs() + den).div_euclid(2 * den),
+        Toward::Down => floor(num, den),
+        Toward::Up => -floor(-num, den),
+        Toward::Nearest => floor(2 * num + den, 2 * den),
+        Toward::NearestDown => -floor(den - 2 * num, 2 * den),
+        Toward::Zero => num.signum() * floor(num.abs(), den),
+        Toward::HalfAway => num.signum() * floor(2 * num.abs() + den, 2 * den),
         Toward::HalfEven => {
-            let up = (2 * num + den).div_euclid(2 * den);
-            let is_half = (2 * num + den) % (2 * den) == 0;
+            let up = floor(2 * num + den, 2 * den);
+            let is_half = 2 * den * up == 2 * num + den;
             if is_half { up - up.rem_euclid(2) } else { up }
         }
+    }
+}
+
+/// A fraction with a positive denominator, rounded down. Most numbers have 64 bits, which are divided many times faster than 128.
+fn floor(num: i128, den: i128) -> i128 {
+    match (i64::try_from(num), i64::try_from(den)) {
+        (Ok(num), Ok(den)) => num.div_euclid(den).into(),
+        _ => num.div_euclid(den),
     }
 }
 
@@ -363,8 +371,8 @@ fn fraction_of(v: f64) -> i128 {
 }
 
 pub(super) fn wrap(v: i128, bits: u32) -> i128 {
-    let half = 1 << (bits - 1);
-    (v + half).rem_euclid(1 << bits) - half
+    // The bits that do not fit are shifted out, and the sign comes back.
+    v << (i128::BITS - bits) >> (i128::BITS - bits)
 }
 
 /// A border of a question: an edge where it crosses a row, or a line where it crosses a column or a row.
@@ -390,8 +398,12 @@ impl Site {
     ) -> Option<i64> {
         let (axis, along) = (self.axis, 1 - self.axis);
         let one = 256 / q.one();
-        let point = |i: usize| [0, 1].map(|axis| i128::from(q.points[i][axis] * one));
-        let [mut a, mut b] = self.points.map(point);
+        let point = |i: usize| {
+            let [x, y] = q.points[i];
+            [i128::from(x * one), i128::from(y * one)]
+        };
+        let (mut a, mut b) = (point(self.points[0]), point(self.points[1]));
+        let is_forward = a[axis] < b[axis];
         if formula.from.is_turned(a[axis], b[axis]) {
             std::mem::swap(&mut a, &mut b);
         }
@@ -477,7 +489,7 @@ impl Site {
             Product::Word(bits) => {
                 // Lines count whole pixels.
                 let unit = i128::from(one * one);
-                (wrap(num.div_euclid(unit), bits) * unit, den)
+                (wrap(floor(num, unit), bits) * unit, den)
             }
             Product::Rounded(step, toward) => {
                 let step = i128::from(step);
@@ -497,10 +509,6 @@ impl Site {
         let sample = i128::from(if q.is_line() { 128 } else { sample[along] });
         // Whether the line goes up in its shorter direction, seen from its left or upper end.
         let climbs = (run > 0) == (b[axis] > a[axis]);
-        let is_forward = {
-            let [first, second] = self.points.map(point);
-            first[axis] < second[axis]
-        };
         let is_up = match formula.ties[self.end] {
             Tie::Down => false,
             Tie::Up => true,
@@ -510,9 +518,9 @@ impl Site {
             Tie::BackFromFirst => climbs != is_forward,
         };
         let pixel = match (is_up, q.is_line()) {
-            (true, true) => (value + 128 * den).div_euclid(256 * den),
-            (true, false) => (value - sample * den).div_euclid(256 * den) + 1,
-            (false, _) => -(sample * den - value).div_euclid(256 * den),
+            (true, true) => floor(value + 128 * den, 256 * den),
+            (true, false) => floor(value - sample * den, 256 * den) + 1,
+            (false, _) => -floor(sample * den - value, 256 * den),
         };
         let pixel = formula.group.map_or(pixel, |(pixels, toward)| {
             let pixels = i128::from(pixels);
@@ -638,4 +646,40 @@ fn left_of(a: &Site, b: &Site, q: &AnyQuestion, at: i64) -> bool {
     };
     let ((x, by), (other, other_by)) = (crossing(a), crossing(b));
     x * other_by < other * by
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of 64 bits and of more are rounded to the same.
+    #[test]
+    fn fractions_are_rounded_as_their_definitions_say() {
+        for (num, den) in (-40..40).flat_map(|num| [1, 2, 3, 4, 7, 8].map(|den| (num, den))) {
+            let exact = num as f64 / den as f64;
+            for (toward, expected) in [
+                (Toward::Down, exact.floor()),
+                (Toward::Up, exact.ceil()),
+                (Toward::Zero, exact.trunc()),
+                (Toward::Nearest, (exact + 0.5).floor()),
+                (Toward::NearestDown, (exact - 0.5).ceil()),
+                (Toward::HalfAway, exact.round()),
+                (Toward::HalfEven, exact.round_ties_even()),
+            ] {
+                for far in [1, 1 << 70] {
+                    let rounded = round(num * far, den * far, toward);
+                    assert_eq!(rounded, expected as i128, "{num}/{den} {toward:?} {far}");
+                    assert_eq!(round(-num * far, -den * far, toward), rounded, "{num}/{den}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn words_keep_their_last_bits() {
+        for v in [-1 << 70, -300, -129, -128, -1, 0, 127, 128, 255, 256, (1 << 90) + 5] {
+            let word = wrap(v, 8);
+            assert!((-128..128).contains(&word) && (v - word) % 256 == 0, "{v} {word}");
+        }
+    }
 }

@@ -120,8 +120,9 @@ pub(super) struct EdgeTest {
     pub(super) looks_beyond: bool,
 }
 
-/// The value of an edge at a sample, positive inside, and what is lost of it.
-struct Numbers<'a> {
+/// What is computed once of a triangle, for all of its samples.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers<'a> {
     test: &'a EdgeTest,
     /// The corners in 1/256 px, exchanged where the test exchanges them.
     corners: [[i64; 2]; 3],
@@ -263,9 +264,9 @@ impl EdgeTest {
     /// The picture that it draws; of each direction that an edge may face, its rule for ties says whether samples on it are `owned`.
     pub(super) fn draw(&self, q: &AnyQuestion, sample: [i64; 2], owned: [bool; 8]) -> Picture {
         let mut picture = Picture::new(q.side);
-        let Some(numbers) = Numbers::of(self, q) else { return picture };
+        let Some(numbers) = self.numbers(q) else { return picture };
         for at in picture.all() {
-            if numbers.is_inside(at.map(i64::from), sample, owned) {
+            if numbers.draws(at, sample, owned) {
                 picture.set(at, 1);
             }
         }
@@ -280,8 +281,12 @@ impl EdgeTest {
         sample: [i64; 2],
         owned: [bool; 8],
     ) -> bool {
+        self.numbers(q).is_some_and(|numbers| numbers.draws(at, sample, owned))
+    }
+
+    /// What it computes of a triangle, whatever its samples; nothing where none of them is drawn.
+    pub(super) fn numbers(&self, q: &AnyQuestion) -> Option<Numbers<'_>> {
         Numbers::of(self, q)
-            .is_some_and(|numbers| numbers.is_inside(at.map(i64::from), sample, owned))
     }
 }
 
@@ -296,16 +301,18 @@ fn way(from: [i64; 2], to: [i64; 2]) -> [i64; 2] {
 impl<'a> Numbers<'a> {
     /// Nothing where no pixel is drawn: of a triangle without area.
     fn of(test: &'a EdgeTest, q: &AnyQuestion) -> Option<Self> {
-        let mut corners = [0, 1, 2].map(|i| q.points[i].map(|v| v.clamp(-FARTHEST, FARTHEST)));
+        let near = |[x, y]: [i64; 2]| [x.clamp(-FARTHEST, FARTHEST), y.clamp(-FARTHEST, FARTHEST)];
+        let mut corners = [near(q.points[0]), near(q.points[1]), near(q.points[2])];
         let mut area = cross(way(corners[0], corners[1]), way(corners[0], corners[2]));
         if let Some([a, b]) = test.exchanges.filter(|_| area < 0) {
             corners.swap(a, b);
             area = -area;
         }
-        let bounds = [0, 1].map(|axis| {
-            let [a, b, c] = corners.map(|corner| corner[axis].div_euclid(256));
-            [a.min(b).min(c), a.max(b).max(c)]
-        });
+        let bounds = |axis: usize| {
+            let [a, b, c] = [corners[0][axis], corners[1][axis], corners[2][axis]];
+            [a.min(b).min(c).div_euclid(256), a.max(b).max(c).div_euclid(256)]
+        };
+        let bounds = [bounds(0), bounds(1)];
         let mut numbers = Self { test, corners, turn: area.signum(), bounds };
         if test.turns_by_area {
             numbers.turn = match test.float {
@@ -324,11 +331,13 @@ impl<'a> Numbers<'a> {
         (area != 0 && numbers.turn != 0).then_some(numbers)
     }
 
-    fn is_inside(&self, at: [i64; 2], sample: [i64; 2], owned: [bool; 8]) -> bool {
+    /// Whether a pixel is drawn.
+    pub(super) fn draws(&self, [x, y]: [i32; 2], sample: [i64; 2], owned: [bool; 8]) -> bool {
+        let at = [i64::from(x), i64::from(y)];
         if !self.test.looks_beyond && !self.is_in_box(at) {
             return false;
         }
-        let point = [0, 1].map(|axis| 256 * at[axis] + sample[axis]);
+        let point = [256 * at[0] + sample[0], 256 * at[1] + sample[1]];
         match self.test.float {
             Some(bits) => self.is_inside_in_floats(point, bits, owned),
             None => self.is_inside_in_words(point, owned),
@@ -351,7 +360,7 @@ impl<'a> Numbers<'a> {
 
     fn is_inside_in_words(&self, point: [i64; 2], owned: [bool; 8]) -> bool {
         let slack = (self.test.slack * 65536.0).round() as i64;
-        let all = [0, 1, 2].map(|edge| self.in_words(edge, point));
+        let all = [self.in_words(0, point), self.in_words(1, point), self.in_words(2, point)];
         if self.test.form == Form::Areas {
             let whole = self.in_words(0, self.corners[2]).abs();
             return whole - all.map(i64::abs).iter().sum::<i64>() >= -slack;
@@ -389,7 +398,10 @@ impl<'a> Numbers<'a> {
                 _ => product,
             }
         };
-        let difference = |from, to| way(from, to).map(|v| wrapped(v, of_differences));
+        let difference = |from, to| {
+            let [dx, dy] = way(from, to);
+            [wrapped(dx, of_differences), wrapped(dy, of_differences)]
+        };
         let side = difference(a, b);
         let sum = match self.test.form {
             Form::Plane => {

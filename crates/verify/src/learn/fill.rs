@@ -152,8 +152,11 @@ impl Crossed {
                     (upper.div_euclid(256)..=lower.div_euclid(256)).contains(&place)
                 }
             };
+            if !is_here {
+                continue;
+            }
             let [first, end] = [0, 1].map(|end| border(&Site { axis: 1, place, end, points }));
-            if let (true, Some(first), Some(end)) = (is_here, first, end) {
+            if let (Some(first), Some(end)) = (first, end) {
                 let [least, most] = [at_ends[0].min(at_ends[1]), at_ends[0].max(at_ends[1])];
                 borders.push(match self.is_kept {
                     true => [first, end].map(|v| v.clamp(least, most)),

@@ -4,6 +4,7 @@
 //! worth is a count of bits (as in CN2 and RIPPER, with a beam).
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use super::quantity::{NONE, Name, RATIO};
@@ -175,35 +176,44 @@ const LONGER: f64 = 0.86;
 /// Facts that are combined with each other.
 const MOST_FACTS: usize = 900;
 
-/// The values of some rows by quantity, so that a test of all rows is one loop.
-struct Values(Vec<Vec<i64>>);
+/// The values of some rows by quantity, so that a test of all rows is one loop. Rows are many, and only the quantities of the
+/// rules that are found are looked at in all of them: these are collected once each.
+struct Values<'a> {
+    rows: &'a [Vec<i64>],
+    collected: Vec<OnceCell<Vec<i64>>>,
+}
 
-impl Values {
-    fn of(quantities: usize, rows: &[Vec<i64>]) -> Self {
-        Self((0..quantities).map(|i| rows.iter().map(|row| row[i]).collect()).collect())
+impl<'a> Values<'a> {
+    fn of(quantities: usize, rows: &'a [Vec<i64>]) -> Self {
+        Self { rows, collected: vec![OnceCell::new(); quantities] }
     }
 
     fn rows(&self) -> usize {
-        self.0.first().map_or(0, Vec::len)
+        self.rows.len()
     }
 
-    /// A quantity of some rows.
-    fn some(&self, of: Of, rows: &[usize]) -> Vec<i64> {
-        match of {
-            Of::One(i) => rows.iter().map(|&row| self.0[i][row]).collect(),
-            Of::Difference(i, j) => {
-                let (a, b) = (&self.0[i], &self.0[j]);
-                rows.iter().map(|&row| difference(a[row], b[row])).collect()
+    /// Every quantity of some rows.
+    fn some(&self, rows: &[usize]) -> Vec<Tested> {
+        let mut all = vec![Vec::with_capacity(rows.len()); self.collected.len()];
+        for &row in rows {
+            for (values, value) in all.iter_mut().zip(&self.rows[row]) {
+                values.push(*value);
             }
         }
+        all.into_iter().map(Tested::new).collect()
     }
 
     /// A quantity of all rows.
+    fn one(&self, i: usize) -> &[i64] {
+        self.collected[i].get_or_init(|| self.rows.iter().map(|row| row[i]).collect())
+    }
+
+    /// The same, or how much it differs from another one.
     fn all(&self, of: Of) -> Cow<'_, [i64]> {
         match of {
-            Of::One(i) => (&self.0[i]).into(),
+            Of::One(i) => self.one(i).into(),
             Of::Difference(i, j) => {
-                self.0[i].iter().zip(&self.0[j]).map(|(a, b)| difference(*a, *b)).collect()
+                self.one(i).iter().zip(self.one(j)).map(|(a, b)| difference(*a, *b)).collect()
             }
         }
     }
@@ -248,18 +258,20 @@ pub(super) fn best(names: &[Name], table: &Table, terms: Terms, work: &Work) -> 
 /// The best rule for some rows. It is searched for among a part of them; a rule that another row refutes brings this row in.
 fn best_of(
     names: &[Name],
-    [with, without]: [&Values; 2],
+    [with, without]: [&Values<'_>; 2],
     groups: &[usize],
     (terms, work): (Terms, &Work),
     left: &[usize],
 ) -> Option<Rule> {
     let yes: Vec<usize> = spread(left.len(), MOST_YES).into_iter().map(|i| left[i]).collect();
     let mut no = spread(without.rows(), MOST_NO);
+    let mut tested = with.some(&yes);
     let mut is_left = vec![0; left.len().max(with.rows()).div_ceil(64)];
     left.iter().for_each(|i| is_left[i / 64] |= 1 << (i % 64));
     for _ in 0..ROUNDS {
         let mut refuting = Vec::new();
-        for mut rule in Matrix::of(names, [with, without], &yes, &no, work).search(terms, work) {
+        let matrix = Matrix::of(names, [&mut tested, &mut without.some(&no)], work);
+        for mut rule in matrix.search(terms, work) {
             sharpen(&mut rule.facts, names, [with, without]);
             let held = both(&with.held(&rule.facts), &is_left);
             let bad = without.held(&rule.facts);
@@ -293,7 +305,8 @@ pub(super) fn common(names: &[Name], table: &Table, most: usize) -> (Conjunction
     if yes.is_empty() || no.is_empty() {
         return (facts, left);
     }
-    let matrix = Matrix::of(names, [&with, &without], &yes, &no, &Work::default());
+    let mut some = [with.some(&yes), without.some(&no)];
+    let matrix = Matrix::of(names, some.each_mut(), &Work::default());
     let mut candidates: Vec<&Column> =
         matrix.columns.iter().filter(|c| count(&c.yes) == yes.len()).collect();
     let mut bits = ones(no.len());
@@ -331,6 +344,8 @@ fn distinct(groups: impl Iterator<Item = usize>) -> usize {
 struct Column {
     fact: Fact,
     cost: f64,
+    /// How much larger the share of the first is than that of the others.
+    tells: f64,
     yes: Vec<u64>,
     no: Vec<u64>,
     counts: [usize; 2],
@@ -356,54 +371,80 @@ fn count(bits: &[u64]) -> usize {
 }
 
 fn count_both(a: &[u64], b: &[u64]) -> usize {
-    a.iter().zip(b).map(|(a, b)| (a & b).count_ones() as usize).sum()
+    // Most of the time of a search is spent here: a plain loop is fast also where little is optimised.
+    let b = &b[..a.len()];
+    let mut count = 0;
+    for i in 0..a.len() {
+        count += (a[i] & b[i]).count_ones() as usize;
+    }
+    count
 }
 
 fn both(a: &[u64], b: &[u64]) -> Vec<u64> {
     a.iter().zip(b).map(|(a, b)| a & b).collect()
 }
 
-impl Matrix {
-    fn of(
-        names: &[Name],
-        [all_with, all_without]: [&Values; 2],
-        yes: &[usize],
-        no: &[usize],
-        work: &Work,
-    ) -> Self {
-        let mut columns: Vec<Column> = Vec::new();
-        let sources = sources(names);
-        work.spend(sources.len() * (yes.len() + no.len()) / ORDERED_A_STEP);
-        for of in sources {
-            let mut with = Tested::new(all_with.some(of, yes));
-            let mut without = Tested::new(all_without.some(of, no));
-            for test in tests(names, of, &with.in_order, &without.in_order) {
-                let held = with.bits(test);
-                let all = count(&held);
-                if all < 3.max(yes.len() / 50) {
-                    continue;
-                }
-                let others = without.bits(test);
-                let no_count = count(&others);
-                if all == yes.len() && no_count == no.len() {
-                    continue;
-                }
-                let fact = Fact { of, test };
-                let cost = fact.cost(names);
-                columns.push(Column { fact, cost, yes: held, no: others, counts: [all, no_count] });
-            }
+/// Adds the facts of a quantity, in the rows that a rule should hold of and in others.
+fn add_columns(
+    columns: &mut Vec<Column>,
+    names: &[Name],
+    of: Of,
+    [with, without]: [&mut Tested; 2],
+) {
+    let share = |count: usize, rows: usize| count as f64 / rows.max(1) as f64;
+    let [rows, others] = [with.rows(), without.rows()];
+    let mut last = None;
+    for test in tests(names, of, &with.in_order, &without.in_order) {
+        // Limits between the same two values are the same fact.
+        let limit = with.limit(test).zip(without.limit(test));
+        if limit.is_some() && limit == last {
+            continue;
         }
-        // Of facts that hold of the same rows, the cheapest is kept.
-        columns
-            .sort_by(|a, b| (&a.yes, &a.no).cmp(&(&b.yes, &b.no)).then(a.cost.total_cmp(&b.cost)));
+        last = limit;
+        let yes = with.bits(test);
+        let held = count(&yes);
+        if held < 3.max(rows / 50) {
+            continue;
+        }
+        let no = without.bits(test);
+        let counts = [held, count(&no)];
+        if counts != [rows, others] {
+            let fact = Fact { of, test };
+            let cost = fact.cost(names);
+            let tells = share(counts[0], rows) - share(counts[1], others);
+            columns.push(Column { fact, cost, tells, yes, no, counts });
+        }
+    }
+}
+
+impl Matrix {
+    /// The facts that tell most, of every quantity of some rows and of others.
+    fn of(names: &[Name], [with, without]: [&mut Vec<Tested>; 2], work: &Work) -> Self {
+        let [rows, others] = [&*with, &*without].map(|all| all.first().map_or(0, Tested::rows));
+        let sources = sources(names);
+        work.spend(sources.len() * (rows + others) / ORDERED_A_STEP);
+        let mut columns = Vec::new();
+        for of in sources {
+            let mut differences;
+            let tested = match of {
+                Of::One(i) => [&mut with[i], &mut without[i]],
+                Of::Difference(i, j) => {
+                    differences =
+                        [&*with, &*without].map(|all| Tested::difference(&all[i], &all[j]));
+                    differences.each_mut()
+                }
+            };
+            add_columns(&mut columns, names, of, tested);
+        }
+        // A fact that tells a little is needed beside others. Of facts that hold of the same rows, which tell as much, the
+        // cheapest is kept.
+        columns.sort_by(|a, b| {
+            let by_rows = || (&a.yes, &a.no).cmp(&(&b.yes, &b.no));
+            b.tells.total_cmp(&a.tells).then_with(by_rows).then(a.cost.total_cmp(&b.cost))
+        });
         columns.dedup_by(|a, b| a.yes == b.yes && a.no == b.no);
-        let mut matrix = Self { columns, rows: yes.len(), others: no.len() };
-        // A fact that tells a little is needed beside others.
-        let share = |count: usize, rows: usize| count as f64 / rows.max(1) as f64;
-        let tells = |c: &Column| share(c.counts[0], yes.len()) - share(c.counts[1], no.len());
-        matrix.columns.sort_by(|a, b| tells(b).total_cmp(&tells(a)));
-        matrix.columns.truncate(MOST_FACTS);
-        matrix
+        columns.truncate(MOST_FACTS);
+        Self { columns, rows, others }
     }
 
     /// The best conjunctions, one fact longer at each step.
@@ -474,9 +515,11 @@ impl Matrix {
                 continue;
             }
             let value = yes as f64 * worth;
-            // Far behind the best one it is not wanted.
+            // Far behind the best one it is not wanted. Nor is it counted of how many others it holds where it is then
+            // neither found nor grown with the fewest that these can be.
             let is_behind = value < wanted;
-            if is_behind && yes as f64 / (self.rows.max(1) as f64) < least {
+            let may_be_found = !is_behind && fewest * 1000 <= terms.slack * yes;
+            if !may_be_found && gain(yes, fewest, self.rows, self.others) <= least {
                 continue;
             }
             let no = count_both(&partial.no, &column.no);
@@ -588,6 +631,28 @@ impl Tested {
         in_order.iter().for_each(|placed| set(&mut known, placed.row));
         let first = (0, none(values.len()));
         Self { values, in_order, known, first, by_remainder: Vec::new() }
+    }
+
+    /// Of how much one quantity differs from another, only the sign is looked at.
+    fn difference(a: &Self, b: &Self) -> Self {
+        let sign = |(a, b): (&i64, &i64)| match difference(*a, *b) {
+            NONE => NONE,
+            by => by.signum(),
+        };
+        Self::new(a.values.iter().zip(&b.values).map(sign).collect())
+    }
+
+    fn rows(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Of a limit, whether it is the largest value, and its place in the order.
+    fn limit(&self, test: Test) -> Option<(bool, usize)> {
+        match test {
+            Test::AtMost(limit) => Some((true, self.up_to(limit))),
+            Test::AtLeast(limit) => Some((false, self.below(limit))),
+            _ => None,
+        }
     }
 
     /// How many values are less than a number.
@@ -750,7 +815,7 @@ fn tests(names: &[Name], of: Of, with: &[RowValue], without: &[RowValue]) -> Vec
 
 /// Moves each limit as far as no other row is let in: between the last row and the next other one, to a round number where
 /// one lies there.
-fn sharpen(facts: &mut [Fact], names: &[Name], [with, without]: [&Values; 2]) {
+fn sharpen(facts: &mut [Fact], names: &[Name], [with, without]: [&Values<'_>; 2]) {
     for i in 0..facts.len() {
         let fact = facts[i];
         let sign = match fact.test {
@@ -762,7 +827,7 @@ fn sharpen(facts: &mut [Fact], names: &[Name], [with, without]: [&Values; 2]) {
             continue;
         }
         let rest: Vec<Fact> = facts.iter().copied().filter(|f| *f != fact).collect();
-        let signed = |values: &Values, held: Vec<u64>| -> Vec<i64> {
+        let signed = |values: &Values<'_>, held: Vec<u64>| -> Vec<i64> {
             let all = values.all(fact.of);
             places(&held).map(|row| all[row]).filter(|v| *v != NONE).map(|v| sign * v).collect()
         };
@@ -819,4 +884,84 @@ fn ahead_of_decimal(low: i64, high: i64) -> i64 {
         }
     }
     low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_core::random::Rng;
+
+    /// Quantities of each kind of tests, some of which some rows do not have.
+    fn rows(rng: &mut Rng, units: &[Unit], count: usize) -> Vec<Vec<i64>> {
+        let value = |rng: &mut Rng, unit: &Unit| match unit {
+            Unit::Flag => rng.int(0, 1),
+            _ if rng.chance(9) => NONE,
+            Unit::Subpixels => rng.int(-900, 900),
+            _ => rng.int(-3, 20),
+        };
+        (0..count).map(|_| units.iter().map(|unit| value(rng, unit)).collect()).collect()
+    }
+
+    /// A fact with the rows that it holds of.
+    struct Held {
+        fact: Fact,
+        cost: f64,
+        rows: [Vec<bool>; 2],
+    }
+
+    /// The facts by their definition: each test of each row, one after another.
+    fn facts_by_rows(names: &[Name], yes: &[Vec<i64>], no: &[Vec<i64>]) -> Vec<Fact> {
+        let mut all = Vec::new();
+        for of in sources(names) {
+            let [in_yes, in_no] = [yes, no]
+                .map(|rows| Tested::new(rows.iter().map(|row| of.value(row)).collect()).in_order);
+            for test in tests(names, of, &in_yes, &in_no) {
+                let fact = Fact { of, test };
+                let held_by = |rows: &[Vec<i64>]| rows.iter().map(|row| fact.holds(row)).collect();
+                all.push(Held { fact, cost: fact.cost(names), rows: [yes, no].map(held_by) });
+            }
+        }
+        let is_enough = |held: &Held| {
+            let of_yes = held.rows[0].iter().filter(|holds| **holds).count();
+            let is_all = held.rows.iter().flatten().all(|holds| *holds);
+            of_yes >= 3.max(yes.len() / 50) && !is_all
+        };
+        all.retain(is_enough);
+        // Of those that hold of the same rows, the first of the cheapest.
+        let is_cheapest = |one: &Held| {
+            let same = all.iter().filter(|other| other.rows == one.rows);
+            let cheapest = same.reduce(|a, b| if b.cost < a.cost { b } else { a });
+            cheapest.is_some_and(|cheapest| cheapest.fact == one.fact)
+        };
+        all.iter().filter(|one| is_cheapest(one)).map(|one| one.fact).collect()
+    }
+
+    /// What is left out early, or is made of the order of values, changes none of the facts that are combined.
+    #[test]
+    fn facts_are_those_of_all_tests() {
+        let units = [Unit::Flag, Unit::Count, Unit::Paired, Unit::Subpixels, Unit::Paired];
+        let name = |unit: &Unit| Name {
+            unit: *unit,
+            noun: String::new(),
+            zero: [String::new(), String::new()],
+        };
+        let names: Vec<Name> = units.iter().map(name).collect();
+        let mut rng = Rng::new("facts", 1, 0);
+        for (yes, no) in [(12, 9), (30, 70), (130, 200)] {
+            let [yes, no] = [yes, no].map(|count| rows(&mut rng, &units, count));
+            let mut some = [&yes, &no].map(|rows| {
+                let values = Values::of(names.len(), rows);
+                values.some(&(0..rows.len()).collect::<Vec<_>>())
+            });
+            let matrix = Matrix::of(&names, some.each_mut(), &Work::default());
+            let facts: Vec<Fact> = matrix.columns.iter().map(|column| column.fact).collect();
+            let mut expected = facts_by_rows(&names, &yes, &no);
+            assert!(expected.len() < MOST_FACTS && expected.len() > 20, "{}", expected.len());
+            let place = |fact: &Fact| facts.iter().position(|other| other == fact);
+            expected.sort_by_key(place);
+            assert_eq!(facts, expected);
+            let tells: Vec<f64> = matrix.columns.iter().map(|column| column.tells).collect();
+            assert!(tells.is_sorted_by(|a, b| a >= b), "{tells:?}");
+        }
+    }
 }

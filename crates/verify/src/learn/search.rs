@@ -1,18 +1,22 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
-use super::border::{self, Crossing, Site, Tie, Toward};
+use super::border::{Crossing, Toward};
 use super::change::{self, Base, Change, EDGES_OF_A_PIXEL, MOST_PIXELS, Nearness, Rule};
 use super::climb::{GUARDED_FORMULAS, climbed};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
 use super::edges::EdgeTest;
-use super::fill::{Halves, RowRule};
+use super::fill::RowRule;
 use super::model::{ALL_OF_A_PIXEL, GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Name, Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
+use super::seen::{
+    BorderSeen, BordersAtEnds, PixelSeen, Price, borders_seen, pixels_seen, ties_of,
+};
+use super::shorter::shorter;
 use super::walk::Walk;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
 /// Answers that rules are learned from, wrong and right.
@@ -321,7 +325,8 @@ impl Search<'_> {
 
     /// Other computations of whether a sample is inside.
     fn test_edges(&self, tried: &mut Vec<Tried>) {
-        let pixels = self.pixels_seen();
+        let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
+        let pixels = pixels_seen(some.into_iter().flatten());
         if pixels[0].len() < 2 * NEED {
             return;
         }
@@ -364,27 +369,6 @@ impl Search<'_> {
         self.guard_bases(&ranked, tried);
     }
 
-    /// Pixels that are drawn wrongly, and pixels beside an edge that are drawn well; of triangles.
-    fn pixels_seen(&self) -> [Vec<PixelSeen<'_>>; 2] {
-        let mut all = [Vec::new(), Vec::new()];
-        let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
-        for a in some.into_iter().flatten().filter(|a| !a.question.is_line()) {
-            let is_wrong = |at: &[i32; 2]| a.drawn.has(*at) != a.right.has(*at);
-            let is_at_edge = |at: &[i32; 2]| {
-                let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]];
-                beside.iter().any(|[x, y]| a.drawn.has([at[0] + x, at[1] + y]) != a.drawn.has(*at))
-            };
-            let (wrong, right): (Vec<_>, Vec<_>) =
-                a.drawn.pixels().filter(|at| is_wrong(at) || is_at_edge(at)).partition(is_wrong);
-            for (kind, pixels) in [wrong, right].into_iter().enumerate() {
-                let step = pixels.len().div_ceil(MOST_SEEN).max(1);
-                let seen = pixels.into_iter().step_by(step);
-                all[kind].extend(seen.map(|at| PixelSeen { answer: a, at }));
-            }
-        }
-        all
-    }
-
     /// How many of some wrong pixels a test draws as they are, less a part of the right ones that it breaks; what is below `least` is
     /// not counted to its end.
     fn worth_of_test(
@@ -395,9 +379,16 @@ impl Search<'_> {
     ) -> f64 {
         let sample = self.drawer.sample();
         let owned = self.drawer.ties(test.ties);
+        // The pixels of an answer come one after another, and what is the same for all of them is computed once.
+        let last = Cell::new(None);
         let is_drawn = |seen: &PixelSeen<'_>| {
-            let a = seen.answer;
-            test.draws(&a.question, seen.at, sample, owned) == a.drawn.has(seen.at)
+            let of_answer = match last.get() {
+                Some((group, numbers)) if group == seen.group => numbers,
+                _ => test.numbers(&seen.answer.question),
+            };
+            last.set(Some((seen.group, of_answer)));
+            let is_inside = of_answer.is_some_and(|numbers| numbers.draws(seen.at, sample, owned));
+            is_inside == seen.answer.drawn.has(seen.at)
         };
         let step = wrong.len().div_ceil(FEW_BORDERS).max(1);
         let few = wrong.iter().step_by(step);
@@ -478,15 +469,27 @@ impl Search<'_> {
         }
     }
 
-    /// How many of some answers a model predicts, less a little for each pixel that it misses.
-    fn worth_of_model(&self, model: &Model, answers: &[&LearnedAnswer]) -> f64 {
-        let mut worth = 0.0;
-        for a in answers {
-            let picture = model.predict(a, self.drawer, self.vocabulary);
-            match picture.map_or(MOST_PIXELS, |p| p.differs(&a.drawn).min(MOST_PIXELS)) {
-                0 => worth += 1.0,
-                missed => worth -= 0.02 * missed as f64,
+    /// How many of some wrong answers a model predicts, and half as much of right ones, less a little for each pixel that it
+    /// misses and for each change; what is below `least` is not counted to its end. In hundredths, so that sums are exact.
+    fn worth_of_model(
+        &self,
+        model: &Model,
+        changes: usize,
+        [wrong, right]: [&[&LearnedAnswer]; 2],
+        least: f64,
+    ) -> f64 {
+        // What is not looked at yet is taken for predicted.
+        let mut worth = (100 * wrong.len() + 50 * right.len()) as f64 - 30.0 * changes as f64;
+        let of_wrong = wrong.iter().map(|a| (a, 1.0));
+        for (a, weight) in of_wrong.chain(right.iter().map(|a| (a, 0.5))) {
+            if worth < least {
+                break;
             }
+            let picture = model.predict(a, self.drawer, self.vocabulary);
+            worth -= match picture.map_or(MOST_PIXELS, |p| p.differs(&a.drawn).min(MOST_PIXELS)) {
+                0 => 0.0,
+                missed => weight * (100 + 2 * missed) as f64,
+            };
         }
         worth
     }
@@ -498,9 +501,8 @@ impl Search<'_> {
             return None;
         }
         let of = |rows: &RowRule| Model { rows: *rows, ..Model::default() };
-        let worth = |rows: &RowRule, _: f64| {
-            let [wrong, right] = [&wrong, &right].map(|some| self.worth_of_model(&of(rows), some));
-            wrong + 0.5 * right - 0.3 * rows.changes() as f64
+        let worth = |rows: &RowRule, least: f64| {
+            self.worth_of_model(&of(rows), rows.changes(), [&wrong, &right], least)
         };
         let best = climbed(RowRule::default(), &RowRule::variants, &worth);
         best.first().map(|(_, rows)| of(rows))
@@ -607,43 +609,20 @@ impl Search<'_> {
         row.values
     }
 
-    /// The borders that can be read off some answers, with what a model predicts of them.
+    /// The borders of one end that can be read off some answers, with what a model predicts of them where heights are rounded in
+    /// some way.
     fn borders_seen(
         &self,
         model: &Model,
         end: usize,
         heights: Option<Toward>,
     ) -> Vec<BorderSeen<'_>> {
-        let mut all = Vec::new();
-        let sample = self.drawer.sample();
         let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
+        let mut all = Vec::new();
         for (group, a) in some.into_iter().flatten().enumerate() {
-            let Some(predicted) = model.predict(a, self.drawer, self.vocabulary) else { continue };
-            let answer = Rc::new((a, Scene::new(&a.question, &a.right, sample)));
-            let is_line = a.question.is_line();
-            let right_of = |site: &Site| match is_line {
-                true => site.seen(&a.right, true),
-                false => site.evaluate(&Crossing::RIGHT, &a.question, sample),
-            };
-            let sites = border::sites(&a.question, sample, heights);
-            for row in sites.chunks(if is_line { 1 } else { 2 }) {
-                let Some(site) = row.iter().find(|site| site.end == end) else { continue };
-                let [drawn, predicted] =
-                    [&a.drawn, &predicted].map(|picture| site.seen(picture, is_line));
-                // An empty row tells something where it is to be empty.
-                let is_blank = !is_line && row_is_empty(site, &a.drawn);
-                let is_known = drawn.is_some() || is_blank && row_is_empty(site, &a.right);
-                if !is_known || predicted.is_none() && !is_blank {
-                    continue;
-                }
-                let (Some(right), Some(other)) =
-                    (right_of(site), right_of(&row[(row.len() - 1).saturating_sub(end)]))
-                else {
-                    continue;
-                };
-                let site = *site;
-                let answer = Rc::clone(&answer);
-                all.push(BorderSeen { group, answer, site, right, predicted, drawn, other });
+            if let Some(predicted) = model.predict(a, self.drawer, self.vocabulary) {
+                let sample = self.drawer.sample();
+                all.extend(borders_seen(group, a, &predicted, sample, (end, heights)));
             }
         }
         all
@@ -870,88 +849,8 @@ fn wrong_pixels(
         .filter(move |at| wrong.may_befall(before.hits(*at)) && wrong.is_seen(a.drawn.hits(*at)))
 }
 
-/// A border that was read off an answer.
-struct BorderSeen<'a> {
-    group: usize,
-    answer: Rc<(&'a LearnedAnswer, Scene<'a>)>,
-    site: Site,
-    /// In the window or not.
-    right: i64,
-    /// In the window; nothing where the row is empty.
-    predicted: Option<i64>,
-    drawn: Option<i64>,
-    /// The other end of the row.
-    other: i64,
-}
-
-impl BorderSeen<'_> {
-    /// Whether a formula gives what is drawn, in the window.
-    fn is_drawn_by(&self, crossing: &Crossing, sample: [i64; 2]) -> bool {
-        let q = &self.answer.0.question;
-        let side = i64::from(q.side[1 - self.site.axis]);
-        let Some(value) = self.site.evaluate(crossing, q, sample) else { return false };
-        match self.drawn {
-            Some(drawn) => value.clamp(0, side) == drawn,
-            None if self.site.end == 0 => value >= self.other,
-            None => value <= self.other,
-        }
-    }
-}
-
-fn row_is_empty(site: &Site, picture: &Picture) -> bool {
-    !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
-}
-
-/// A pixel by which tests are compared, with the answer that shows it.
-struct PixelSeen<'a> {
-    answer: &'a LearnedAnswer,
-    at: [i32; 2],
-}
-
 /// Lines by which walks are compared are shorter than this.
 const SHORT_LINE: i64 = 512;
-
-/// Pixels of an answer that tests are compared by, of wrong and of right ones.
-const MOST_SEEN: usize = 4;
-
-/// So many of some borders, evenly spread.
-fn spread<'a, 'b>(all: &[&'b BorderSeen<'a>], most: usize) -> Vec<&'b BorderSeen<'a>> {
-    all.iter().step_by(all.len().div_ceil(most).max(1)).copied().collect()
-}
-
-/// The ties of each end that most of some right borders have.
-fn ties_of(right: &[&BorderSeen<'_>], sample: [i64; 2]) -> [Tie; 2] {
-    [0, 1].map(|end| {
-        let agrees = |tie: &Tie| {
-            let crossing = Crossing { ties: [*tie; 2], ..Crossing::RIGHT };
-            let of_end = right.iter().filter(|seen| seen.site.end == end);
-            of_end.filter(|seen| seen.is_drawn_by(&crossing, sample)).count()
-        };
-        Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down)
-    })
-}
-
-/// The borders of some ends, with heights rounded in one way.
-struct BordersAtEnds<'a, 'b> {
-    /// Those that a model predicts wrongly, and those that it predicts well.
-    wrong: Vec<&'b BorderSeen<'a>>,
-    right: Vec<&'b BorderSeen<'a>>,
-    /// Some of both, which formulas are compared by.
-    some: [Vec<&'b BorderSeen<'a>>; 2],
-}
-
-impl<'a, 'b> BordersAtEnds<'a, 'b> {
-    fn of(of_ends: &'b [Vec<BorderSeen<'a>>; 2], ends: [bool; 2]) -> Self {
-        let (mut wrong, mut right) = (Vec::new(), Vec::new());
-        for end in (0..2).filter(|end| ends[*end]) {
-            for seen in &of_ends[end] {
-                if seen.drawn == seen.predicted { &mut right } else { &mut wrong }.push(seen);
-            }
-        }
-        let some = [spread(&wrong, 120), spread(&right, 60)];
-        Self { wrong, right, some }
-    }
-}
 
 /// A formula with its worth, and the number of the rounding of heights that it is for.
 struct Climb {
@@ -963,24 +862,6 @@ struct Climb {
 impl Climb {
     fn highest_first(a: &Self, b: &Self) -> std::cmp::Ordering {
         b.worth.total_cmp(&a.worth)
-    }
-}
-
-/// What a formula costs.
-#[derive(Clone, Copy)]
-struct Price {
-    /// Steps of [`super::trial::Work`] for a border or a pixel.
-    steps: usize,
-    /// What is taken off for each right one that it breaks.
-    broken: f64,
-    /// Its changed fields, for each of which a little is taken off.
-    changes: usize,
-}
-
-impl Price {
-    /// The worth of a formula that gives so many of the wrong ones and breaks so many of the right ones.
-    fn worth(self, drawn: usize, broken: usize) -> f64 {
-        drawn as f64 - self.broken * broken as f64 - 0.3 * self.changes as f64
     }
 }
 
@@ -999,68 +880,4 @@ fn higher<'a>(a: &'a Tried, b: &'a Tried) -> &'a Tried {
 
 fn always(base: &Base) -> GuardedStep {
     GuardedStep { when: None, base: base.clone() }
-}
-
-/// All models that say one thing less.
-fn shorter(model: &Model) -> Vec<Model> {
-    let mut all = Vec::new();
-    for i in 0..model.chain.len() {
-        let mut less = model.clone();
-        less.chain.remove(i);
-        all.push(less);
-        for when in shorter_guards(model.chain[i].when.as_ref()) {
-            let mut less = model.clone();
-            less.chain[i].when = when;
-            all.push(less);
-        }
-    }
-    for i in 0..model.borders.len() {
-        all.push(Model { borders: without(&model.borders, i), ..model.clone() });
-        for when in shorter_guards(model.borders[i].when.as_ref()) {
-            let mut less = model.clone();
-            less.borders[i].when = when;
-            all.push(less);
-        }
-    }
-    let halves = Halves { counts: false, ..model.rows.halves };
-    let plain = [
-        RowRule { exchanges_ends: false, ..model.rows },
-        RowRule { heights: None, ..model.rows },
-        RowRule { halves, ..model.rows },
-        RowRule { halves: Halves::default(), ..model.rows },
-    ];
-    let less = plain.into_iter().filter(|rows| *rows != model.rows);
-    all.extend(less.map(|rows| Model { rows, ..model.clone() }));
-    for (i, step) in model.steps.iter().enumerate() {
-        all.push(Model { steps: without(&model.steps, i), ..model.clone() });
-        for k in (0..step.facts.len()).filter(|_| step.facts.len() > 1) {
-            let mut less = model.clone();
-            less.steps[i].facts.remove(k);
-            all.push(less);
-        }
-    }
-    all
-}
-
-/// No guard, and all guards without one conjunction or one fact.
-fn shorter_guards(when: Option<&Vec<Conjunction>>) -> Vec<Option<Vec<Conjunction>>> {
-    let Some(when) = when else { return Vec::new() };
-    let mut all = vec![None];
-    for (j, conjunction) in when.iter().enumerate() {
-        if when.len() > 1 {
-            all.push(Some(without(when, j)));
-        }
-        for k in (0..conjunction.len()).filter(|_| conjunction.len() > 1) {
-            let mut less = when.clone();
-            less[j].remove(k);
-            all.push(Some(less));
-        }
-    }
-    all
-}
-
-fn without<T: Clone>(all: &[T], i: usize) -> Vec<T> {
-    let mut less = all.to_vec();
-    less.remove(i);
-    less
 }
