@@ -56,12 +56,11 @@ const SHOWN_AS_IT_IS = /\.(png|svg|gif|gz)$/;
 
 /** The place of a file of the repository in the site. */
 function placeOf(file) {
+  shown.add(file);
   if (isFolder(file)) {
-    shown.add(file);
     for (const inside of kept) if (inside.startsWith(`${file}/`)) shown.add(inside);
     return `files/${file}/index.html`;
   }
-  shown.add(file);
   return SHOWN_AS_IT_IS.test(file) ? `files/${file}` : `files/${file}.html`;
 }
 
