@@ -117,12 +117,8 @@ impl Typed {
 
     /// The first of some options that was given.
     pub fn given<'a, S: AsRef<str>>(&self, options: &'a [S]) -> Option<&'a str> {
-        for option in options.iter().map(AsRef::as_ref) {
-            if self.options.iter().any(|(name, _)| name == option) {
-                return Some(option);
-            }
-        }
-        None
+        let is_given = |option: &&str| self.options.iter().any(|(name, _)| name == option);
+        options.iter().map(AsRef::as_ref).find(is_given)
     }
 
     /// The words of the command, from which the parser makes the same arguments again.
