@@ -20,11 +20,10 @@ impl Rasterize for Oracle {
         }
         // Products of differences stay below 2^61 while both the triangle and the samples tested
         // lie within 2^29 subpixels of the origin; the samples lie within a pixel of the triangle.
-        let mut farthest = 0;
-        for corner in corners {
-            farthest = farthest.max(corner.x.unsigned_abs()).max(corner.y.unsigned_abs());
-        }
-        if farthest < 1 << 29 {
+        let near = corners
+            .iter()
+            .all(|corner| corner.x.unsigned_abs().max(corner.y.unsigned_abs()) < 1 << 29);
+        if near {
             scan(&corners, rect, |a, b| a * b, emit);
         } else {
             scan(&corners, rect, |a, b| i128::from(a) * i128::from(b), emit);
@@ -34,16 +33,15 @@ impl Rasterize for Oracle {
 
 /// All pixels whose squares touch the bounding box of the corners.
 fn around(corners: &Corners) -> PixelRect {
-    let [a, b, c] = corners.map(|corner| [corner.x, corner.y].map(|sub| sub.div_euclid(SUBPIXELS)));
-    PixelRect {
-        x0: a[0].min(b[0]).min(c[0]),
-        y0: a[1].min(b[1]).min(c[1]),
-        x1: a[0].max(b[0]).max(c[0]) + 1,
-        y1: a[1].max(b[1]).max(c[1]) + 1,
-    }
+    let low = |sub: i32| sub.div_euclid(SUBPIXELS);
+    let xs = corners.map(|corner| low(corner.x));
+    let ys = corners.map(|corner| low(corner.y));
+    let ends =
+        |v: [i32; 3]| (v.into_iter().min().unwrap_or(0), v.into_iter().max().unwrap_or(0) + 1);
+    let ((x0, x1), (y0, y1)) = (ends(xs), ends(ys));
+    PixelRect { x0, y0, x1, y1 }
 }
 
-/// The centre of a column or row, in subpixels.
 fn centre(px: i32) -> i64 {
     i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }
@@ -115,39 +113,44 @@ impl<T: Copy + PartialOrd> LeftOf<T> {
 #[must_use]
 pub fn samples_on_boundary(corners: &Corners, bounds: PixelRect) -> u64 {
     // Each edge without its second end, so that a corner counts once.
-    let [a, b, c] = *corners;
-    samples_on_edge(a, b, bounds) + samples_on_edge(b, c, bounds) + samples_on_edge(c, a, bounds)
+    [(0, 1), (1, 2), (2, 0)]
+        .map(|(i, j)| samples_on_edge(corners[i], corners[j], bounds))
+        .into_iter()
+        .sum()
 }
 
-/// How many samples lie on an edge but for its second end. Of a level edge these lie in one row, of any other one at most one in each row.
 fn samples_on_edge(a: SubpixelPoint, b: SubpixelPoint, bounds: PixelRect) -> u64 {
     let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(i64::from);
-    let is_sample = |sub: i64| (sub - i64::from(HALF_PIXEL)).rem_euclid(i64::from(SUBPIXELS)) == 0;
-    let mut count = 0;
+    let is_second_end = |x: i64, y: i64| (x, y) == (bx, by);
     if ay == by {
-        if !is_sample(ay) || !(bounds.y0..bounds.y1).contains(&((ay >> 8) as i32)) {
+        if (ay - i64::from(HALF_PIXEL)).rem_euclid(i64::from(SUBPIXELS)) != 0
+            || !(bounds.y0..bounds.y1).contains(&((ay >> 8) as i32))
+        {
             return 0;
         }
-        let (low, high) = (ax.min(bx), ax.max(bx));
-        for x_px in (low >> 8).max(bounds.x0.into())..=(high >> 8).min(i64::from(bounds.x1) - 1) {
-            let x = x_px * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
-            count += u64::from((low..=high).contains(&x) && x != bx);
-        }
-        return count;
+        let (low, high) = (ax.min(bx) >> 8, ax.max(bx) >> 8);
+        return (low.max(i64::from(bounds.x0))..=high.min(i64::from(bounds.x1) - 1))
+            .map(|x_px| x_px * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL))
+            .filter(|&x| x >= ax.min(bx) && x <= ax.max(bx) && !is_second_end(x, ay))
+            .count() as u64;
     }
-    let (low, high) = (ay.min(by), ay.max(by));
-    for y_px in (low >> 8).max(bounds.y0.into())..=(high >> 8).min(i64::from(bounds.y1) - 1) {
-        let y = y_px * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
-        let (across, dy) = (i128::from(y - ay) * i128::from(bx - ax), i128::from(by - ay));
-        // Where the edge does not pass at a whole number, it passes through no sample.
-        if !(low..=high).contains(&y) || across % dy != 0 {
-            continue;
-        }
-        let x = ax + (across / dy) as i64;
-        let is_in_window = (i64::from(bounds.x0)..i64::from(bounds.x1)).contains(&(x >> 8));
-        count += u64::from(is_sample(x) && is_in_window && (x, y) != (bx, by));
-    }
-    count
+    let (low, high) = (ay.min(by) >> 8, ay.max(by) >> 8);
+    (low.max(i64::from(bounds.y0))..=high.min(i64::from(bounds.y1) - 1))
+        .filter(|&y_px| {
+            let y = y_px * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
+            if y < ay.min(by) || y > ay.max(by) {
+                return false;
+            }
+            let (across, dy) = (i128::from(y - ay) * i128::from(bx - ax), i128::from(by - ay));
+            if across % dy != 0 {
+                return false;
+            }
+            let x = ax + (across / dy) as i64;
+            (x - i64::from(HALF_PIXEL)).rem_euclid(i64::from(SUBPIXELS)) == 0
+                && (i64::from(bounds.x0)..i64::from(bounds.x1)).contains(&(x >> 8))
+                && !is_second_end(x, y)
+        })
+        .count() as u64
 }
 
 #[cfg(test)]

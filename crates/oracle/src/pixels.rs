@@ -32,15 +32,14 @@ impl Oracle {
         // Both products stay below 2^61 where lengths do not exceed 2^30.
         let small = du < 1 << 30;
         let belongs = |u: i64, v: i64| {
-            let is_nearest = if small {
+            if small {
                 let twice = 2 * (du * v - dv * u) * dv.signum();
-                -du < twice && twice <= du
+                -du < twice && twice <= du && (dv != 0 || v == 0)
             } else {
                 let [du, dv, u, v] = [du, dv, u, v].map(i128::from);
                 let twice = 2 * (du * v - dv * u) * dv.signum();
-                -du < twice && twice <= du
-            };
-            is_nearest && (dv != 0 || v == 0)
+                -du < twice && twice <= du && (dv != 0 || v == 0)
+            }
         };
         let mut visit = |major_px: i64| {
             for minor_px in rows.clone() {

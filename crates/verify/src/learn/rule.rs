@@ -903,7 +903,7 @@ mod tests {
     }
 
     /// A fact with the rows that it holds of.
-    struct Held {
+    struct FactRows {
         fact: Fact,
         cost: f64,
         rows: [Vec<bool>; 2],
@@ -918,17 +918,17 @@ mod tests {
             for test in tests(names, of, &in_yes, &in_no) {
                 let fact = Fact { of, test };
                 let held_by = |rows: &[Vec<i64>]| rows.iter().map(|row| fact.holds(row)).collect();
-                all.push(Held { fact, cost: fact.cost(names), rows: [yes, no].map(held_by) });
+                all.push(FactRows { fact, cost: fact.cost(names), rows: [yes, no].map(held_by) });
             }
         }
-        let is_enough = |held: &Held| {
+        let is_enough = |held: &FactRows| {
             let of_yes = held.rows[0].iter().filter(|holds| **holds).count();
             let is_all = held.rows.iter().flatten().all(|holds| *holds);
             of_yes >= 3.max(yes.len() / 50) && !is_all
         };
         all.retain(is_enough);
         // Of those that hold of the same rows, the first of the cheapest.
-        let is_cheapest = |one: &Held| {
+        let is_cheapest = |one: &FactRows| {
             let same = all.iter().filter(|other| other.rows == one.rows);
             let cheapest = same.reduce(|a, b| if b.cost < a.cost { b } else { a });
             cheapest.is_some_and(|cheapest| cheapest.fact == one.fact)
