@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import { attribute, inSite, names, tags } from '../driver/site.mjs';
 
 /** The compiled engines, before a server compresses them. */
-const MODULE_BYTES = 1_450_000;
+const MODULE_BYTES = 1_410_000;
 /** As bytes, and in base64. */
 const MARKS = ['\0asm\x01\0\0\0', 'AGFzbQEAAAA'];
 
