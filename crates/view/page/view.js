@@ -261,7 +261,7 @@ class View extends HTMLElement {
   placeGrips(shown, own, tabIndex) {
     while (shown.grips.length > own.length) shown.grips.pop().remove();
     own.forEach(({ grip, index }, i) => {
-      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { role: 'slider', 'aria-valuenow': 0 })));
+      const made = (shown.grips[i] ??= shown.frame.appendChild(make('div', { role: 'slider', 'aria-valuenow': 0, 'aria-label': grip.name })));
       const className = ['knob', grip.nudge && 'is-value', grip.isPainted && 'is-painted'].filter(Boolean).join(' ');
       const attributes = { class: className, 'data-name': grip.name, 'data-label': own.length > 26 ? '' : grip.name, 'data-index': index, tabindex: tabIndex };
       const is = Object.values(attributes).join();
