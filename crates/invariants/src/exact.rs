@@ -45,7 +45,7 @@ pub fn edges([a, b, c]: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
     [edge(*b, *c, x, y), edge(*c, *a, x, y), edge(*a, *b, x, y)]
 }
 
-/// Whether a triangle of either winding owns the centre of a pixel, by the rule that a nudge of the samples stands for.
+/// Whether the centre of a pixel belongs to a triangle of either winding, by the rule that a nudge of the samples stands for.
 #[must_use]
 pub fn owns(corners: &Corners, x_px: i32, y_px: i32, nudge: Nudge) -> bool {
     let Some([a, b, c]) = clockwise(corners) else { return false };

@@ -114,7 +114,6 @@ pub fn hits(
     hits
 }
 
-/// A drawer of lines.
 pub struct Drawer {
     pub name: &'static str,
     pub stroke: Box<dyn Stroke>,

@@ -229,7 +229,6 @@ pub fn drawn(subject: &Implementations, input: &Input) -> Option<String> {
     Some(ascii::beside(&names, &drawn, &expected, 78))
 }
 
-/// The invariant of this name.
 pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)
 }
@@ -241,7 +240,6 @@ const DRAWER: &[Component] = &[Component::Drawer];
 const CLIP: &[Component] = &[Component::Clip];
 const FORMULAS: &[Component] = &[Component::Formulas];
 
-/// A row of the catalogue.
 const fn invariant(
     number: u32,
     name: &'static str,

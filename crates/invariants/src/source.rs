@@ -101,7 +101,6 @@ pub struct LineInput {
     pub window: PixelRect,
 }
 
-/// A coordinate that is snapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
     pub px: f64,
@@ -126,7 +125,6 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
-/// What a check gets, by its kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
@@ -204,7 +202,6 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
-/// A line of the families in turn.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {

@@ -154,7 +154,6 @@ fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.varying[k])
 }
 
-/// The depth of each vertex.
 fn depths_of(triangle: &Triangle) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.depth)
 }

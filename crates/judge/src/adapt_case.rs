@@ -39,7 +39,7 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     chosen
 }
 
-/// The family of a name; nothing where none of those that are asked has it.
+/// The family of a name among those that programs get; nothing where none has it.
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }

@@ -23,6 +23,7 @@ use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
+use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::convention::{Shape, TriangleConvention};
 
@@ -130,13 +131,9 @@ fn lines() -> Vec<f64> {
 
 /// The row of each pixel of a line from (0, 0).
 fn rows_of_line(to: [i32; 2]) -> Vec<f64> {
-    let ends = [[0, 0], to].map(|[x, y]| LineEnd {
-        pixel: PixelPoint::new(x, y),
-        depth: 0.0,
-        varying: 0.0,
-    });
+    let line = plain_line(PixelPoint::new(0, 0), PixelPoint::new(to[0], to[1]));
     let mut found = Vec::new();
-    Dda.draw(&ScreenLine { ends }, WINDOW, |f| found.push(f64::from(f.y_px)));
+    Dda.draw(&line, WINDOW, |f| found.push(f64::from(f.y_px)));
     found
 }
 

@@ -48,7 +48,7 @@ use rasterproof_core::triangle::Span;
 /// Declares [`Mutant`] from the kinds of faults.
 macro_rules! kinds {
     ($($kind:ident($mutant:ty),)+) => {
-        /// A planted fault that the invariants are asked about, whatever it is a fault of.
+        /// A planted fault of any kind: of an engine, of snapping, of a stage.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Mutant {
             $($kind($mutant),)+
@@ -110,7 +110,7 @@ pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
-/// The names that `--plant` takes.
+/// What `--plant` takes: the names of the faults of all kinds, in the order of the catalogue.
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

@@ -16,7 +16,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
-/// The published rule and values.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuInclusive;
 

@@ -182,7 +182,6 @@ impl Outline {
             && length(centre - b) <= farthest
     }
 
-    /// The ends of an edge.
     fn ends(&self, edge: usize) -> [DevicePoint; 2] {
         [self.exact[edge], self.exact[(edge + 1) % 3]]
     }

@@ -37,7 +37,6 @@ pub struct Permitted {
     single: bool,
 }
 
-/// A row of [`RIGHT`].
 const fn permitted(rule: Rule, bits: u32, single: bool) -> Permitted {
     Permitted { rule, bits, single }
 }
@@ -69,7 +68,6 @@ impl Rasterizer {
         all
     }
 
-    /// Its name in the tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Reference => "scanline",

@@ -36,7 +36,7 @@ pub struct Row {
     pub refused_right_pictures: u64,
 }
 
-/// A fault that was accepted.
+/// A fault that a rule let through, and how much it got wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passed {
     #[serde(rename = "fault")]

@@ -236,19 +236,18 @@ fn typed<S: Stage>(value: &AnyValue) -> &S {
     value.downcast_ref().expect("a value of this stage")
 }
 
-/// Values whose type is hidden.
-fn hidden<S: Stage>(values: Vec<S>) -> Vec<AnyValue> {
-    let mut all: Vec<AnyValue> = Vec::new();
+/// Values, or changes, whose type is hidden.
+pub(super) fn hidden<T: Any>(values: Vec<T>) -> Vec<Rc<dyn Any>> {
+    let mut all: Vec<Rc<dyn Any>> = Vec::new();
     for value in values {
         all.push(Rc::new(value));
     }
     all
 }
 
-impl<'a, S: Stage> PartsOf<'a, S> {
-    fn at(&self, places: &[usize]) -> Vec<&S::Part<'a>> {
-        places.iter().map(|place| &self.0[*place]).collect()
-    }
+/// The parts that stand at some places of a list.
+pub(super) fn at_places<'a, P>(parts: &'a [P], places: &[usize]) -> Vec<&'a P> {
+    places.iter().map(|place| &parts[*place]).collect()
 }
 
 impl<'a, S: Stage> AnswerParts<'a> for PartsOf<'a, S> {
@@ -273,7 +272,7 @@ impl<'a, S: Stage> AnswerParts<'a> for PartsOf<'a, S> {
     }
 
     fn singles(&self, places: &[usize]) -> Vec<AnyValue> {
-        hidden(singles::<S>(&self.at(places)))
+        hidden(singles::<S>(&at_places(&self.0, places)))
     }
 
     fn both(&self, first: &AnyValue, second: &AnyValue) -> Option<AnyValue> {
@@ -286,7 +285,7 @@ impl<'a, S: Stage> AnswerParts<'a> for PartsOf<'a, S> {
     }
 
     fn solved(&self, value: &AnyValue, places: &[usize]) -> Vec<AnyValue> {
-        hidden(typed::<S>(value).solved(&self.at(places)))
+        hidden(typed::<S>(value).solved(&at_places(&self.0, places)))
     }
 
     fn quantities(&self, place: usize) -> Row {

@@ -6,15 +6,16 @@ use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
-use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
+use rasterproof_core::triangle::PixelPoint;
+use rasterproof_verify::cases::named::plain_line;
 
 solvers!(longer, halfway, drift);
 
 /// The pixels of a line as the engine of the chapter draws it.
 fn line(from: [i32; 2], to: [i32; 2], window: PixelRect) -> Coverage {
-    let end = |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
     let mut lit = Coverage::new(window, 0);
-    let line = ScreenLine { ends: [end(from), end(to)] };
+    let [from, to] = [from, to].map(|[x, y]| PixelPoint::new(x, y));
+    let line = plain_line(from, to);
     Bresenham.draw(&line, window, |f| lit.hit(f.y_px, f.x_px, f.x_px + 1));
     lit
 }

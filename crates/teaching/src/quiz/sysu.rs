@@ -7,7 +7,7 @@ use super::{Right, Solution, Text};
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
-use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
+use rasterproof_core::triangle::PixelPoint;
 use rasterproof_faults::published::sysu_bresenham::SysuBresenham;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{
@@ -19,6 +19,7 @@ use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::{Assembler, Cull};
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters;
+use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::along_line;
 
@@ -26,13 +27,9 @@ solvers!(decision, backwards, dropped, turned, corner);
 
 /// The rows of a line from (0, 0), one for each of its columns.
 fn rows(to: [i32; 2]) -> Vec<i32> {
-    let ends = [[0, 0], to].map(|[x, y]| LineEnd {
-        pixel: PixelPoint::new(x, y),
-        depth: 0.0,
-        varying: 0.0,
-    });
+    let line = plain_line(PixelPoint::new(0, 0), PixelPoint::new(to[0], to[1]));
     let mut rows = Vec::new();
-    Bresenham.draw(&ScreenLine { ends }, PixelRect::window(16, 16), |f| rows.push(f.y_px));
+    Bresenham.draw(&line, PixelRect::window(16, 16), |f| rows.push(f.y_px));
     rows
 }
 

@@ -15,6 +15,7 @@ use rasterproof_verify::learn::trial::Work;
 use crate::adapt_case;
 use crate::ask::{Answer, Question};
 use crate::declared::Declared;
+use crate::stages::search::{at_places, hidden};
 
 /// A question that the program was given, with its answer and what is computed of both.
 pub struct LearnedCase {
@@ -145,12 +146,6 @@ impl<L: Learnable> AnyLearnable for LearnableOf<L> {
     }
 }
 
-impl<'a, L: Learnable> PartsOf<'a, L> {
-    fn at(&self, places: &[usize]) -> Vec<&L::Part<'a>> {
-        places.iter().map(|place| &self.0[*place]).collect()
-    }
-}
-
 impl<'a, L: Learnable> AnyParts<'a> for PartsOf<'a, L> {
     fn count(&self) -> usize {
         self.0.len()
@@ -183,11 +178,8 @@ impl<'a, L: Learnable> AnyParts<'a> for PartsOf<'a, L> {
     }
 
     fn changes(&self, wrong: &[usize], right: &[usize], work: &Work) -> Vec<AnyChange> {
-        let mut hidden: Vec<AnyChange> = Vec::new();
-        for change in L::changes(&self.at(wrong), &self.at(right), work) {
-            hidden.push(Rc::new(change));
-        }
-        hidden
+        let [wrong, right] = [wrong, right].map(|places| at_places(&self.0, places));
+        hidden(L::changes(&wrong, &right, work))
     }
 }
 
