@@ -947,7 +947,7 @@ mod tests {
         };
         let names: Vec<Name> = units.iter().map(name).collect();
         let mut rng = Rng::new("facts", 1, 0);
-        for (yes, no) in [(12, 9), (30, 70), (130, 200)] {
+        for (yes, no) in [(12, 9), (30, 70), (250, 200)] {
             let [yes, no] = [yes, no].map(|count| rows(&mut rng, &units, count));
             let mut some = [&yes, &no].map(|rows| {
                 let values = Values::of(names.len(), rows);
