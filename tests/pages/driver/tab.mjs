@@ -52,11 +52,12 @@ export class Tab extends Questions {
     const { targetId } = await send('Target.createTarget', { url: 'about:blank', browserContextId });
     const { sessionId } = await send('Target.attachToTarget', { targetId, flatten: true });
     tab.session = sessionId;
-    tab.call = async (method, parameters = {}) => {
+    const patiently = (method, parameters, session) => {
       const late = sleep(PATIENCE, null, { ref: false }).then(() => assert.fail(`the browser does not answer ${method}`));
-      return Promise.race([send(method, parameters, sessionId), late]);
+      return Promise.race([send(method, parameters, session), late]);
     };
-    tab.close = () => send('Target.disposeBrowserContext', { browserContextId });
+    tab.call = (method, parameters = {}) => patiently(method, parameters, sessionId);
+    tab.close = () => patiently('Target.disposeBrowserContext', { browserContextId });
     for (const domain of ['Page', 'Runtime', 'Log']) await tab.call(`${domain}.enable`);
     return tab;
   }
