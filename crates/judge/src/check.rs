@@ -108,6 +108,28 @@ rasterproof_core::named! {
     }
 }
 
+impl Counted {
+    /// The words behind a number: the singular behind 1.
+    #[must_use]
+    pub fn words(self, number: u64) -> &'static str {
+        if number != 1 {
+            return self.name();
+        }
+        match self {
+            Self::Pixels => "wrong pixel",
+            Self::Values => "value beyond the tolerance",
+            Self::Samples => "wrong sample",
+            Self::Seen => "pixel that shows the wrong triangle",
+            Self::Corners => "wrong corner",
+            Self::Numbers => "wrong number",
+            Self::Changes => "pixel that differs",
+            Self::Meshes => "hole or double of meshes",
+            Self::Outlines => "pixel that contradicts the outline",
+            Self::Levels => "pixel of a wrong level",
+        }
+    }
+}
+
 impl CaseJudgement {
     /// What is wrong with the answers to a case in words, parts of a sentence that are joined by commas.
     pub fn describe(&self, check: Check) -> String {

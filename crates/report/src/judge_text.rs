@@ -353,7 +353,7 @@ fn dangers(verdict: &Verdict) -> Table {
 /// A score in the words of what it counts.
 fn score(what: Counted, of: Score) -> String {
     let share = per_million(of.wrong, of.pixels);
-    format!("{} {}, {share:.0} in a million", of.wrong, what.name())
+    format!("{} {}, {share:.0} in a million", of.wrong, what.words(of.wrong))
 }
 
 /// The score by a convention, with the wrong pixels of the shapes that it leaves out.
@@ -657,7 +657,7 @@ fn wrong(verdict: &Verdict) -> String {
     let mut said = String::new();
     for count in &counts {
         if count.score.wrong > 0 || is_right && is_clean {
-            said += &format!(", {} {}", count.score.wrong, count.what.name());
+            said += &format!(", {} {}", count.score.wrong, count.what.words(count.score.wrong));
         }
     }
     // Requests that came to no answer are none of these counts.

@@ -66,7 +66,7 @@ export const scrolling = (...children) => make('div', { className: 'scroll', tab
 
 /** A table whose rows begin with their names; a row is a list of cells, or {cells, className}. Numbers stand at the right. */
 export function table(heads, rows, { caption = '', ...more } = {}) {
-  const kindOf = (cell) => ({ className: /^[-\u2212+]?[\d.]+(e[-+]?\d+)?%?$/.test(cell) ? 'number' : '' });
+  const kindOf = (cell) => ({ className: /^[-\u2212+]?[\d.,]+(e[-+]?\d+)?%?$/.test(cell) ? 'number' : '' });
   const rowOf = ({ cells, className = '' }) => make('tr', { className }, ...cells.map((cell, i) => (
     i === 0 ? make('th', { scope: 'row' }, cell) : make('td', kindOf(cell), cell))));
   const lists = rows.map((row) => (Array.isArray(row) ? { cells: row } : row));

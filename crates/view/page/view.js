@@ -9,7 +9,8 @@
 //   covers    elements over the picture, each {element, x, y, width, height}
 //   legend    [fill, glyph, text] of each colour
 //   title     the name of a saved picture, with `about` below it
-//   high      the largest share of the window's height, and `most`, the largest pixel
+//   high      the largest share of the window's height; `most` and `least`, the largest and the smallest pixel: of a part that needs smaller ones
+//             what lies about the cursor is shown at first
 import { arrowOf, become, button, clamp, fill, make, mark, paced, pageLanguage, say, whenIdle } from './dom.js';
 import { AXIS_HIGH, axisWide, colours, contextOf, paintCorners, paintCursor, paintGrid, paintImage, paintMarks, paintNumbers, paintOutline, paintSamples, readColours } from './paint.js';
 
@@ -79,7 +80,7 @@ class View extends HTMLElement {
   show(source) {
     const isOther = String(source.part) !== String(this.source?.part) || String(source.bounds) !== String(this.source?.bounds);
     this.source = source;
-    if (isOther || !this.seen) this.seen = [...source.part];
+    if (isOther) this.seen = null;
     const { panels } = source;
     while (this.shown.length > panels.length) this.shown.pop().figure.remove();
     panels.forEach((panel, i) => {
@@ -143,7 +144,7 @@ class View extends HTMLElement {
 
   /** Gives the panels the size at which the part fits; read and written only when something changed. */
   layOut() {
-    const { part, panels, high = 0.56, most = 112, numbers } = this.source;
+    const { part, panels, high = 0.56, most = 112, least = 0, numbers } = this.source;
     const [width, height] = [part[2] - part[0], part[3] - part[1]];
     const key = JSON.stringify([panels.length, width, height, this.isWide, high, most, numbers && axisWide(part)]);
     if (key === this.laidOut) return;
@@ -152,16 +153,20 @@ class View extends HTMLElement {
     // Panels that are much wider than high stand below one another, where that shows them larger.
     const [all, tall] = [this.body.clientWidth, Math.max(200, innerHeight * high)];
     const [beside, below] = [[all / panels.length, tall], [all, tall / panels.length]].map(([w, h]) => Math.min(most, w / width, h / height));
-    const isStacked = all / panels.length > 240 && below > 1.3 * beside;
+    const isStacked = (all / panels.length > 240 || beside < least) && below > 1.3 * beside;
     this.body.classList.toggle('is-stacked', isStacked);
     const rows = Math.ceil(panels.length / getComputedStyle(this.body).gridTemplateColumns.split(' ').length);
     const room = this.isWide ? (innerHeight - 90) / rows - 60 : isStacked ? tall / panels.length : tall;
     const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2); // its frame
     const fits = Math.min(this.isWide ? Infinity : most, wide / width, room / height);
-    this.cell = fits >= 4 ? Math.floor(fits) : fits;
+    this.cell = fits < least ? least : fits >= 4 ? Math.floor(fits) : fits;
+    const fitting = fits < least ? [Math.min(width, Math.floor(wide / least)), Math.min(height, Math.max(1, Math.floor(room / least)))] : [width, height];
+    // Another shape shows another part.
+    if (String(fitting) !== String(this.fitting)) this.seen = null;
+    this.fitting = fitting;
     // A canvas has whole pixels; a drawing keeps its shape to the last part of one.
     const isDrawing = panels[0]?.svg !== undefined;
-    this.size = [width, height].map((length) => (isDrawing ? length * this.cell : Math.max(1, Math.round(length * this.cell))));
+    this.size = fitting.map((length) => (isDrawing ? length * this.cell : Math.max(1, Math.round(length * this.cell))));
     for (const { figure, frame, canvas, above, beside } of this.shown) {
       figure.classList.toggle('numbered', Boolean(numbers));
       figure.style.setProperty('--axis', `${axis}px`);
@@ -171,6 +176,13 @@ class View extends HTMLElement {
     }
   }
 
+  /** What is shown at first: the whole part, or as much of it as fits about the cursor. */
+  fitted() {
+    const { part, cursor } = this.source;
+    const corner = [0, 1].map((i) => clamp((cursor ?? part)[i] - (this.fitting[i] >> 1), part[i], part[i + 2] - this.fitting[i]));
+    return [...corner, ...corner.map((at, i) => at + this.fitting[i])];
+  }
+
   grips() { return this.source.grips?.() ?? []; }
 
   /** Screen pixels for each pixel. */
@@ -178,6 +190,7 @@ class View extends HTMLElement {
 
   paint() {
     const { bounds, covers = [] } = this.source;
+    this.seen ??= this.fitted();
     const grips = this.grips();
     mark(this, 'data-cell', Math.round(this.unit * 1000) / 1000);
     this.tellSoon();
@@ -316,7 +329,7 @@ class View extends HTMLElement {
     this.see([left, top, left + size[0], top + size[1]]);
   }
 
-  fit() { this.see(this.source.home ?? this.source.part); }
+  fit() { this.see(this.source.home ?? this.fitted()); }
 
   /** Moves the tools elsewhere; they come along when the viewer fills the window. */
   putTools(place) {

@@ -55,6 +55,8 @@ const CHECKS = {
     is(view.seen, zoomed);
     view.show({ ...view.source, part: [2, 2, 8, 6] });
     is(view.seen, [2, 2, 8, 6]);
+    view.show({ ...view.source, part: [3, 2, 9, 6] });
+    is(view.seen, [3, 2, 9, 6]);
   },
   'zoom changes no size of a panel, stays inside, and goes back': () => {
     const { view } = fresh();

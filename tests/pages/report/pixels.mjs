@@ -15,7 +15,7 @@ export default {
     assert(span.includes('row 3') && span.includes('A none; B columns 0 to 5 (6 px)'), span);
     // By hand: 256 subpixels a pixel, legs of five pixels, (3, 3) two pixels from the right leg and three from the upper one.
     const edges = await tab.text('#about-pixel .edges tbody');
-    for (const value of [5 * 256 * 3 * 256, 5 * 256 * 2 * 256, 0]) assert(edges.includes(String(value)), `${value}: ${edges}`);
+    for (const value of [5 * 256 * 3 * 256, 5 * 256 * 2 * 256, 0]) assert(edges.includes(value.toLocaleString('en')), `${value}: ${edges}`);
     const [upper] = await tab.value(() => [...document.querySelectorAll('#about-pixel .edges')].map((table) =>
       [...table.querySelectorAll('tbody tr')].map((row) => [row.children[2].textContent, row.children[3].textContent])));
     assert.deepEqual(upper, [

@@ -6,8 +6,8 @@ import { folder } from '../driver/program.mjs';
 
 // What is taken away from the viewer, or changed, so that one of its sentences is false.
 const FAULTS = [
-  ['if (isOther || !this.seen)', 'if (!this.seen)'],
-  ['if (isOther || !this.seen)', 'if (true)'],
+  ['if (isOther) this.seen = null;', ''],
+  ['if (isOther) this.seen = null;', 'this.seen = null;'],
   ['    event.stopPropagation();\n', ''],
   ['held.moved ||= Math', 'held.moved = false && Math'],
   ['&& below > 1.3 * beside', '&& false'],

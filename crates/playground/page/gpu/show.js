@@ -81,7 +81,7 @@ function seenIn(view, heads) {
   const first = view.marks.find(({ plane }) => plane === (wanted[0] ?? 0));
   let cursor = first ? [first.x, first.y] : null;
   const source = {
-    part, bounds: [0, 0, view.cell, view.cell], numbers: true, high: 0.5, most: 64, panels, cursor,
+    part, bounds: [0, 0, view.cell, view.cell], numbers: true, high: 0.5, most: 64, least: 24, panels, cursor,
     legend: [['missing', '', word('outside')], ['extra', '', word('allowed')]],
     onPoint: (x, y) => {
       cursor = [x, y];

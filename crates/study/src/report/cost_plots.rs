@@ -7,7 +7,7 @@
 use crate::grid::GridPrice;
 use rasterproof_precision::cost::{Board, JudgedChoice, Ladder, Price, Priced, Ratio, fastest};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
-use rasterproof_report::words::{number, thousands};
+use rasterproof_report::words::{grouped, number, thousands};
 use rasterproof_verify::judge::ascii;
 
 /// The widths of a drawing on a wide page, in a file and on a narrow page: that of three panels, two, or one.
@@ -258,7 +258,16 @@ pub fn price(prices: &[Price], width: f64) -> Drawing {
         }
         rows.push((&price.column, row));
     }
-    let title = "Time of exact coverage over that of the cheapest choice of any accuracy, by class of scenes";
+    // What a label with a mark means is said where there is one.
+    let is_doubtful = rows.iter().flat_map(|(_, row)| row).any(|(.., label)| label.ends_with('?'));
+    let title = match is_doubtful {
+        true => {
+            "Time of exact coverage over that of the cheapest choice of any accuracy, by class of scenes; 1-2?: cannot be told"
+        }
+        false => {
+            "Time of exact coverage over that of the cheapest choice of any accuracy, by class of scenes"
+        }
+    };
     bars(title, &legend, &rows, width)
 }
 
@@ -404,9 +413,13 @@ impl Axis {
     }
 }
 
-/// A number at an axis, with an exponent where it would be long.
+/// A number at an axis, with commas, or with an exponent where it would be long.
 fn tick(value: f64) -> String {
-    if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
+    if (0.001..99_999.0).contains(&value) {
+        grouped(&format!("{value}"))
+    } else {
+        format!("{value:.0e}")
+    }
 }
 
 /// Draws a panel from its upper left corner to its right end: texts, axes, the line of what is best, and the dots.
