@@ -128,10 +128,12 @@ impl Welded {
         vertices
     }
 
+    /// Where a vertex is.
     fn point(&self, vertex: u32) -> DVec3 {
         self.points[vertex as usize]
     }
 
+    /// Where a border begins and ends.
     fn ends(&self, border: &Border) -> [DVec3; 2] {
         positions(&self.points, border.ends)
     }

@@ -21,7 +21,8 @@ use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Cheapest, JudgedChoice, Ladder, Part, Ratio, RatioKind, Times, fastest,
+    Board, CELLS, Cell, Cheapest, JudgedChoice, Ladder, Part, Ratio, RatioKind, Spread, Time,
+    Times, fastest,
 };
 use rasterproof_render::scene::Scene;
 
@@ -56,6 +57,7 @@ impl Places<'_> {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
 
+    /// The face of a triangle by its number, where its place would be too long.
     fn face(&self, triangle: u32) -> String {
         format!("face {}", face_of(self.scene, self.origins, triangle))
     }
@@ -67,6 +69,7 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
     for board in costs {
         let mut wrong = Vec::new();
         for choice in board.ran(0) {
+            // Wrong samples are counted for pairs of triangles, either of which may be of the kind.
             let mut count = 0;
             for ([a, b], samples) in &choice.run.found.wrong {
                 if found.is(*a, kind) || found.is(*b, kind) {
@@ -117,6 +120,7 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) ->
         let [near, far] = [near, far].map(|w| number(w, 9));
         lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
     }
+    // The largest change of each value, with the place at which it is seen.
     let shift = &found.shift;
     let mut values = Vec::new();
     for (what, largest, unit) in [
@@ -156,11 +160,11 @@ fn answers(
 ) -> Vec<Statement> {
     let stability = stability(subject, found.hard) + &z_fighting(found.costs);
     let [of_accuracy, of_hard_cases, of_effects] = commands;
-    let answer = |about, sentence, command| Statement { about, sentence, command };
+    let accuracy = accuracy(found.costs).concat();
     vec![
-        answer("accuracy", accuracy(found.costs).concat(), of_accuracy),
-        answer("hard cases", stability, of_hard_cases),
-        answer("effects", effects(found), of_effects),
+        Statement { about: "accuracy", sentence: accuracy, command: of_accuracy },
+        Statement { about: "hard cases", sentence: stability, command: of_hard_cases },
+        Statement { about: "effects", sentence: effects(found), command: of_effects },
     ]
 }
 
@@ -196,6 +200,7 @@ fn coverage(boards: &[Board]) -> impl Iterator<Item = &Board> {
 
 /// What exact coverage costs, above its picture; nothing where nothing was timed.
 pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
+    // The same plot for each width of a page.
     let drawn = cost_plots::WIDTHS.map(|width| cost_plots::coverage_of_model(boards, width));
     let figure = canvas::figure(
         "Each choice of coverage on the triangles of this view: wrong pixels against time",
@@ -205,18 +210,23 @@ pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
     coverage(boards).any(|board| board.rounds > 0).then_some(PicturedAnswer { sentence, figure })
 }
 
+/// Whether a model has no pixel on which a board could judge anything.
+fn is_without_pixels(board: &Board) -> bool {
+    matches!(board.columns[0].sampling, Some(sampling) if sampling.pixels.of == 0)
+}
+
+/// Whether a choice is exact by promise: so for every model, and not by chance.
+fn is_certain(choice: &JudgedChoice<'_>) -> bool {
+    !choice.choice().promises.is_empty() && wrong(choice) == 0.0
+}
+
 /// What exact coverage costs, in a sentence; and what is wrong.
 fn accuracy(boards: &[Board]) -> [String; 2] {
-    let is_empty =
-        |board: &Board| board.columns[0].sampling.is_some_and(|sampling| sampling.pixels.of == 0);
-    if coverage(boards).all(is_empty) {
+    if coverage(boards).all(is_without_pixels) {
         let none = "No pixel is covered in this view, so nothing was compared.".to_owned();
         return [none, String::new()];
     }
     let all: Vec<JudgedChoice<'_>> = coverage(boards).flat_map(|board| board.ran(0)).collect();
-    // By promise: only who promises to be exact is so for every model, and not by chance.
-    let is_certain =
-        |one: &JudgedChoice<'_>| !one.choice().promises.is_empty() && wrong(one) == 0.0;
     let certain = fastest(all.iter().copied().filter(is_certain));
     let (Some(cheapest), Some(certain)) = (fastest(all.iter().copied()), certain) else {
         let none = "No choice of coverage that is exact for every model takes these triangles.";
@@ -280,7 +290,7 @@ fn who_is_wrong(all: &[JudgedChoice<'_>], unit: &str) -> String {
     format!(" {} of {of} choices {are_wrong}, in {pixels} {unit}.", thousands(number))
 }
 
-/// The word that ratios of times are told with: so many times as long.
+/// The word that ratios of times are told with: so many times as long, and not as fast.
 const LONG: &str = "long";
 
 /// Which depth buffers show another surface than exact depths do; nothing where none does.
@@ -351,10 +361,11 @@ fn effects(found: &StudyFindings<'_>) -> String {
         let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
     }
     // Whole frames are compared where the costs were measured.
-    let frames = found.costs.iter().find(|board| board.ladder == Ladder::Frames);
-    let frame = |name: &str| frames?.ran(0).find(|one| one.name() == name);
-    let both = frame("scanline all").zip(frame("scanline planned"));
-    if let Some(ratio) = both.and_then(|(every, planned)| every.over(&planned)) {
+    if let Some(frames) = found.costs.iter().find(|board| board.ladder == Ladder::Frames)
+        && let Some(every) = frames.ran(0).find(|one| one.name() == "scanline all")
+        && let Some(planned) = frames.ran(0).find(|one| one.name() == "scanline planned")
+        && let Some(ratio) = every.over(&planned)
+    {
         let _ = write!(
             sentence,
             " Paying for all {}, against what the plan pays for: {}.",
@@ -416,8 +427,14 @@ fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
 
 /// The effects without which the most pixels are wrong.
 fn called_first(needs: &Needs) -> Table {
-    let of = |state: State| needs.needs.iter().filter(move |need| need.state() == state);
-    let mut called: Vec<_> = of(State::CalledFor).collect();
+    let (mut called, mut safe) = (Vec::new(), Vec::new());
+    for need in &needs.needs {
+        match need.state() {
+            State::CalledFor => called.push(need),
+            State::ToBeSafe => safe.push(need.effect.name()),
+            _ => {}
+        }
+    }
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
     let mut rows = Vec::new();
     for need in called {
@@ -426,7 +443,6 @@ fn called_first(needs: &Needs) -> Table {
     }
     let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
     let mut table = first_rows(columns, rows);
-    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
     if !safe.is_empty() {
         let about = "paid for to be safe, though no pixel changes here";
         table.notes.push(format!("{about}: {}", safe.join(", ")));
@@ -584,6 +600,7 @@ fn takes(needs: &Needs, need: &Need) -> String {
     match need.adds(&needs.planned) {
         Adds::NoWork => "no work".to_owned(),
         Adds::DrawsLess => "less is drawn without it".to_owned(),
+        // Of what is not paid for, the time that it would add is measured all the same.
         Adds::Times(_) if !need.is_paid_for => match need.adds_ms(&needs.planned) {
             Some(ms) => format!("would add {} ms", number(ms, 9)),
             None => "would add nothing that can be told".to_owned(),
@@ -598,6 +615,7 @@ fn takes(needs: &Needs, need: &Need) -> String {
 /// `by` the materials that call for an effect, the most visible first; nothing where none does.
 fn by_whom(need: &Need) -> String {
     const MOST: usize = 3;
+    // Their pixels are told where the effect pays by the pixel.
     let mut names = Vec::new();
     for (name, pixels) in need.materials.iter().take(MOST) {
         let name = printable_short(name, 40);
@@ -637,7 +655,6 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
         ));
     }
     // A line for each textured material, with what more samples change and take where its texture is fine.
-    let time = |name: &str| Some(needs.antialiasing.iter().find(|(other, _)| *other == name)?.1);
     for texture in &needs.textures {
         let name = printable_short(&texture.material, 40);
         let mut line = format!("texture of {name}: {} texels a pixel", number(texture.texels, 9));
@@ -645,7 +662,8 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
             let share = 100.0 * *far as f64 / texture.pixels.max(1) as f64;
             let _ =
                 write!(line, "; {antialiasing} leaves {share:.1}% of its pixels far from ssaa8");
-            if let Some(ratio) = time(antialiasing).filter(|_| *antialiasing != "none") {
+            let time = needs.antialiasing.iter().find(|(name, _)| name == antialiasing);
+            if let Some((_, ratio)) = time.filter(|(name, _)| *name != "none") {
                 let _ = write!(line, "; time against none: {}", ratio.words(LONG));
             }
         }
@@ -654,7 +672,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
-/// What a study found, as the report needs it.
+/// What a study found, as the report and the file for machines need it.
 pub struct StudyFindings<'a> {
     pub hard: &'a HardCases,
     /// What each grid changes and takes; nothing where that was not measured.
@@ -669,6 +687,7 @@ pub struct StudyFindings<'a> {
 
 /// Plots of a study: error against time, and effects.
 fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
+    // An effect that takes no time that can be told and changes no pixel has no bar.
     let mut bars = Vec::new();
     for need in &found.needs.needs {
         let ms = need.adds_ms(&found.needs.planned);
@@ -678,6 +697,7 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
             bars.push(cost_plots::EffectBars { name, ms, is_saved, wrong });
         }
     }
+    // Panels stand three, two or one in a row, as the page is wide.
     let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
@@ -736,6 +756,7 @@ const EQUAL: Rgb<u8> = Rgb([190, 80, 220]);
 /// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
 fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     let mut marked = picture.clone();
+    let ways = around_a_pixel();
     // Half as bright, so that the marks are seen on any picture.
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
@@ -748,14 +769,14 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
         marked.put_pixel(x, y, HARD);
         // A pixel with others beside it is seen as it is.
         let mut near = 0;
-        for [dx, dy] in around_a_pixel() {
+        for [dx, dy] in &ways {
             near += i32::from(hard.touches(x_px + dx, y_px + dy));
         }
         if near > MARK_PX {
             continue;
         }
         // A ring of about five pixels, by the squares of its inner and its outer radius.
-        for [dx, dy] in around_a_pixel() {
+        for [dx, dy] in &ways {
             let at = [x_px + dx, y_px + dy].map(u32::try_from);
             if (17..=26).contains(&(dx * dx + dy * dy))
                 && let [Ok(x), Ok(y)] = at
@@ -769,9 +790,14 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
 }
 
 /// The ways from a pixel to all of those that a mark may reach, in x and in y.
-fn around_a_pixel() -> impl Iterator<Item = [i32; 2]> {
-    let by = -MARK_PX..=MARK_PX;
-    by.clone().flat_map(move |dy| by.clone().map(move |dx| [dx, dy]))
+fn around_a_pixel() -> Vec<[i32; 2]> {
+    let mut ways = Vec::new();
+    for dy in -MARK_PX..=MARK_PX {
+        for dx in -MARK_PX..=MARK_PX {
+            ways.push([dx, dy]);
+        }
+    }
+    ways
 }
 
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
@@ -821,6 +847,7 @@ pub fn report(
 
 /// The picture and the two maps that lie over it.
 fn layers(hard: &HardCases) -> Vec<PictureLayer> {
+    // Both maps have the size of the picture, so that the page can lay them over it.
     let picture = picture::of_frame(&hard.picture);
     let marked = marked(hard, &picture);
     let decided = picture::painted(picture.width(), picture.height(), |x, y| {
@@ -921,14 +948,12 @@ fn cost_row(board: &Board, number: usize) -> Row {
         cells.push(or_dash(*error, 9));
     }
     // Three cells, which are empty where nothing was timed.
-    let timed =
-        run.time.as_ref().and_then(|time| Some((time.rounds.as_ref()?.spread(), time.times)));
-    cells.extend(match timed {
-        None => Default::default(),
-        Some((spread, times)) => {
-            let [low, high] = [spread.low, spread.high].map(ms);
-            [ms(spread.median), format!("{low}-{high}"), times.to_string()]
+    cells.extend(match &run.time {
+        Some(Time { rounds: Some(rounds), times, .. }) => {
+            let Spread { low, median, high } = rounds.spread();
+            [ms(median), format!("{}-{}", ms(low), ms(high)), times.to_string()]
         }
+        _ => Default::default(),
     });
     cells.push(or_dash(run.found.bytes.map(|bytes| bytes as f64 / 1e6), 7));
     cells.push(choice.about.to_string());
@@ -945,6 +970,7 @@ fn part(part: Part) -> String {
 
 /// The choices of a group, a row for each.
 fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
+    // A column for each measure of the error stands between the name and the times.
     let mut columns = table::columns("~choice 23");
     for measure in &board.measures {
         columns.push(Column::numbers(&measure.short, &measure.title).least(9));
@@ -975,6 +1001,7 @@ fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
         }
     }
     if let Some(noise) = &column.noise {
+        // So much two times may differ without a reason.
         notes.push(format!("two equal passes in the same rounds: {:.3} times", noise.median));
     }
     notes.extend(advice(subject, board));
