@@ -45,6 +45,7 @@ pub enum Predicate {
     Matrix,
 }
 
+/// Something that must hold of every implementation, and how that is checked.
 #[derive(Clone, Copy)]
 pub struct Invariant {
     /// Its number, which never changes.
@@ -57,6 +58,7 @@ pub struct Invariant {
     pub check: Predicate,
 }
 
+/// What came of an invariant on the inputs of a seed.
 #[derive(Clone, Debug)]
 pub struct Trial {
     pub cases: u64,
@@ -92,6 +94,7 @@ impl Trial {
     }
 }
 
+/// Inputs among which one that fits a check is looked for.
 pub const MOST_LOOKED_THROUGH: u64 = 10_000;
 
 impl Invariant {
@@ -154,8 +157,12 @@ impl Invariant {
             return None;
         }
         // The first input to which the check applies; a failure is one, too.
-        let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
-        (0..MOST_LOOKED_THROUGH).find(|&index| fits(index)).map(|index| index + 1)
+        for index in 0..MOST_LOOKED_THROUGH {
+            if self.judge(subject, &self.input(subject, seed, index)) != Ok(0) {
+                return Some(index + 1);
+            }
+        }
+        None
     }
 
     /// Checks the inputs of a seed on all cores and makes the first failing one small.
@@ -167,15 +174,16 @@ impl Invariant {
         let mut start = 0;
         while start < count && report.failure.is_none() {
             let end = count.min(start + 16 * BLOCK);
-            let judge = |index| self.judge(subject, &self.input(subject, seed, index));
-            let outcomes =
-                parallel::map((end - start) as usize, |number| judge(start + number as u64));
+            // Blocks are judged on all cores; of several failures the first by number is told.
+            let outcomes = parallel::map((end - start) as usize, |number| {
+                self.judge(subject, &self.input(subject, seed, start + number as u64))
+            });
             for (index, outcome) in (start..end).zip(outcomes) {
                 match outcome {
                     Ok(0) => report.skipped += 1,
                     Ok(compared) => {
-                        (report.cases, report.compared) =
-                            (report.cases + 1, report.compared + compared)
+                        report.cases += 1;
+                        report.compared += compared;
                     }
                     Err(message) => {
                         report.cases += 1;

@@ -31,6 +31,7 @@ pub struct RightPicture {
 }
 
 impl RightPicture {
+    /// Computes it of the reference's picture.
     pub fn new(scene: &Scene, right: &Rendering) -> Self {
         // Only pictures of white triangles are judged by kinds of pixels.
         let covers = (scene.paint == Paint::White)
