@@ -123,6 +123,7 @@ fn shift(corners: Corners, dx_px: i32, dy_px: i32) -> Option<Corners> {
 /// 4: by a pixel, across zero, and to where floats lose their subpixels.
 pub(super) fn translation(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // The third one moves the middle of the window to zero.
     let half = (window.width() / 2) as i32;
     let shifts = [
         (1, 0),

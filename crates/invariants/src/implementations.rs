@@ -30,7 +30,9 @@ use rasterproof_verify::oracle::Oracle;
 
 /// A rasterizer of triangles, with values of two numbers, and of three for its weights.
 pub trait Fill: Sync {
+    /// The runs of pixels that a triangle covers.
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
+    /// The pixels of a triangle with depth and both values.
     fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
     /// As [`Interpolate::fragments`], for three numbers a vertex.
     fn weights(
@@ -67,6 +69,7 @@ impl<R: Interpolate + Sync> Fill for R {
 
 /// A drawer of lines, with values of two numbers.
 pub trait Stroke: Sync {
+    /// The pixels of a line in order, with depth and both values.
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
 }
 

@@ -99,6 +99,7 @@ pub(super) fn one_per_step(subject: &Implementations, input: &LineInput) -> Outc
     let major = major_of(&whole);
     let length = (b[major] - a[major]).abs();
     subject.each_drawer(|drawer| {
+        // As many pixels as steps and one more, from one end to the other.
         let drawn = all_pixels(drawer, &line);
         if drawn.len() as i64 != length + 1 {
             return Err(format!("lights {} pixels on {length} steps", drawn.len()));
@@ -141,6 +142,7 @@ pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome 
         return Err(format!("the control on {du}, {dv}: differs {differs}, even {even}"));
     }
     subject.each_drawer(|drawer| {
+        // The order in which they are drawn is the other one, so sets are compared.
         let mut there = all_pixels(drawer, &line);
         let mut back = all_pixels(drawer, &back);
         there.sort_unstable();

@@ -16,6 +16,7 @@ const MOST: u32 = 40;
 pub(super) fn one_by_one(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let list = list_around(input.triangle.corners(), 1 + input.salt % MOST);
     let window = input.window;
+    // What the oracle covers of each, alone.
     let mut truth = Vec::new();
     for corners in &list {
         truth.push(hits(&*subject.oracle, [*corners], window));

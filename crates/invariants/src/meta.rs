@@ -63,6 +63,7 @@ fn jobs_of<'a>(families: impl Iterator<Item = &'a Family>, cases: u64) -> Vec<(&
 
 /// The bits of a case, folded (FNV-1a).
 fn fold(case: &Case) -> u64 {
+    // Every number of the case as a word of 64 bits, in a fixed order.
     let PixelRect { x0, y0, x1, y1 } = case.window;
     let mut words = vec![x0 as u64, y0 as u64, x1 as u64, y1 as u64];
     match &case.shape {
@@ -185,6 +186,7 @@ pub(super) fn metrics_report_only(subject: &Implementations, seed: u64, cases: u
     let mut compared = 0;
     for index in 0..cases {
         let side = 128 << (index % 4);
+        // Frames of 128, 256, 512 and 1024 px in turn.
         let mut rng = Rng::new("one-wrong-pixel", seed, index);
         // The upper left half of the frame.
         let far = side * SUBPIXELS;

@@ -50,6 +50,7 @@ fn sorted_bits(fragments: &[Fragment<DVec2>]) -> Vec<FragmentBits> {
 
 /// Bit by bit, and in the order of the pixels.
 fn identical(a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
+    // Bits, since 0 and -0 are equal as numbers, and what is no number is unlike itself.
     let (a, b) = (sorted_bits(a), sorted_bits(b));
     if a.len() != b.len() {
         return Err(format!("emits {} fragments and {} {what}", a.len(), b.len()));
@@ -284,6 +285,7 @@ pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outc
 pub(super) fn rotated_vertices(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let v = &input.triangle.vertices;
     subject.each_engine(|engine| {
+        // A weight and its vertex may change places, and every sum must come out the same.
         let first = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for order in &ORDERS[1..] {

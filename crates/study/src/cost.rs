@@ -196,6 +196,7 @@ fn class<'a>(pieces: impl IntoIterator<Item = &'a Piece>, window: PixelRect) -> 
         values: Vec::new(),
         interior: None,
     };
+    // The place of a face in this list is the number of its triangle in the class.
     let mut faces = Vec::new();
     for piece in pieces {
         // Beyond the domain of the engines a piece is left out.
@@ -240,6 +241,7 @@ fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Bo
             Measure::new(title, format!("{unit} {short}"), Some(0.0)).counts(unit)
         });
     let to_time = coverage::Input::new(class(sample.of(&sampled.planes[0]), window).0);
+    // Both groups are one job, so their times are taken in the same rounds.
     let mut groups = Vec::new();
     for ladder in [Ladder::Scanline, Ladder::EdgeFunction] {
         // Of each chunk what each choice of the group gets wrong.
@@ -269,6 +271,7 @@ fn sum_of_chunks(
     choice: usize,
     sampled: &Sampled,
 ) -> Result<Details, String> {
+    // The first wrong sample of the first chunk that has one is the first of all.
     let mut sum = Details::default();
     for chunk in of_chunks {
         let Details { pixels, first, wrong, .. } = &chunk[choice].as_ref()?.found;
@@ -392,6 +395,7 @@ fn interpolation_board(
         }
         Ok((run, Some(entry.pass(&to_time)?)))
     };
+    // Times are of a sample of the pieces, errors of all that have values.
     let sampling = Sampling {
         judged: judged.judged(),
         looked_at: on_hard.as_ref().map(interpolation::Input::judged),
@@ -463,6 +467,7 @@ fn depth_choice(format: DepthFormat, samples: usize) -> Choice {
 /// The samples at which a format shows another piece than exact depths do, a pair for each.
 fn wrongly_seen(sampled: &Sampled, truths: &[Frame<u32>], format: DepthFormat) -> Details {
     let window = sampled.window;
+    // Samples of all planes are counted; a pixel may have several.
     let mut found = Details::default();
     for (pieces, truth) in sampled.planes.iter().zip(truths) {
         let face = |number: u32| pieces.get(number as usize).map(|piece| piece.face);

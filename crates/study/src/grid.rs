@@ -297,6 +297,7 @@ pub struct GridPrice {
 
 /// The price of each grid. The coverage of all grids is timed in the same rounds, so many times.
 pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<GridPrice>, BadScene> {
+    // What changes is found first, and then all grids are timed together.
     let (mut prices, mut outlines) = (Vec::new(), Vec::new());
     let mut unsnapped: Option<Frame<u32>> = None;
     // From the finest grid to the coarsest: the first one does not snap, and all others are compared with it.

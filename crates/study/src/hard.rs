@@ -669,6 +669,7 @@ impl Search<'_> {
 
     /// Triangles that snapping turns over or flattens.
     fn turned(&mut self) {
+        // A triangle may be turned without being seen, which is counted apart.
         let mut noted = Noted::new(Kind::Turned);
         // Triangles are counted at pixel centres, whatever samples the picture has.
         let mut flat = 0;

@@ -138,6 +138,7 @@ impl Welded {
         positions(&self.points, border.ends)
     }
 
+    /// Where the vertices of a polygon are.
     fn polygon(&self, vertices: &[u32]) -> Vec<DVec3> {
         vertices.iter().map(|vertex| self.point(*vertex)).collect()
     }

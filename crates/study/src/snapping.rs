@@ -233,6 +233,7 @@ fn look_at_planes(
 ) -> Result<(Classes, BySnapping), BadScene> {
     let scale = target.antialias().scale() as i32;
     let mut classes = Classes::new(target.size());
+    // The pixels of folds, then those of cracks.
     let mut pixels = [Vec::new(), Vec::new()];
     let mut found = BySnapping::default();
     let is_antialiased = target.antialias() != Antialias::None;

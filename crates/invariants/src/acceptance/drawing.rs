@@ -178,6 +178,7 @@ fn fill(
     single: bool,
     emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
+    // Pixels that the engine does not cover by its own rule have values of their own below.
     let mut known = HashMap::new();
     if !single {
         let mut keep = |f: Fragment<DVec2>| {

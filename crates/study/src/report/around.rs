@@ -66,6 +66,7 @@ impl Around {
     /// Two tables, for a scene of this name.
     pub fn report(&self, scene: &str) -> Report {
         let mut rows = Vec::new();
+        // A row for each side, in the order in which they were added.
         for of in &self.views {
             let mut cells = vec![number(of.turn, 9)];
             for count in [of.kinds, of.slivers, of.order, of.by_rounding, of.equal] {

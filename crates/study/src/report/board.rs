@@ -24,6 +24,7 @@ const INDENT: usize = 2;
 
 /// A table for each measure of the error, for each kind of time and for each count of work.
 pub fn tables(board: &Board) -> Vec<Table> {
+    // First how wrong each choice is, then what it takes, then why.
     let mut tables = errors(board);
     if board.rounds > 0 {
         tables.extend(times(board));
@@ -219,6 +220,7 @@ fn not_run(board: &Board) -> Vec<String> {
 
 /// By each measure the choices that others dominate in every class of scenes, with those others.
 fn dominated(board: &Board) -> Vec<String> {
+    // A choice that another one beats in error and time has no use in any class.
     let mut lines = Vec::new();
     for measure in board.ranking() {
         let mut all = Vec::new();
@@ -235,6 +237,7 @@ fn dominated(board: &Board) -> Vec<String> {
 
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
+    // A kind of coverage that was not run in a class has a cell all the same.
     let mut rows = Vec::new();
     for price in prices(boards) {
         let [floats, snapped, given] =
@@ -277,6 +280,7 @@ pub fn report(recorded: &Recorded, mut figures: Vec<Figure>) -> Report {
 
 /// What the first plot shows; nothing without times.
 fn sentence(boards: &[Board]) -> Option<String> {
+    // Without coverage nothing has a price, and the last group is told in its place.
     let prices = prices(boards);
     if prices.is_empty() {
         return sentence_of_cheapest(boards.last()?);
@@ -342,6 +346,7 @@ pub const PRICE: &str = "cost-price";
 
 /// The plots with their names, what answers the question first.
 pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
+    // The price stands first, and is left out where coverage was not measured.
     let mut plots = Vec::new();
     let prices = prices(boards);
     if !prices.is_empty() {

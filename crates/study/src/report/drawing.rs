@@ -311,6 +311,7 @@ pub fn notes(
             c.fragments, c.depth_tests, c.depth_failed, c.shaded
         ),
     ];
+    // Only a scene that says how many layers it keeps leaves any out.
     if let (Some(most), true) = (scene.layers, c.layers > 0) {
         notes.push(format!(
             "layers {}, of which {} lie behind the {most} nearest of their sample and are left out",

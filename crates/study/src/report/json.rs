@@ -30,6 +30,7 @@ pub fn cost(recorded: &Recorded) -> Value {
 
 /// Which choices are the best by a measure, for each class of scenes, and which are beaten everywhere.
 fn verdict(board: &Board, measure: usize) -> Value {
+    // For each class the fastest of all, the fastest that is right, and the fastest that promises to be.
     let mut best = Vec::new();
     for column in board.columns_run() {
         // Without times there is no fastest choice, and nothing is said of the column.
@@ -77,6 +78,7 @@ pub struct Engine {
 
 /// Everything that was found, with the answers as sentences.
 pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Serialize) -> Value {
+    // The same numbers as in the tables, unrounded.
     let (scene, hard) = (subject.scene, found.hard);
     json!({
         "scene": scene.name, "triangles": scene.triangles(), "pieces": found.pieces,
@@ -173,6 +175,7 @@ fn of_model(subject: &Places<'_>, board: &Board) -> Value {
 
 /// A choice of a board of a model; what was not run has no numbers, and why.
 fn choice(subject: &Places<'_>, board: &Board, number: usize) -> Value {
+    // What was not run is an empty run, so that all choices have the same fields.
     let (choice, not_run) = (&board.choices[number], Run::default());
     let (run, refused) = match &board.cells[number][0] {
         Cell::Run(run) => (&**run, None),
@@ -204,6 +207,7 @@ fn quartiles(time: &Times) -> [f64; 3] {
 
 /// The effects of a scene, with what each takes or would take.
 fn needs(needs: &Needs, not_drawn: &str) -> Value {
+    // An effect that does no work has no ratio.
     let mut effects = Vec::new();
     for need in &needs.needs {
         let times = match need.adds(&needs.planned) {

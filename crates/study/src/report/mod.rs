@@ -38,6 +38,7 @@ use rasterproof_report::words::{self, count, number, thousands};
 /// A scene, and how its triangles are named to a reader.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
+    /// Triangles are numbered through all items of it, in drawing order.
     pub scene: &'a Scene,
     pub origins: &'a [Origin],
     /// The command that shows a face, by its number from 1.
@@ -80,6 +81,7 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
                 wrong.push(format!("{} {}", choice.name(), thousands(count)));
             }
         }
+        // A group in which no choice is wrong on them has no line.
         if !wrong.is_empty() {
             let title = board.ladder.title();
             lines.push(format!("{title} ({}): {}", unit(board), wrong.join(", ")));
@@ -116,6 +118,7 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) ->
             "the model is so large that overlaps and T-junctions were looked for in a part of it";
         lines.push(why.to_owned());
     }
+    // The farther both are apart, the less digits single precision has for 1/w.
     if let Some([near, far]) = found.w {
         let [near, far] = [near, far].map(|w| number(w, 9));
         lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
@@ -158,6 +161,7 @@ fn answers(
     found: &StudyFindings<'_>,
     commands: [String; 3],
 ) -> Vec<Statement> {
+    // Depth buffers are told with the hard cases, since rounding decides in both.
     let stability = stability(subject, found.hard) + &z_fighting(found.costs);
     let [of_accuracy, of_hard_cases, of_effects] = commands;
     let accuracy = accuracy(found.costs).concat();
@@ -272,6 +276,7 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
 
 /// How many choices are wrong, and the worst of them.
 fn who_is_wrong(all: &[JudgedChoice<'_>], unit: &str) -> String {
+    // A choice that no measure finds wrong is none of them.
     let (mut number, mut worst) = (0, None);
     for choice in all {
         number += u64::from(wrong(choice) > 0.0);
@@ -298,6 +303,7 @@ fn z_fighting(boards: &[Board]) -> String {
     let Some(board) = boards.iter().find(|board| board.ladder == Ladder::Depth) else {
         return String::new();
     };
+    // Each format that errs, with its number of pixels.
     let mut wrong = Vec::new();
     for choice in board.ran(0) {
         if wrong_first(&choice) > 0 {
@@ -341,6 +347,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
     } else {
         sentence += " No other hard case is seen in this view.";
     }
+    // A kind that is only in the mesh may be seen from another side.
     let hidden = found.cases.len() - found.in_view().count();
     if hidden > 0 {
         let kinds = count(hidden as u64, "kind is", "kinds are");
@@ -381,6 +388,7 @@ const MOST_ROWS: usize = 3;
 
 /// The first rows of a table, with a note of how many there are more.
 fn first_rows(columns: &str, mut rows: Vec<Row>) -> Table {
+    // How many are left out is told, so that nobody takes the first ones for all.
     let left_out = rows.len().saturating_sub(MOST_ROWS);
     rows.truncate(MOST_ROWS);
     let more = (left_out > 0).then(|| format!("and {left_out} more"));
@@ -412,6 +420,7 @@ fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
     let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
     let mut table = first_rows(columns, rows);
     // What this view does not show may be seen from another side.
+    // A case counts as hidden where nothing of it is seen here.
     let mut hidden = Vec::new();
     for case in &hard.cases {
         if case.in_view == 0 {
@@ -474,6 +483,7 @@ fn exact_first(costs: &[Board]) -> Table {
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
 fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
     // All exact choices of all boards compete; without times there is no cheapest one.
+    // Times of both groups are comparable: they were measured in the same rounds.
     let exact: Vec<_> = boards.iter().flat_map(|board| board.exact(0, measure)).collect();
     let best = Cheapest::of(&exact).and_then(|best| Some((best.choice.times()?, best)));
     let Some((times, Cheapest { choice: best, equal, undecided })) = best else {
@@ -567,6 +577,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
         let all = names(&[&[*choice], &equal[..]].concat()).join(", ");
         return vec![format!("no difference between the exact choices ({short}): {all}")];
     }
+    // Others may be as fast, or cannot be told from it after these rounds.
     let mut lines = vec![format!("cheapest exact ({short}): {}", choice.name())];
     if !equal.is_empty() {
         lines.push(format!("no difference: {}", names(equal).join(", ")));
@@ -581,6 +592,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
 
 /// How it is decided which surface is seen, in a sentence or two.
 fn ties(subject: &Places<'_>, classes: &Classes) -> String {
+    // Every pixel belongs to one class; those of equal depths are among those by rounding.
     let [decided, by_rounding, equal, by_order] =
         [classes.decided, classes.by_rounding, classes.equal, classes.by_order].map(thousands);
     let mut out = format!(
@@ -599,6 +611,7 @@ fn ties(subject: &Places<'_>, classes: &Classes) -> String {
 fn takes(needs: &Needs, need: &Need) -> String {
     match need.adds(&needs.planned) {
         Adds::NoWork => "no work".to_owned(),
+        // The time that is saved is not its own then.
         Adds::DrawsLess => "less is drawn without it".to_owned(),
         // Of what is not paid for, the time that it would add is measured all the same.
         Adds::Times(_) if !need.is_paid_for => match need.adds_ms(&needs.planned) {
@@ -639,6 +652,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     // What is not called for and takes time that can be told.
     let mut idle = Vec::new();
     for need in &needs.needs {
+        // What takes no time that can be told needs no advice.
         if need.is_paid_for || need.adds_ms(&needs.planned).is_none() {
             continue;
         }
@@ -674,12 +688,16 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
 
 /// What a study found, as the report and the file for machines need it.
 pub struct StudyFindings<'a> {
+    /// The difficult triangles and pixels, by their kinds.
     pub hard: &'a HardCases,
     /// What each grid changes and takes; nothing where that was not measured.
     pub grids: &'a [GridPrice],
+    /// Which effects the view calls for.
     pub needs: &'a Needs,
     pub costs: &'a [Board],
+    /// Effects that the model calls for and that the pipeline does not have.
     pub not_drawn: &'a str,
+    /// Triangles in the window, of which one that is cut counts as its parts.
     pub pieces: usize,
     /// How long the file was read, where there is one.
     pub loading_s: Option<f64>,
@@ -725,6 +743,7 @@ fn grids(prices: &[GridPrice]) -> Option<Table> {
             Some(bits) => format!("{bits} bits, 1/{} px", 1u32 << bits),
             None => "no grid".to_owned(),
         };
+        // Without a pixel that changes there is no first one.
         let first = price.first.map_or(String::new(), |[x, y]| format!("{x},{y}"));
         let [scanline, edge_function] =
             [number(price.scanline_ms, 9), number(price.edge_function_ms, 9)];
@@ -833,6 +852,7 @@ pub fn report(
         command: command.clone(),
         tables,
         figures: figures(found),
+        // The picture once, with both maps over it.
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
             about: "The picture, where hard cases are seen in it, and what decides which surface is seen."
@@ -918,6 +938,7 @@ fn needs_table(needs: &Needs, state: State) -> Table {
         let time = takes(needs, need);
         let (name, wrong) = (need.effect.name(), thousands(need.wrong));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
+        // Several decisions of the plan may have one reason, which is told once.
         let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
         rows.push(Row::of(&[&name, &pixels, &wrong, &time, &by_whom(need), &reasons.join("; ")]));
     }
@@ -939,6 +960,7 @@ fn or_dash(value: Option<f64>, width: usize) -> String {
 /// What a choice costs: its errors, its time, what it holds, and how it works.
 fn cost_row(board: &Board, number: usize) -> Row {
     let choice = &board.choices[number];
+    // What was not run has its reason in place of all numbers.
     let run = match &board.cells[number][0] {
         Cell::NotRun(why) => return Row::of(&[&choice.name, &format!("not run: {why}")]),
         Cell::Run(run) => run,

@@ -102,6 +102,7 @@ pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
 
 /// What becomes of the fragments of each piece, in order: a row for each list of stages, and the same as data.
 pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
+    // Pieces of an item with the same stages are one row.
     let mut rows = Vec::new();
     for StagedPieces { item, pieces, stages } in staged {
         rows.push(Row::of(&[item, &thousands(*pieces), &stages.join(", ")]));

@@ -96,6 +96,7 @@ impl<'a> Studied<'a> {
 
     /// How much of the scene is in the window, and whether there is anything to compare.
     pub fn head(&self) -> String {
+        // Triangles are those of the scene, pieces those of them that the window shows.
         let Self { scene, sampled, .. } = self;
         let triangles = count(scene.triangles() as u64, "triangle", "triangles");
         let pieces = count(sampled.at_centres().len() as u64, "piece", "pieces");
