@@ -53,6 +53,7 @@ fn sign(a: Coord<f64>, b: Coord<f64>, c: Coord<f64>) -> i32 {
 /// 1: each engine against the oracle, so against each other too.
 pub(super) fn engines_agree(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // Each engine is compared with the oracle, so two that agree with it agree with each other.
     let truth = hits(&*subject.oracle, [corners], window);
     subject.each_engine(|engine| same(&engine.hits(corners, window), &truth, "the oracle"))
 }
@@ -140,6 +141,7 @@ pub(super) fn translation(subject: &Implementations, input: &TriangleInput) -> O
             let moved = shift(corners, dx, dy).zip(shift_rect(window, dx, dy));
             let Some((moved, there)) = moved else { continue };
             let moved = engine.hits(moved, there);
+            // Row by row: the windows differ, what is in them must not.
             for ((_, a), (_, b)) in moved.rows().zip(still.rows()) {
                 if a != b {
                     return Err(format!("draws another set after ({dx}, {dy}) px"));
@@ -214,6 +216,7 @@ fn mapped_pixel(map: [[i32; 2]; 2], x: i32, y: i32) -> (i32, i32) {
 pub(super) fn quad_split(subject: &Implementations, input: &Quad) -> Outcome {
     let ([a, b, c, d], window) = (input.corners, input.window);
     subject.each_engine(|engine| {
+        // A pixel on the diagonal may belong to either triangle, but to one.
         let one = hits(&*engine.fill, [[a, b, c], [a, c, d]], window);
         let other = hits(&*engine.fill, [[a, b, d], [b, c, d]], window);
         if let Some((x, y)) = pixels(window).find(|&(x, y)| one.get(x, y) > Some(1)) {
@@ -253,6 +256,7 @@ pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
 
 /// How often each pixel of a window is hit by triangles that are clockwise, less the hits of the others.
 fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
+    // Row after row, as the pixels of the window are counted.
     let mut sums = vec![0; window.width() as usize * window.height() as usize];
     for &corners in triangles {
         let sign = twice_area(&corners).signum() as i32;
@@ -352,6 +356,7 @@ pub(super) fn nesting(subject: &Implementations, input: &TriangleInput) -> Outco
     let (outer, window) = (input.triangle.corners(), input.window);
     let Some([a, b, c]) = exact::clockwise(&outer) else { return Ok(0) };
     let salt = i64::from(input.salt);
+    // A point inside, and the middles of the sides.
     let inner = between(between(a, b, salt % 17), c, salt / 17 % 17);
     let [ab, bc, ca] = [between(a, b, 8), between(b, c, 8), between(c, a, 8)];
     subject.each_engine(|engine| {
@@ -395,6 +400,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
     }
     subject.each_engine(|engine| {
         for corners in &flat {
+            // Coverage and values are separate ways through an engine.
             let covered = engine.hits(*corners, window).covered();
             let mut triangle = input.triangle;
             for (vertex, position) in triangle.vertices.iter_mut().zip(corners) {
@@ -433,6 +439,7 @@ pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outc
 /// 14: the window cut into tiles, drawn on several threads, gives the window; so do the values.
 pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (triangle, window) = (&input.triangle, input.window);
+    // Tiles of 1 to 19 px, cut off at the right and the lower border.
     let side = 1 + (input.salt % 19) as i32;
     let mut tiles = Vec::new();
     for y0 in (window.y0..window.y1).step_by(side as usize) {
@@ -442,6 +449,7 @@ pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome 
         }
     }
     subject.each_engine(|engine| {
+        // What the whole window shows is the truth about each tile.
         let whole = engine.hits(triangle.corners(), window);
         let fragments = engine.fragments(triangle, window);
         let check = |number: usize| {
@@ -503,6 +511,7 @@ pub(super) fn identifies_the_rule(subject: &Implementations, input: &TriangleInp
     let tips =
         ARMS.map(|[dx, dy]| SubpixelPoint::new(sample.x + dx * arm_sub, sample.y + dy * arm_sub));
     subject.each_engine(|engine| {
+        // A bit for each triangle and each edge that has the sample.
         let (mut fan, mut edges) = (0u8, 0u8);
         for i in 0..8 {
             let of_fan = engine.hits([sample, tips[i], tips[(i + 1) % 8]], window);

@@ -50,10 +50,13 @@ pub enum Predicate {
 pub struct Invariant {
     /// Its number, which never changes.
     pub number: u32,
+    /// It is asked for and told by this name.
     pub name: &'static str,
+    /// What must hold, in a sentence.
     pub statement: &'static str,
     /// How much may be missing; derived where the check stands.
     pub tolerance: &'static str,
+    /// What it looks at; a mutant in one of these places is one that it may kill.
     pub components: &'static [Component],
     pub check: Predicate,
 }
@@ -61,6 +64,7 @@ pub struct Invariant {
 /// What came of an invariant on the inputs of a seed.
 #[derive(Clone, Debug)]
 pub struct Trial {
+    /// Inputs that were checked.
     pub cases: u64,
     /// Inputs that do not fit the property and were left out.
     pub skipped: u64,
@@ -84,6 +88,7 @@ pub enum Ruling {
 }
 
 impl Trial {
+    /// What the numbers come to.
     #[must_use]
     pub fn ruling(&self) -> Ruling {
         match self.failure {
@@ -168,6 +173,7 @@ impl Invariant {
     /// Checks the inputs of a seed on all cores and makes the first failing one small.
     #[must_use]
     pub fn run(&self, subject: &Implementations, seed: u64, cases: u64) -> Trial {
+        // A failure ends the run after the inputs that are judged at the same time.
         const BLOCK: u64 = 64;
         let mut report = Trial { cases: 0, skipped: 0, compared: 0, failure: None };
         let count = self.count(cases);

@@ -218,6 +218,7 @@ pub(super) fn clipped_line(subject: &Implementations, input: &LineInput) -> Outc
     let line = near(&input.line);
     let window = PixelRect { x0: 5, y0: -7, x1: 33, y1: 21 };
     subject.each_drawer(|drawer| {
+        // Where it is drawn as a whole, the fragments in the window are known.
         let whole = drawer.fragments(&line, around(&line));
         let target = whole.into_iter().filter(|f| window.contains(f.x_px, f.y_px));
         let inside = drawer.fragments(&line, window);
@@ -246,6 +247,7 @@ const KNOWN: [[i32; 2]; 4] = [[12, 2], [12, 10], [6, 1], [353, 337]];
 /// empty; a drawer that steps in floats shows its list in the message.
 pub(super) fn listed_differences(subject: &Implementations, input: &LineInput) -> Outcome {
     let origin = PixelPoint::new(0, 0);
+    // Those on which others err, and the one of this case.
     let known = KNOWN.map(|[x, y]| plain_line(origin, PixelPoint::new(x, y)));
     let mut lines = Vec::from(known);
     lines.push(near(&input.line));

@@ -30,6 +30,7 @@ pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcom
             *sum += u64::from(holds);
         }
     }
+    // Each quota is a share of all cases in percent.
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -159,6 +160,7 @@ struct OneWrong {
 
 impl Rasterize for OneWrong {
     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        // All spans are the oracle's but that one, which is cut in two or followed by one too many.
         let (x, y) = self.at;
         let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
         Oracle.spans(corners, bounds, &mut |span| {

@@ -188,6 +188,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     let centre = SubpixelPoint::new(x, y);
     // Spokes of whole half pixels often end on centres, where the centre of the fan is one.
     let whole = rng.chance(2);
+    // Fans of all sizes, the spokes of each of them up to its own.
     let most = 1 << rng.int(2, 11);
     let reach = [(); 16].map(|()| {
         let reach = rng.int(1, most) as u16;
@@ -216,6 +217,7 @@ pub(super) fn position(seed: u64, index: u64) -> Input {
     let bits = rng.int(4, 30);
     let sub = rng.int(-(1 << bits), 1 << bits) as i32;
     let part = [0, 1 << 11, rng.int(0, (1 << 12) - 1)][rng.int(0, 2) as usize] as u16;
+    // To the other side of zero, where a rounding towards zero would show.
     let across = -2 * (sub / SUBPIXELS);
     let shift_px = if rng.chance(2) { across } else { rng.int(-1 << 14, 1 << 14) as i32 };
     Input::Position(Position::new(sub, part, shift_px))

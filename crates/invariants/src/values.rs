@@ -165,6 +165,7 @@ pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> O
     let Some(exact) = ExactTriangle::new(&t.corners(), depths_of(t), inv_w, attributes) else {
         return Ok(0);
     };
+    // The oracle is held to the same exact numbers, within half a step of rounding.
     let mut oracle = Vec::new();
     subject.oracle.values(t, input.window, &mut |f| oracle.push(f));
     let engines = subject.each_engine(|engine| {
@@ -289,6 +290,7 @@ pub(super) fn rotated_vertices(subject: &Implementations, input: &TriangleInput)
         let first = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for order in &ORDERS[1..] {
+            // Each vertex takes its values along.
             let turned = ScreenTriangle { vertices: order.map_array(|i| v[i]) };
             let fragments = engine.fragments(&turned, input.window);
             compared += identical(&fragments, &first, &format!("in order 0 1 2, not {order:?}"))?;
@@ -426,6 +428,7 @@ pub(super) fn flat_depth(subject: &Implementations, input: &TriangleInput) -> Ou
 
 /// 31: the corners of the domain of w, of depth and of values.
 pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcome {
+    // Everything that is stored is 1/w, so the largest w is the smallest number.
     let (smallest, largest) = (1.0 / MAX_W, 1.0 / MIN_W);
     let inv_ws = [
         [smallest, largest, 1.0],

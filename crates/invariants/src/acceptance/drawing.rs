@@ -234,6 +234,7 @@ fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragme
 /// A picture, and every fragment that went into it.
 #[derive(Clone, Debug)]
 pub struct Rendering {
+    /// Pixels in a row; the rows follow each other without a gap.
     pub width: usize,
     pub pixels: Vec<[u8; 3]>,
     /// The number of its triangle, and the fragment, in drawing order.

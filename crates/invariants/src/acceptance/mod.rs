@@ -27,11 +27,15 @@ pub struct Row {
     pub passed: Vec<Passed>,
     /// Pictures of faults that differ from the right picture and that the rule looks at.
     pub wrong_pictures: u64,
+    /// Of these, the ones that it refuses.
     pub refused_pictures: u64,
+    /// The accepted picture with the largest share of wrong pixels.
     pub worst_picture: Option<WrongPicture>,
     /// Pictures that the rule is not used on, since it refuses the right one.
     pub unusable_pictures: u64,
+    /// Right rasterizers of which it refuses at least one picture.
     pub refused_right: Vec<&'static str>,
+    /// Pictures of right rasterizers that it looks at, and those of them that it refuses.
     pub right_pictures: u64,
     pub refused_right_pictures: u64,
 }
