@@ -378,7 +378,6 @@ fn smaller_fans(fan: &Fan) -> Vec<Input> {
     found
 }
 
-/// A point in pixels.
 fn px(p: &SubpixelPoint) -> String {
     let (x, y) = p.to_px();
     format!("{x},{y}")
@@ -389,7 +388,6 @@ fn list(points: &[SubpixelPoint]) -> String {
     points.iter().map(px).collect::<Vec<_>>().join(" ")
 }
 
-/// The pixels of a window.
 fn rect(w: &PixelRect) -> String {
     format!("columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)
 }

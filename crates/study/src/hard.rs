@@ -343,7 +343,6 @@ struct Noted {
 }
 
 impl Noted {
-    /// None yet.
     fn new(kind: Kind) -> Self {
         Self { kind, count: 0, in_view: 0, first: Default::default() }
     }

@@ -79,6 +79,19 @@ fn nearest_fragment(frame: &Values, position: Point) -> Option<Fragment<DVec2>> 
     nearest
 }
 
+/// The letters of three corners with the values there.
+fn label_corners(drawing: &mut Drawing, panel: &Panel, [a, b, c]: [Point; 3]) {
+    // Words stand where they hide no pixel.
+    for (corner, anchor, [dx, dy], says) in [
+        (a, "end", [-6.0, 4.0], "A 100"),
+        (b, "middle", [0.0, -8.0], "B 20"),
+        (c, "end", [-6.0, 14.0], "C 60"),
+    ] {
+        let [x, y] = panel.place(corner);
+        drawing.text([x + dx, y + dy], anchor, says);
+    }
+}
+
 /// The weights of the corners at a pixel, as areas. Asks for that of A: the share of the part opposite to it.
 pub(super) fn weights(given: &FigureInput<'_>) -> Result<LiveFigure, NoAnswer> {
     let p = given.at[0];
@@ -111,17 +124,8 @@ pub(super) fn weights(given: &FigureInput<'_>) -> Result<LiveFigure, NoAnswer> {
             drawing.outline(&panel, "soft", &[p, corner], false);
         }
     }
-    // Words stand where they hide no pixel.
-    for (corner, anchor, [dx, dy], says) in [
-        (a, "end", [-6.0, 4.0], "A 100"),
-        (b, "middle", [0.0, -8.0], "B 20"),
-        (c, "end", [-6.0, 14.0], "C 60"),
-    ] {
-        let [x, y] = panel.place(corner);
-        drawing.text([x + dx, y + dy], anchor, says);
-    }
+    label_corners(&mut drawing, &panel, corners);
     drawing.named_grip(panel.place(p), [panel.unit; 2], "P");
-    // The weights in percent.
     let [wa, wb, wc] = shares.map(|share| number(share * 100.0, 2));
     // Twice the areas in square pixels: a subpixel is 1/256 px wide.
     let [pa, pb, pc] = edges.map(|edge| number(edge as f64 / 65536.0, 2));
