@@ -53,6 +53,7 @@ fn sign(a: Coord<f64>, b: Coord<f64>, c: Coord<f64>) -> i32 {
 /// 1: each engine against the oracle, so against each other too.
 pub(super) fn engines_agree(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // Each engine is compared with the oracle, so two that agree with it agree with each other.
     let truth = hits(&*subject.oracle, [corners], window);
     subject.each_engine(|engine| same(&engine.hits(corners, window), &truth, "the oracle"))
 }
@@ -123,6 +124,7 @@ fn shift(corners: Corners, dx_px: i32, dy_px: i32) -> Option<Corners> {
 /// 4: by a pixel, across zero, and to where floats lose their subpixels.
 pub(super) fn translation(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
+    // The third one moves the middle of the window to zero.
     let half = (window.width() / 2) as i32;
     let shifts = [
         (1, 0),
@@ -139,6 +141,7 @@ pub(super) fn translation(subject: &Implementations, input: &TriangleInput) -> O
             let moved = shift(corners, dx, dy).zip(shift_rect(window, dx, dy));
             let Some((moved, there)) = moved else { continue };
             let moved = engine.hits(moved, there);
+            // Row by row: the windows differ, what is in them must not.
             for ((_, a), (_, b)) in moved.rows().zip(still.rows()) {
                 if a != b {
                     return Err(format!("draws another set after ({dx}, {dy}) px"));
@@ -213,6 +216,7 @@ fn mapped_pixel(map: [[i32; 2]; 2], x: i32, y: i32) -> (i32, i32) {
 pub(super) fn quad_split(subject: &Implementations, input: &Quad) -> Outcome {
     let ([a, b, c, d], window) = (input.corners, input.window);
     subject.each_engine(|engine| {
+        // A pixel on the diagonal may belong to either triangle, but to one.
         let one = hits(&*engine.fill, [[a, b, c], [a, c, d]], window);
         let other = hits(&*engine.fill, [[a, b, d], [b, c, d]], window);
         if let Some((x, y)) = pixels(window).find(|&(x, y)| one.get(x, y) > Some(1)) {
@@ -224,7 +228,11 @@ pub(super) fn quad_split(subject: &Implementations, input: &Quad) -> Outcome {
 
 /// The triangles between a point and each side of a closed polygon.
 fn fan_triangles(centre: SubpixelPoint, ring: &[SubpixelPoint]) -> Vec<Corners> {
-    (0..ring.len()).map(|i| [centre, ring[i], ring[(i + 1) % ring.len()]]).collect()
+    let mut triangles = Vec::new();
+    for (i, from) in ring.iter().enumerate() {
+        triangles.push([centre, *from, ring[(i + 1) % ring.len()]]);
+    }
+    triangles
 }
 
 /// 7: the triangles of a closed fan cover what its outline winds round once, once each.
@@ -248,6 +256,7 @@ pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
 
 /// How often each pixel of a window is hit by triangles that are clockwise, less the hits of the others.
 fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
+    // Row after row, as the pixels of the window are counted.
     let mut sums = vec![0; window.width() as usize * window.height() as usize];
     for &corners in triangles {
         let sign = twice_area(&corners).signum() as i32;
@@ -347,6 +356,7 @@ pub(super) fn nesting(subject: &Implementations, input: &TriangleInput) -> Outco
     let (outer, window) = (input.triangle.corners(), input.window);
     let Some([a, b, c]) = exact::clockwise(&outer) else { return Ok(0) };
     let salt = i64::from(input.salt);
+    // A point inside, and the middles of the sides.
     let inner = between(between(a, b, salt % 17), c, salt / 17 % 17);
     let [ab, bc, ca] = [between(a, b, 8), between(b, c, 8), between(c, a, 8)];
     subject.each_engine(|engine| {
@@ -378,10 +388,10 @@ fn between(p: SubpixelPoint, q: SubpixelPoint, parts: i64) -> SubpixelPoint {
 pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, _], window) = (input.triangle.corners(), input.window);
     // A third point on the line through a and b: b mirrored at a, if it lies in the domain.
-    let mirrored = |a: i32, b: i32| i32::try_from(2 * i64::from(a) - i64::from(b)).ok();
-    let c = mirrored(a.x, b.x).zip(mirrored(a.y, b.y));
+    let x = i32::try_from(2 * i64::from(a.x) - i64::from(b.x));
+    let y = i32::try_from(2 * i64::from(a.y) - i64::from(b.y));
     let mut flat = vec![[a, a, b], [a, b, a], [b, a, a], [a, a, a]];
-    if let Some((x, y)) = c {
+    if let (Ok(x), Ok(y)) = (x, y) {
         let c = SubpixelPoint::new(x, y);
         flat.extend([[a, b, c], [b, c, a], [c, b, a]]);
     }
@@ -390,6 +400,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
     }
     subject.each_engine(|engine| {
         for corners in &flat {
+            // Coverage and values are separate ways through an engine.
             let covered = engine.hits(*corners, window).covered();
             let mut triangle = input.triangle;
             for (vertex, position) in triangle.vertices.iter_mut().zip(corners) {
@@ -428,6 +439,7 @@ pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outc
 /// 14: the window cut into tiles, drawn on several threads, gives the window; so do the values.
 pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (triangle, window) = (&input.triangle, input.window);
+    // Tiles of 1 to 19 px, cut off at the right and the lower border.
     let side = 1 + (input.salt % 19) as i32;
     let mut tiles = Vec::new();
     for y0 in (window.y0..window.y1).step_by(side as usize) {
@@ -437,6 +449,7 @@ pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome 
         }
     }
     subject.each_engine(|engine| {
+        // What the whole window shows is the truth about each tile.
         let whole = engine.hits(triangle.corners(), window);
         let fragments = engine.fragments(triangle, window);
         let check = |number: usize| {
@@ -495,17 +508,16 @@ pub(super) fn identifies_the_rule(subject: &Implementations, input: &TriangleInp
     let arm_sub = 3 + (input.salt / 169 % 125) as i32;
     let window = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
     let sample = centre_of(x_px, y_px);
-    let tip = |arm: usize| {
-        let [dx, dy] = ARMS[arm % 8];
-        SubpixelPoint::new(sample.x + dx * arm_sub, sample.y + dy * arm_sub)
-    };
+    let tips =
+        ARMS.map(|[dx, dy]| SubpixelPoint::new(sample.x + dx * arm_sub, sample.y + dy * arm_sub));
     subject.each_engine(|engine| {
+        // A bit for each triangle and each edge that has the sample.
         let (mut fan, mut edges) = (0u8, 0u8);
         for i in 0..8 {
-            let of_fan = engine.hits([sample, tip(i), tip(i + 1)], window);
+            let of_fan = engine.hits([sample, tips[i], tips[(i + 1) % 8]], window);
             fan |= u8::from(of_fan.covered() > 0) << i;
             // From the opposite arm to arm i, the third corner a right angle clockwise of it.
-            let of_edge = engine.hits([tip(i + 4), tip(i), tip(i + 2)], window);
+            let of_edge = engine.hits([tips[(i + 4) % 8], tips[i], tips[(i + 2) % 8]], window);
             edges |= u8::from(of_edge.covered() > 0) << i;
         }
         if (fan, edges) == target {
@@ -528,6 +540,12 @@ fn first_column(a: SubpixelPoint, b: SubpixelPoint, y_sub: i64) -> i128 {
     -(-numerator).div_euclid(i128::from(SUBPIXELS) * dy)
 }
 
+/// Whether the centre of a column lies right of a downward edge, where its function is not positive.
+fn is_right_of(a: SubpixelPoint, b: SubpixelPoint, column: i128, y_sub: i64) -> bool {
+    let x = column as i64 * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
+    exact::edge(a, b, x, y_sub) <= 0
+}
+
 /// 16: each half-plane of a row starts at the ceiling of the crossing, by its sign as by division;
 /// so a row of a triangle is what lies between its two ceilings.
 pub(super) fn edge_lemma(subject: &Implementations, input: &TriangleInput) -> Outcome {
@@ -544,12 +562,7 @@ pub(super) fn edge_lemma(subject: &Implementations, input: &TriangleInput) -> Ou
                 continue;
             }
             let column = first_column(a, b, y);
-            // Right of a downward edge its function is not positive: at the column, not before it.
-            let right_of = |column: i128| {
-                let x = column as i64 * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
-                exact::edge(a, b, x, y) <= 0
-            };
-            if !right_of(column) || right_of(column - 1) {
+            if !is_right_of(a, b, column, y) || is_right_of(a, b, column - 1, y) {
                 return Err(format!(
                     "row {y_px}: the ceiling {column} of {a:?} {b:?} is no sign change"
                 ));
@@ -583,11 +596,11 @@ pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Ou
     let bound = i128::from(width) * i128::from(height);
     // The four corners of the box, and their neighbours inside of it.
     let touched = around(&corners, DOMAIN);
-    let inside = |x: i32, y: i32| columns.contains(&centre(x)) && rows.contains(&centre(y));
     for x in [touched.x0, touched.x0 + 1, touched.x1 - 2, touched.x1 - 1] {
         for y in [touched.y0, touched.y0 + 1, touched.y1 - 2, touched.y1 - 1] {
             let values = (subject.edge_values)(&corners, x, y);
-            if inside(x, y) && values.iter().any(|e| e.abs() > bound) {
+            let is_inside = columns.contains(&centre(x)) && rows.contains(&centre(y));
+            if is_inside && values.iter().any(|e| e.abs() > bound) {
                 return Err(format!("|E| of {values:?} exceeds {width} x {height} at ({x}, {y})"));
             }
         }
@@ -618,11 +631,12 @@ pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Ou
 /// The input's triangle, or one whose box has a size at a threshold of some word.
 fn sized(input: &TriangleInput) -> Corners {
     let salt = input.salt;
-    let around = |n: i64, spread: u32| n - 40 + i64::from(spread % 80);
+    // Up to 40 to either side of each threshold.
+    let spread = i64::from(salt / 6 % 80) - 40;
     let side = match salt % 6 {
-        0 => around(46_340, salt / 6),
-        1 => around(2_896 * 256 - 256, salt / 6),
-        2 => around(3_037_000_499 - 256, salt / 6),
+        0 => 46_340 + spread,
+        1 => 2_896 * 256 - 256 + spread,
+        2 => 3_037_000_499 - 256 + spread,
         3 => i64::from(u32::MAX),
         _ => return input.triangle.corners(),
     };

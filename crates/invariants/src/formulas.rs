@@ -17,6 +17,7 @@ use rasterproof_render::pipeline::target::Colour;
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Item, Material, Scene, shapes};
 
+/// An opaque colour.
 fn colour(rng: &mut Rng) -> Colour {
     let mut channel = || rng.int(0, 255) as u8;
     [channel(), channel(), channel(), u8::MAX]
@@ -29,6 +30,7 @@ pub(super) fn over(subject: &Implementations, seed: u64, cases: u64) -> Outcome 
     let mut rng = Rng::new("over", seed, 0);
     let mut checked = 0;
     for _ in 0..cases {
+        // Every opacity there is, with three colours.
         let [a, b, c] = [0; 3].map_array(|_| colour(&mut rng));
         for opacity in 0..=u8::MAX {
             let mixed = over(a, b, opacity);
@@ -60,6 +62,7 @@ pub(super) fn over(subject: &Implementations, seed: u64, cases: u64) -> Outcome 
 pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let mut rng = Rng::new("layers", seed, 0);
     for case in 0..cases {
+        // So few depths that layers often share one.
         let count = rng.int(1, 7) as usize;
         let mut layer = || Layer {
             plane: 0,
@@ -70,6 +73,7 @@ pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcom
             colour: colour(&mut rng),
         };
         let drawn: Vec<Layer> = (0..count).map(|_| layer()).collect();
+        // How many layers are kept, the depth of what is opaque, and its colour.
         let (most, stored) = (rng.int(1, 8) as u32, rng.int(0, 5) as u64);
         let below = colour(&mut rng);
         let mix = |layers: &[Layer]| (subject.formulas.mix)(layers, most, stored, below);
@@ -77,6 +81,7 @@ pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcom
         let first = mix(&drawn);
         let mut order = drawn.clone();
         for _ in 0..6 {
+            // A shuffle in which every order is equally likely (Fisher and Yates).
             for i in (1..order.len()).rev() {
                 order.swap(i, rng.int(0, i as i64) as usize);
             }
@@ -117,6 +122,7 @@ pub(super) fn footprints(subject: &Implementations, seed: u64, cases: u64) -> Ou
             let corners =
                 [[0, 0], [side, 0], [0, side]].map_array(|[x, y]| SubpixelPoint::new(x, y));
             let pixels = DVec2::splat(64.0);
+            // From places of the triangle to texture coordinates: turned, then longer along one axis.
             let to_uv = |at: DVec2| {
                 let turned = angle.rotate(at * pixels);
                 turned * DVec2::new(texels, texels * f64::from(ratio)) / f64::from(SIDE)
@@ -124,6 +130,7 @@ pub(super) fn footprints(subject: &Implementations, seed: u64, cases: u64) -> Ou
             let uv = [DVec2::ZERO, DVec2::X, DVec2::Y].map_array(to_uv);
             let footprint = Footprint::new(corners, [1.0; 3], uv, (SIDE, SIDE));
             let found = (subject.formulas.taps)(&footprint, uv[0], 1.0, MOST);
+            // As often as it is longer than wide, at most so often; a ratio near a half may be rounded either way.
             let [x, y] = footprint.lengths(uv[0], 1.0);
             let longer = x.max(y);
             let expected = (longer / x.min(y)).round() as u8;
@@ -135,10 +142,12 @@ pub(super) fn footprints(subject: &Implementations, seed: u64, cases: u64) -> Ou
                     found.count
                 ));
             }
+            // The level at which one reading is a texel long.
             let level = libm::log2(longer / f64::from(found.count));
             if (found.level - level).abs() > MARGIN {
                 return Err(format!("case {case}: the level is {}, and not {level}", found.level));
             }
+            // Half the size in the window is twice as many texels a pixel, so one level more.
             if let Some(before) = before
                 && (found.level - before - 1.0).abs() > MARGIN
             {
@@ -161,8 +170,10 @@ pub(super) fn planes_in_light(subject: &Implementations, seed: u64, cases: u64) 
     for case in 0..cases {
         let mut direction =
             || DVec3::new(rng.signed(), rng.signed(), rng.signed()).normalize_or(DVec3::Z);
+        // The side of the plane that is lit.
         let (normal, towards) = (direction(), direction());
         let towards = if towards.dot(normal) < 0.0 { -towards } else { towards };
+        // A triangle in the plane through the origin, and a small one behind it, so that the map has a range of depths.
         let (u, v) = normal.any_orthonormal_pair();
         let mut corner = || u * rng.signed() + v * rng.signed();
         let corners = [corner(), corner(), corner()];
@@ -171,6 +182,7 @@ pub(super) fn planes_in_light(subject: &Implementations, seed: u64, cases: u64) 
         let beside = shapes::triangle([away, away + u * 0.1, away + v * 0.1], [DVec3::ONE; 3]);
         let mut scene = Scene::new("plane", "", DMat4::IDENTITY);
         scene.items = [plane, beside].map(|mesh| Item::new(mesh, Material::default())).to_vec();
+        // Coarse maps and fine ones, in each of three formats.
         let [size, bits] =
             [[16, 100, 512], [16, 24, 32]].map_array(|of| of[rng.int(0, 2) as usize]);
         scene.shadows = Some(Shadows { size, bits });
@@ -179,6 +191,7 @@ pub(super) fn planes_in_light(subject: &Implementations, seed: u64, cases: u64) 
         let map = view.map(&scene, &Scanline);
         let places = [0, 1, 2].map_array(|i: u32| view.place(0, i));
         for _ in 0..16 {
+            // A place in the triangle: one in the other half of its parallelogram is turned into it.
             let (mut s, mut t) = (rng.unit(), rng.unit());
             if s + t > 1.0 {
                 (s, t) = (1.0 - s, 1.0 - t);

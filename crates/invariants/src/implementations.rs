@@ -30,7 +30,9 @@ use rasterproof_verify::oracle::Oracle;
 
 /// A rasterizer of triangles, with values of two numbers, and of three for its weights.
 pub trait Fill: Sync {
+    /// The runs of pixels that a triangle covers.
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
+    /// The pixels of a triangle with depth and both values.
     fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
     /// As [`Interpolate::fragments`], for three numbers a vertex.
     fn weights(
@@ -67,6 +69,7 @@ impl<R: Interpolate + Sync> Fill for R {
 
 /// A drawer of lines, with values of two numbers.
 pub trait Stroke: Sync {
+    /// The pixels of a line in order, with depth and both values.
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
 }
 
@@ -114,6 +117,7 @@ pub fn hits(
     hits
 }
 
+/// A drawer of lines with its name.
 pub struct Drawer {
     pub name: &'static str,
     pub stroke: Box<dyn Stroke>,
@@ -137,25 +141,33 @@ pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec
 /// Draws a scene with some effects into a target of a kind, and says what it cost.
 pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
 
+/// One implementation of each kind, or several that do the same job.
 pub struct Implementations {
     /// Rasterizers: scanline, edge function and tiles, or a faulty one.
     pub engines: Vec<Engine>,
     /// Rasterizers of lists: the tile engine in every instruction set here, or a faulty one.
     pub lists: Vec<(&'static str, Box<dyn CoverList + Sync>)>,
+    /// What decides where implementations disagree; checks hold it to other arithmetic.
     pub oracle: Box<dyn Fill>,
     /// Line drawers: DDA and Bresenham, or a faulty one.
     pub drawers: Vec<Drawer>,
+    /// A coordinate in pixels to subpixels.
     pub snap: fn(f64) -> Result<i32, Refusal>,
+    /// The three edge functions at the centre of a pixel.
     pub edge_values: fn(&Corners, i32, i32) -> [i128; 3],
     /// The word that edge functions are stepped in, from the extents of the triangle.
     pub word_width: fn(u32, u32) -> WordWidth,
+    /// Where cases come from, which may be at fault as well.
     pub make_case: MakeCase,
     pub clip: ClipStage,
+    /// Whether a mode of culling removes a triangle.
     pub culls: fn(Cull, Corners) -> bool,
     /// The effects a scene is drawn with, of those that are asked for.
     pub choose: fn(Effects) -> Effects,
+    /// A whole frame, for what effects cost in it.
     pub render: RenderStage,
     pub formulas: Formulas,
+    /// The judge: whether two coverages are the same.
     pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 

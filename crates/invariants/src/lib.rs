@@ -45,20 +45,26 @@ pub enum Predicate {
     Matrix,
 }
 
+/// Something that must hold of every implementation, and how that is checked.
 #[derive(Clone, Copy)]
 pub struct Invariant {
     /// Its number, which never changes.
     pub number: u32,
+    /// It is asked for and told by this name.
     pub name: &'static str,
+    /// What must hold, in a sentence.
     pub statement: &'static str,
     /// How much may be missing; derived where the check stands.
     pub tolerance: &'static str,
+    /// What it looks at; a mutant in one of these places is one that it may kill.
     pub components: &'static [Component],
     pub check: Predicate,
 }
 
+/// What came of an invariant on the inputs of a seed.
 #[derive(Clone, Debug)]
 pub struct Trial {
+    /// Inputs that were checked.
     pub cases: u64,
     /// Inputs that do not fit the property and were left out.
     pub skipped: u64,
@@ -82,6 +88,7 @@ pub enum Ruling {
 }
 
 impl Trial {
+    /// What the numbers come to.
     #[must_use]
     pub fn ruling(&self) -> Ruling {
         match self.failure {
@@ -92,6 +99,7 @@ impl Trial {
     }
 }
 
+/// Inputs among which one that fits a check is looked for.
 pub const MOST_LOOKED_THROUGH: u64 = 10_000;
 
 impl Invariant {
@@ -154,28 +162,34 @@ impl Invariant {
             return None;
         }
         // The first input to which the check applies; a failure is one, too.
-        let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
-        (0..MOST_LOOKED_THROUGH).find(|&index| fits(index)).map(|index| index + 1)
+        for index in 0..MOST_LOOKED_THROUGH {
+            if self.judge(subject, &self.input(subject, seed, index)) != Ok(0) {
+                return Some(index + 1);
+            }
+        }
+        None
     }
 
     /// Checks the inputs of a seed on all cores and makes the first failing one small.
     #[must_use]
     pub fn run(&self, subject: &Implementations, seed: u64, cases: u64) -> Trial {
+        // A failure ends the run after the inputs that are judged at the same time.
         const BLOCK: u64 = 64;
         let mut report = Trial { cases: 0, skipped: 0, compared: 0, failure: None };
         let count = self.count(cases);
         let mut start = 0;
         while start < count && report.failure.is_none() {
             let end = count.min(start + 16 * BLOCK);
-            let judge = |index| self.judge(subject, &self.input(subject, seed, index));
-            let outcomes =
-                parallel::map((end - start) as usize, |number| judge(start + number as u64));
+            // Blocks are judged on all cores; of several failures the first by number is told.
+            let outcomes = parallel::map((end - start) as usize, |number| {
+                self.judge(subject, &self.input(subject, seed, start + number as u64))
+            });
             for (index, outcome) in (start..end).zip(outcomes) {
                 match outcome {
                     Ok(0) => report.skipped += 1,
                     Ok(compared) => {
-                        (report.cases, report.compared) =
-                            (report.cases + 1, report.compared + compared)
+                        report.cases += 1;
+                        report.compared += compared;
                     }
                     Err(message) => {
                         report.cases += 1;

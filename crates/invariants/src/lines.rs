@@ -16,11 +16,13 @@ use rasterproof_verify::cases::named::plain_line;
 /// of it.
 fn near(line: &Line) -> Line {
     let [a, b] = line.ends.map_array(|end| end.pixel);
-    let length = |a: i32, b: i32| ((i64::from(b) - i64::from(a)) % 301) as i32;
     let start = PixelPoint::new(a.x % 64, a.y % 64);
+    // In 64 bits, since both may lie at opposite ends of the domain.
+    let dx = (i64::from(b.x) - i64::from(a.x)) % 301;
+    let dy = (i64::from(b.y) - i64::from(a.y)) % 301;
     let mut line = *line;
     line.ends[0].pixel = start;
-    line.ends[1].pixel = PixelPoint::new(start.x + length(a.x, b.x), start.y + length(a.y, b.y));
+    line.ends[1].pixel = PixelPoint::new(start.x + dx as i32, start.y + dy as i32);
     line
 }
 
@@ -97,6 +99,7 @@ pub(super) fn one_per_step(subject: &Implementations, input: &LineInput) -> Outc
     let major = major_of(&whole);
     let length = (b[major] - a[major]).abs();
     subject.each_drawer(|drawer| {
+        // As many pixels as steps and one more, from one end to the other.
         let drawn = all_pixels(drawer, &line);
         if drawn.len() as i64 != length + 1 {
             return Err(format!("lights {} pixels on {length} steps", drawn.len()));
@@ -105,13 +108,18 @@ pub(super) fn one_per_step(subject: &Implementations, input: &LineInput) -> Outc
             return Err(format!("runs from {:?} to {:?}", drawn.first(), drawn.last()));
         }
         for two in drawn.windows(2) {
-            let step = |axis: usize| (two[1][axis] - two[0][axis]).abs();
-            if step(major) != 1 || step(1 - major) > 1 {
+            let step = [(two[1][0] - two[0][0]).abs(), (two[1][1] - two[0][1]).abs()];
+            if step[major] != 1 || step[1 - major] > 1 {
                 return Err(format!("steps from {:?} to {:?}", two[0], two[1]));
             }
         }
         Ok(drawn.len() as u64)
     })
+}
+
+/// The height of a line at a step, rounded half away from the end that it is counted from.
+fn directed(step: i64, du: i64, dv: i64) -> i64 {
+    (2 * dv * step + du) / (2 * du.max(1))
 }
 
 /// 38: backwards, the same pixels. The control: rounding half away from the first end, whichever
@@ -125,13 +133,16 @@ pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome 
     let (du, dv) = (dx.max(dy), dx.min(dy));
     // du steps along the longer axis and dv along the shorter one. Height at step i from either end; the two differ in their
     // ties only.
-    let directed = |i: i64| (2 * dv * i + du) / (2 * du.max(1));
-    let differs = (0..=du).any(|i| directed(i) != dv - directed(du - i));
+    let mut differs = false;
+    for i in 0..=du {
+        differs |= directed(i, du, dv) != dv - directed(du - i, du, dv);
+    }
     let even = dv > 0 && (du / greatest_divisor(du, dv)) % 2 == 0;
     if differs != even {
         return Err(format!("the control on {du}, {dv}: differs {differs}, even {even}"));
     }
     subject.each_drawer(|drawer| {
+        // The order in which they are drawn is the other one, so sets are compared.
         let mut there = all_pixels(drawer, &line);
         let mut back = all_pixels(drawer, &back);
         there.sort_unstable();
@@ -144,38 +155,54 @@ pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome 
     })
 }
 
+/// An octant around a pixel: whether y is its longer axis, and the signs of the steps along the longer and the shorter one.
+#[derive(Clone, Copy)]
+struct Octant {
+    origin: [i64; 2],
+    is_steep: bool,
+    signs: [i64; 2],
+}
+
+impl Octant {
+    /// Where it has the point that is u steps along the longer axis and v along the shorter one.
+    fn image(&self, [u, v]: [i64; 2]) -> [i64; 2] {
+        let ([x, y], [u, v]) = (self.origin, [self.signs[0] * u, self.signs[1] * v]);
+        if self.is_steep { [x + v, y + u] } else { [x + u, y + v] }
+    }
+
+    /// The line from its origin to that point.
+    fn line_to(&self, point: [i64; 2]) -> Line {
+        let ([x0, y0], [x1, y1]) = (self.origin, self.image(point));
+        plain_line(PixelPoint::new(x0 as i32, y0 as i32), PixelPoint::new(x1 as i32, y1 as i32))
+    }
+}
+
 /// 39: the other seven octants are images of the first; where the major axis is mirrored the end
 /// that decides a tie is the other one, so a tie goes the other way.
 pub(super) fn octants(subject: &Implementations, input: &LineInput) -> Outcome {
     let [a, b] = ends(&near(&input.line));
     let (dx, dy) = ((b[0] - a[0]).abs(), (b[1] - a[1]).abs());
     let (du, dv) = (dx.max(dy), dx.min(dy));
-    // Where an octant has the point that is u steps along the major axis and v along the minor one.
-    let image = |[u, v]: [i64; 2], steep: bool, su: i64, sv: i64| {
-        let (u, v) = (su * u, sv * v);
-        if steep { [a[0] + v, a[1] + u] } else { [a[0] + u, a[1] + v] }
-    };
-    let line_to = |end: [i64; 2]| {
-        let [from, to] = [a, end].map_array(|[x, y]| PixelPoint::new(x as i32, y as i32));
-        plain_line(from, to)
-    };
+    let origin = Octant { origin: a, is_steep: false, signs: [1, 1] };
     subject.each_drawer(|drawer| {
-        let first = all_pixels(drawer, &line_to(image([du, dv], false, 1, 1)));
+        let first = all_pixels(drawer, &origin.line_to([du, dv]));
         let mut compared = 0;
-        for steep in [false, true] {
+        for is_steep in [false, true] {
             // With equal axes the major one is x, so there is no steep octant.
-            if steep && du == dv {
+            if is_steep && du == dv {
                 continue;
             }
-            for (su, sv) in [(1, 1), (-1, 1), (1, -1), (-1, -1)] {
-                let other = all_pixels(drawer, &line_to(image([du, dv], steep, su, sv)));
-                let target = first.iter().map(|[x, y]| {
+            for signs in [[1, 1], [-1, 1], [1, -1], [-1, -1]] {
+                let octant = Octant { is_steep, signs, ..origin };
+                let other = all_pixels(drawer, &octant.line_to([du, dv]));
+                let mut target = Vec::new();
+                for [x, y] in &first {
                     let (u, v) = (x - a[0], y - a[1]);
-                    let tie = du > 0 && (2 * (du * v - dv * u)).abs() == du;
-                    image([u, v - i64::from(tie && su < 0)], steep, su, sv)
-                });
-                if !other.iter().copied().eq(target) {
-                    let to = image([du, dv], steep, su, sv);
+                    let is_tie = du > 0 && (2 * (du * v - dv * u)).abs() == du;
+                    target.push(octant.image([u, v - i64::from(is_tie && signs[0] < 0)]));
+                }
+                if other != target {
+                    let to = octant.image([du, dv]);
                     return Err(format!("on {a:?} to {to:?} is no image of the first octant"));
                 }
                 compared += other.len() as u64;
@@ -191,6 +218,7 @@ pub(super) fn clipped_line(subject: &Implementations, input: &LineInput) -> Outc
     let line = near(&input.line);
     let window = PixelRect { x0: 5, y0: -7, x1: 33, y1: 21 };
     subject.each_drawer(|drawer| {
+        // Where it is drawn as a whole, the fragments in the window are known.
         let whole = drawer.fragments(&line, around(&line));
         let target = whole.into_iter().filter(|f| window.contains(f.x_px, f.y_px));
         let inside = drawer.fragments(&line, window);
@@ -219,6 +247,7 @@ const KNOWN: [[i32; 2]; 4] = [[12, 2], [12, 10], [6, 1], [353, 337]];
 /// empty; a drawer that steps in floats shows its list in the message.
 pub(super) fn listed_differences(subject: &Implementations, input: &LineInput) -> Outcome {
     let origin = PixelPoint::new(0, 0);
+    // Those on which others err, and the one of this case.
     let known = KNOWN.map(|[x, y]| plain_line(origin, PixelPoint::new(x, y)));
     let mut lines = Vec::from(known);
     lines.push(near(&input.line));

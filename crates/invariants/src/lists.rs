@@ -16,9 +16,16 @@ const MOST: u32 = 40;
 pub(super) fn one_by_one(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let list = list_around(input.triangle.corners(), 1 + input.salt % MOST);
     let window = input.window;
-    let truth: Vec<Coverage> =
-        list.iter().map(|&corners| hits(&*subject.oracle, [corners], window)).collect();
-    subject.lists.iter().map(|(name, lists)| compare(name, &**lists, &list, window, &truth)).sum()
+    // What the oracle covers of each, alone.
+    let mut truth = Vec::new();
+    for corners in &list {
+        truth.push(hits(&*subject.oracle, [*corners], window));
+    }
+    let mut compared = 0;
+    for (name, lists) in &subject.lists {
+        compared += compare(name, &**lists, &list, window, &truth)?;
+    }
+    Ok(compared)
 }
 
 /// Compares what a list of triangles covers with what the oracle says.

@@ -20,25 +20,17 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 /// 43: ties in a quarter of the cases, slivers in a tenth, nothing to draw in a twentieth.
 pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let jobs = jobs_of(cases::triangles::FAMILIES.iter(), cases);
-    // Of each case whether it has a tie, whether it has a sliver, and whether nothing of it is drawn.
-    let facts = |number: usize| {
+    let of_each = parallel::map(jobs.len(), |number| {
         let (family, index) = jobs[number];
-        let Case { window, shape: Shape::Triangles { list, .. } } =
-            (subject.make_case)(family, seed, index)
-        else {
-            return [0, 0, 1];
-        };
-        let tie = list.iter().any(|t| samples_on_boundary(&t.corners(), window) > 0);
-        let sliver = list.iter().any(|t| is_sliver(&t.corners()));
-        let empty = oracle_coverage(&list, window).covered() == 0;
-        [tie, sliver, empty].map_array(u64::from)
-    };
+        facts_of(&(subject.make_case)(family, seed, index))
+    });
     let mut sums = [0; 3];
-    for facts in parallel::map(jobs.len(), facts) {
-        for (sum, fact) in sums.iter_mut().zip(facts) {
-            *sum += fact;
+    for facts in of_each {
+        for (sum, holds) in sums.iter_mut().zip(facts) {
+            *sum += u64::from(holds);
         }
     }
+    // Each quota is a share of all cases in percent.
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -48,13 +40,31 @@ pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     Ok(total)
 }
 
+/// Whether a case has a tie, whether it has a sliver, and whether nothing of it is drawn.
+fn facts_of(case: &Case) -> [bool; 3] {
+    let Shape::Triangles { list, .. } = &case.shape else { return [false, false, true] };
+    let (mut has_tie, mut has_sliver) = (false, false);
+    for triangle in list {
+        has_tie |= samples_on_boundary(&triangle.corners(), case.window) > 0;
+        has_sliver |= is_sliver(&triangle.corners());
+    }
+    [has_tie, has_sliver, oracle_coverage(list, case.window).covered() == 0]
+}
+
 /// The first cases of each family: the family, and the number of the case in it.
 fn jobs_of<'a>(families: impl Iterator<Item = &'a Family>, cases: u64) -> Vec<(&'a Family, u64)> {
-    families.flat_map(|family| (0..cases).map(move |index| (family, index))).collect()
+    let mut jobs = Vec::new();
+    for family in families {
+        for index in 0..cases {
+            jobs.push((family, index));
+        }
+    }
+    jobs
 }
 
 /// The bits of a case, folded (FNV-1a).
 fn fold(case: &Case) -> u64 {
+    // Every number of the case as a word of 64 bits, in a fixed order.
     let PixelRect { x0, y0, x1, y1 } = case.window;
     let mut words = vec![x0 as u64, y0 as u64, x1 as u64, y1 as u64];
     match &case.shape {
@@ -111,8 +121,10 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     }
     // The same cases from the first to the last, from the last to the first, and on all threads.
     let jobs = jobs_of(cases::families(), cases);
-    let forward: Vec<u64> = jobs.iter().map(|(family, index)| make(seed, family, *index)).collect();
-    let mut backward = Vec::new();
+    let (mut forward, mut backward) = (Vec::new(), Vec::new());
+    for (family, index) in &jobs {
+        forward.push(make(seed, family, *index));
+    }
     for (family, index) in jobs.iter().rev() {
         backward.push(make(seed, family, *index));
     }
@@ -126,18 +138,20 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     }
     // Then whole verdicts, in pools of one thread and of three.
     let options = Options::default().seed(seed).cases(cases.min(4));
-    let verdict = |threads: usize| {
+    let mut verdicts = Vec::new();
+    for threads in [1, 3] {
+        // Where the system refuses threads, there is nothing to compare.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Some(pool.ok()?.install(|| EnginesToJudge::all().judge(&options, &|_| ()).families))
-    };
-    // Where the system refuses threads, there is nothing to compare.
-    let (Some(one), Some(three)) = (verdict(1), verdict(3)) else { return Ok(0) };
-    if one != three {
+        let Ok(pool) = pool else { return Ok(0) };
+        verdicts.push(pool.install(|| EnginesToJudge::all().judge(&options, &|_| ()).families));
+    }
+    if verdicts[0] != verdicts[1] {
         return Err(format!("seed {seed}: one thread and three give different verdicts"));
     }
     Ok(jobs.len() as u64)
 }
 
+/// The oracle with one wrong pixel.
 struct OneWrong {
     at: (i32, i32),
     /// How often that pixel is hit too often; -1 where it is not hit at all.
@@ -146,6 +160,7 @@ struct OneWrong {
 
 impl Rasterize for OneWrong {
     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        // All spans are the oracle's but that one, which is cut in two or followed by one too many.
         let (x, y) = self.at;
         let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
         Oracle.spans(corners, bounds, &mut |span| {
@@ -173,14 +188,15 @@ pub(super) fn metrics_report_only(subject: &Implementations, seed: u64, cases: u
     let mut compared = 0;
     for index in 0..cases {
         let side = 128 << (index % 4);
+        // Frames of 128, 256, 512 and 1024 px in turn.
         let mut rng = Rng::new("one-wrong-pixel", seed, index);
         // The upper left half of the frame.
         let far = side * SUBPIXELS;
-        let corner = |x, y| SubpixelPoint::new(x, y);
-        let triangle = plain_triangle([corner(0, 0), corner(far, 0), corner(0, far)]);
+        let corners = [[0, 0], [far, 0], [0, far]].map_array(|[x, y]| SubpixelPoint::new(x, y));
+        let triangle = plain_triangle(corners);
         let window = PixelRect::window(side as u32, side as u32);
-        let any = &mut || rng.int(0, i64::from(side) - 1) as i32;
-        let at = (any(), any());
+        let last = i64::from(side) - 1;
+        let at = (rng.int(0, last) as i32, rng.int(0, last) as i32);
         // A pixel can be missing only where there is one.
         let is_covered = at.0 + at.1 < side - 1;
         let by = if is_covered && index % 8 < 4 { -1 } else { 1 };

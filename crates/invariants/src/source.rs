@@ -36,17 +36,14 @@ impl Quad {
     /// `along` says where on the top, right, bottom and left side, in 256ths of the side.
     pub fn inscribed([left, top, width, height]: [u16; 4], along: [u8; 4]) -> Self {
         let [left, top, width, height] = [left, top, width, height].map_array(i32::from);
-        let part = |length: i32, k: usize| (i64::from(length) * i64::from(along[k]) / 255) as i32;
-        let at = |x: i32, y: i32| SubpixelPoint::new(left + x, top + y);
-        Self {
-            corners: [
-                at(part(width, 0), 0),
-                at(width, part(height, 1)),
-                at(part(width, 2), height),
-                at(0, part(height, 3)),
-            ],
-            window: PixelRect::window(SIDE_PX, SIDE_PX),
+        // How far along its side each corner lies, from the left or from the top.
+        let mut part = [width, height, width, height];
+        for (part, along) in part.iter_mut().zip(along) {
+            *part = (i64::from(*part) * i64::from(along) / 255) as i32;
         }
+        let corners = [[part[0], 0], [width, part[1]], [part[2], height], [0, part[3]]]
+            .map_array(|[x, y]| SubpixelPoint::new(left + x, top + y));
+        Self { corners, window: PixelRect::window(SIDE_PX, SIDE_PX) }
     }
 }
 
@@ -101,6 +98,7 @@ pub struct LineInput {
     pub window: PixelRect,
 }
 
+/// A coordinate to be snapped, and moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
     pub px: f64,
@@ -125,6 +123,7 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
+/// What a check gets, by its kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
@@ -166,12 +165,12 @@ pub(super) fn quad(seed: u64, index: u64) -> Input {
     let on_centres = rng.chance(2);
     let align = |v: i64| if on_centres { v / 256 * 256 + 128 } else { v };
     let (left, top) = (align(rng.int(0, SIDE / 2)), align(rng.int(0, SIDE / 2)));
-    let size = |rng: &mut Rng| {
-        let length = rng.int(1, SIDE / 2);
-        // A multiple of a pixel keeps the far side on centres as well.
-        if on_centres { (length / 256 * 256).max(256) } else { length }
-    };
-    let (width, height) = (size(&mut rng), size(&mut rng));
+    let (mut width, mut height) = (rng.int(1, SIDE / 2), rng.int(1, SIDE / 2));
+    // A multiple of a pixel keeps the far sides on centres as well.
+    if on_centres {
+        width = (width / 256 * 256).max(256);
+        height = (height / 256 * 256).max(256);
+    }
     // The corners of the box give rectangles and triangles with a point on a side.
     let mut part = || [0, 255, 128, rng.int(0, 255)][rng.int(0, 3) as usize] as u8;
     let along = [part(), part(), part(), part()];
@@ -181,27 +180,28 @@ pub(super) fn quad(seed: u64, index: u64) -> Input {
 /// Fans, three in four with their centre on a sample.
 pub(super) fn fan(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("fan", seed, index);
-    let coordinate = |rng: &mut Rng, low: i64, high: i64| rng.int(low, high) as i32;
-    let (x, y) = (coordinate(&mut rng, 0, SIDE), coordinate(&mut rng, 0, SIDE));
-    let align = |v: i32| v & !(SUBPIXELS - 1) | HALF_PIXEL;
-    let centre = if rng.chance(4) {
-        SubpixelPoint::new(x, y)
-    } else {
-        SubpixelPoint::new(align(x), align(y))
-    };
+    let (mut x, mut y) = (rng.int(0, SIDE) as i32, rng.int(0, SIDE) as i32);
+    if !rng.chance(4) {
+        x = x & !(SUBPIXELS - 1) | HALF_PIXEL;
+        y = y & !(SUBPIXELS - 1) | HALF_PIXEL;
+    }
+    let centre = SubpixelPoint::new(x, y);
     // Spokes of whole half pixels often end on centres, where the centre of the fan is one.
     let whole = rng.chance(2);
+    // Fans of all sizes, the spokes of each of them up to its own.
     let most = 1 << rng.int(2, 11);
     let reach = [(); 16].map(|()| {
         let reach = rng.int(1, most) as u16;
         if whole { reach & !127 } else { reach }
     });
     let every = if rng.chance(2) { 1 } else { 2 };
-    let far = |rng: &mut Rng| rng.int(-SIDE, 2 * SIDE) as i32;
-    let apex = SubpixelPoint::new(far(&mut rng), far(&mut rng));
+    // Anywhere in nine windows around.
+    let (x, y) = (rng.int(-SIDE, 2 * SIDE) as i32, rng.int(-SIDE, 2 * SIDE) as i32);
+    let apex = SubpixelPoint::new(x, y);
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
+/// A line of the families in turn.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {
@@ -213,9 +213,11 @@ pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
 /// Coordinates, a third of them ties, with shifts that often cross zero.
 pub(super) fn position(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("position", seed, index);
+    // Small and large coordinates equally often.
     let bits = rng.int(4, 30);
     let sub = rng.int(-(1 << bits), 1 << bits) as i32;
     let part = [0, 1 << 11, rng.int(0, (1 << 12) - 1)][rng.int(0, 2) as usize] as u16;
+    // To the other side of zero, where a rounding towards zero would show.
     let across = -2 * (sub / SUBPIXELS);
     let shift_px = if rng.chance(2) { across } else { rng.int(-1 << 14, 1 << 14) as i32 };
     Input::Position(Position::new(sub, part, shift_px))
@@ -224,6 +226,7 @@ pub(super) fn position(seed: u64, index: u64) -> Input {
 /// Triangles in clip space: many with vertices on planes, behind the eye, or all inside.
 pub(super) fn clip(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("clip", seed, index);
+    // A vertex inside has |x|, |y|, |z| up to w; one behind the eye has a negative w.
     let inside = rng.chance(4);
     let behind = rng.chance(2);
     let vertices = [(); 3].map_array(|()| {
@@ -245,19 +248,26 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
     match input {
         Input::Triangle(input) => smallest_triangle(input, fails),
         Input::Line(LineInput { line, window }) => {
-            let wrap = |case: &Case| match &case.shape {
-                Shape::Lines(lines) => {
-                    Some(Input::Line(LineInput { line: *lines.first()?, window: case.window }))
-                }
-                _ => None,
-            };
             let case = Case { window, shape: Shape::Lines(vec![line]) };
-            let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
-            wrap(&found).unwrap_or(Input::Line(LineInput { line, window }))
+            let found = shrink::shrink(case, |case| line_of(case).as_ref().is_some_and(&fails));
+            line_of(&found).unwrap_or(Input::Line(LineInput { line, window }))
         }
         // A run has no neighbours.
         other => shrink::greedy(other, size, neighbours, &fails),
     }
+}
+
+/// The first line of a case as an input.
+fn line_of(case: &Case) -> Option<Input> {
+    let Shape::Lines(lines) = &case.shape else { return None };
+    Some(Input::Line(LineInput { line: *lines.first()?, window: case.window }))
+}
+
+/// The first triangle of a case as an input.
+fn triangle_of(case: &Case, salt: u32) -> Option<Input> {
+    let Shape::Triangles { list, .. } = &case.shape else { return None };
+    let (triangle, window) = (*list.first()?, case.window);
+    Some(Input::Triangle(TriangleInput { triangle, window, salt }))
 }
 
 /// The same for a triangle: first without what else there is to choose, then smaller.
@@ -273,28 +283,17 @@ fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -
         input = found;
     }
     let salt = input.salt;
-    let wrap = |case: &Case| match &case.shape {
-        Shape::Triangles { list, .. } => Some(Input::Triangle(TriangleInput {
-            triangle: *list.first()?,
-            window: case.window,
-            salt,
-        })),
-        _ => None,
-    };
     let shape = Shape::Triangles { list: vec![input.triangle], disjoint: false };
     let case = Case { window: input.window, shape };
-    let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
-    wrap(&found).unwrap_or(Input::Triangle(input))
+    let found = shrink::shrink(case, |case| triangle_of(case, salt).as_ref().is_some_and(&fails));
+    triangle_of(&found, salt).unwrap_or(Input::Triangle(input))
 }
 
 /// How many points an input has, then how far they lie from where [`neighbours`] moves them.
 fn size(input: &Input) -> (usize, f64) {
-    let far = |points: &[SubpixelPoint], [x, y]: [i32; 2]| -> f64 {
-        points.iter().map(|p| f64::from(p.x.abs_diff(x)) + f64::from(p.y.abs_diff(y))).sum()
-    };
     match input {
-        Input::Quad(quad) => (4, far(&quad.corners, [0; 2])),
-        Input::Fan(fan) => (fan.ring.len(), far(&fan.ring, [fan.centre.x, fan.centre.y])),
+        Input::Quad(quad) => (4, distances(&quad.corners, SubpixelPoint::new(0, 0))),
+        Input::Fan(fan) => (fan.ring.len(), distances(&fan.ring, fan.centre)),
         Input::Position(p) => (1, p.px.abs() + f64::from(p.shift_px.unsigned_abs())),
         Input::Clip(clip) => {
             let numbers = clip.vertices.as_flattened();
@@ -302,6 +301,15 @@ fn size(input: &Input) -> (usize, f64) {
         }
         _ => (0, 0.0),
     }
+}
+
+/// The sum of the distances of points from another one, in x and in y.
+fn distances(points: &[SubpixelPoint], from: SubpixelPoint) -> f64 {
+    let mut sum = 0.0;
+    for p in points {
+        sum += f64::from(p.x.abs_diff(from.x)) + f64::from(p.y.abs_diff(from.y));
+    }
+    sum
 }
 
 /// Inputs that are one step smaller.
@@ -370,14 +378,22 @@ fn smaller_fans(fan: &Fan) -> Vec<Input> {
     found
 }
 
+fn px(p: &SubpixelPoint) -> String {
+    let (x, y) = p.to_px();
+    format!("{x},{y}")
+}
+
+/// Points in pixels, one after the other.
+fn list(points: &[SubpixelPoint]) -> String {
+    points.iter().map(px).collect::<Vec<_>>().join(" ")
+}
+
+fn rect(w: &PixelRect) -> String {
+    format!("columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)
+}
+
 impl fmt::Display for Input {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let px = |p: &SubpixelPoint| {
-            let (x, y) = p.to_px();
-            format!("{x},{y}")
-        };
-        let list = |points: &[SubpixelPoint]| points.iter().map(px).collect::<Vec<_>>().join(" ");
-        let rect = |w: &PixelRect| format!("columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1);
         match self {
             Self::Triangle(TriangleInput { triangle, window, salt }) => {
                 write!(f, "triangle {} px in {}", list(&triangle.corners()), rect(window))?;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::Outcome;
 use super::exact::{self, U};
-use super::implementations::Implementations;
+use super::implementations::{Engine, Implementations};
 use super::source::TriangleInput;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::{ORDERS, centre_of, twice_area};
@@ -50,6 +50,7 @@ fn sorted_bits(fragments: &[Fragment<DVec2>]) -> Vec<FragmentBits> {
 
 /// Bit by bit, and in the order of the pixels.
 fn identical(a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
+    // Bits, since 0 and -0 are equal as numbers, and what is no number is unlike itself.
     let (a, b) = (sorted_bits(a), sorted_bits(b));
     if a.len() != b.len() {
         return Err(format!("emits {} fragments and {} {what}", a.len(), b.len()));
@@ -67,15 +68,6 @@ fn identical(a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcom
         }
     }
     Ok(a.len() as u64)
-}
-
-/// The triangle with each of its vertices changed, which `change` gets with its number.
-fn with(triangle: &Triangle, change: impl Fn(usize, &mut ScreenVertex<DVec2>)) -> Triangle {
-    let mut changed = *triangle;
-    for (i, vertex) in changed.vertices.iter_mut().enumerate() {
-        change(i, vertex);
-    }
-    changed
 }
 
 /// 21: the three functions add up to twice the area at every centre, whichever way the corners go
@@ -154,6 +146,12 @@ fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.varying[k])
 }
 
+/// The bounds of both values of a triangle.
+fn bounds_of(triangle: &Triangle, bound: Bound) -> [f64; 2] {
+    [bound.at(values_of(triangle, 0)), bound.at(values_of(triangle, 1))]
+}
+
+/// The depth of each vertex.
 fn depths_of(triangle: &Triangle) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.depth)
 }
@@ -167,33 +165,43 @@ pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> O
     let Some(exact) = ExactTriangle::new(&t.corners(), depths_of(t), inv_w, attributes) else {
         return Ok(0);
     };
-    // A few fragments of each triangle are enough, since exact values take long.
-    let judge = |tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
-        let bounds = [0, 1].map_array(|k| tolerance.attribute.at(values_of(t, k)));
-        let depth_bound = tolerance.depth.at(depths_of(t));
-        let mut compared = 0;
-        for f in few(fragments) {
-            let (depth, values) = exact.at(f.x_px, f.y_px);
-            let actual = f.varying.to_array();
-            // How many times its bound each of the three is away from the exact number.
-            let depth_ratio = depth.distance(f.depth) / depth_bound;
-            let ratio = [0, 1].map_array(|k| values[k].distance(actual[k]) / bounds[k]);
-            if depth_ratio > 1.0 || ratio[0] > 1.0 || ratio[1] > 1.0 {
-                return Err(format!(
-                    "at ({}, {}): depth {:?} and values {actual:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
-                    f.x_px, f.y_px, f.depth
-                ));
-            }
-            compared += 1;
-        }
-        Ok(compared)
-    };
+    // The oracle is held to the same exact numbers, within half a step of rounding.
     let mut oracle = Vec::new();
     subject.oracle.values(t, input.window, &mut |f| oracle.push(f));
-    let engines = subject
-        .each_engine(|engine| judge(&engine.tolerance, &engine.fragments(t, input.window)))?;
-    let oracle = judge(&tolerance::ORACLE, &oracle);
+    let engines = subject.each_engine(|engine| {
+        within_bounds(t, &exact, &engine.tolerance, &engine.fragments(t, input.window))
+    })?;
+    let oracle = within_bounds(t, &exact, &tolerance::ORACLE, &oracle);
     Ok(engines + oracle.map_err(|message| format!("the oracle {message}"))?)
+}
+
+/// Compares a few fragments with the exact triangle; more would take long.
+fn within_bounds(
+    triangle: &Triangle,
+    exact: &ExactTriangle<2>,
+    tolerance: &Tolerance,
+    fragments: &[Fragment<DVec2>],
+) -> Outcome {
+    let [x_bound, y_bound] = bounds_of(triangle, tolerance.attribute);
+    let depth_bound = tolerance.depth.at(depths_of(triangle));
+    let mut compared = 0;
+    for f in few(fragments) {
+        let (depth, [x, y]) = exact.at(f.x_px, f.y_px);
+        // How many times its bound each of the three is away from the exact number.
+        let depth_ratio = depth.distance(f.depth) / depth_bound;
+        let ratio = [x.distance(f.varying.x) / x_bound, y.distance(f.varying.y) / y_bound];
+        if depth_ratio > 1.0 || ratio[0] > 1.0 || ratio[1] > 1.0 {
+            return Err(format!(
+                "at ({}, {}): depth {:?} and values {:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
+                f.x_px,
+                f.y_px,
+                f.depth,
+                f.varying.to_array()
+            ));
+        }
+        compared += 1;
+    }
+    Ok(compared)
 }
 
 /// 24: no value beyond those of the vertices by more than the engine's own bound of rounding. The
@@ -204,11 +212,12 @@ pub(super) fn hull(subject: &Implementations, input: &TriangleInput) -> Outcome 
     subject.each_engine(|engine| {
         let Tolerance { depth, attribute, .. } = engine.tolerance;
         let depths = hull_of(depths_of(t), depth);
-        let values = [0, 1].map_array(|k| hull_of(values_of(t, k), attribute));
+        let first = hull_of(values_of(t, 0), attribute);
+        let second = hull_of(values_of(t, 1), attribute);
         all_are(&engine.fragments(t, input.window), "leave the hull", |f| {
             depths.contains(&f.depth)
-                && values[0].contains(&f.varying.x)
-                && values[1].contains(&f.varying.y)
+                && first.contains(&f.varying.x)
+                && second.contains(&f.varying.y)
         })
     })
 }
@@ -223,7 +232,10 @@ fn hull_of(values: [f64; 3], bound: Bound) -> RangeInclusive<f64> {
 /// 25: a constant comes out as it went in.
 pub(super) fn constant(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let value = input.triangle.vertices[0].varying;
-    let flat = with(&input.triangle, |_, vertex| vertex.varying = value);
+    let mut flat = input.triangle;
+    for vertex in &mut flat.vertices {
+        vertex.varying = value;
+    }
     subject.each_engine(|engine| {
         let fragments = engine.fragments(&flat, input.window);
         all_are(&fragments, format_args!("instead of values {value:?}"), |f| f.varying == value)
@@ -233,10 +245,14 @@ pub(super) fn constant(subject: &Implementations, input: &TriangleInput) -> Outc
 /// 26: any three equal w are as good as 1.
 pub(super) fn equal_w(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let inv_w = input.triangle.vertices[0].inv_w;
-    let equal = with(&input.triangle, |_, vertex| vertex.inv_w = inv_w);
-    let affine = with(&input.triangle, |_, vertex| vertex.inv_w = 1.0);
+    let mut both = [input.triangle; 2];
+    for (triangle, inv_w) in both.iter_mut().zip([inv_w, 1.0]) {
+        for vertex in &mut triangle.vertices {
+            vertex.inv_w = inv_w;
+        }
+    }
     subject.each_engine(|engine| {
-        let [equal, affine] = [equal, affine].map_array(|t| engine.fragments(&t, input.window));
+        let [equal, affine] = both.map_array(|t| engine.fragments(&t, input.window));
         identical(&equal, &affine, "with w = 1")
     })
 }
@@ -254,7 +270,10 @@ pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outc
             if !input.triangle.vertices.iter().all(|v| allowed.contains(&(v.inv_w * factor))) {
                 continue;
             }
-            let scaled = with(&input.triangle, |_, vertex| vertex.inv_w *= factor);
+            let mut scaled = input.triangle;
+            for vertex in &mut scaled.vertices {
+                vertex.inv_w *= factor;
+            }
             let fragments = engine.fragments(&scaled, input.window);
             let what = format!("before w was divided by 2^{power}");
             compared += identical(&fragments, &still, &what)?;
@@ -267,9 +286,11 @@ pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outc
 pub(super) fn rotated_vertices(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let v = &input.triangle.vertices;
     subject.each_engine(|engine| {
+        // A weight and its vertex may change places, and every sum must come out the same.
         let first = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for order in &ORDERS[1..] {
+            // Each vertex takes its values along.
             let turned = ScreenTriangle { vertices: order.map_array(|i| v[i]) };
             let fragments = engine.fragments(&turned, input.window);
             compared += identical(&fragments, &first, &format!("in order 0 1 2, not {order:?}"))?;
@@ -298,37 +319,27 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     let (back, ahead) = (1 + (input.salt >> 12 & 3) as i32, 1 + (input.salt >> 14 & 3) as i32);
     let values = &input.triangle.vertices;
     // The edge runs through the sample, and is shared by two triangles: third corners on either side, with values of their own.
-    let side = |l: i32, depth: f64, varying: DVec2| {
+    let [mut one, mut other] = [input.triangle; 2];
+    for (triangle, l) in [(&mut one, 1), (&mut other, -1)] {
         let corners = [at(-back, 0), at(ahead, 0), at(0, l)];
-        let mut triangle = with(&input.triangle, |i, vertex| vertex.position = corners[i]);
-        triangle.vertices[2].depth = depth;
-        triangle.vertices[2].varying = varying;
-        triangle
-    };
-    let one = side(1, values[2].depth, values[2].varying);
-    let other = side(-1, -values[2].depth, values[0].varying - values[2].varying);
-    // Half a turn about the sample makes the other side of the edge the owner.
-    let mirror = |t: &Triangle| {
-        with(t, |_, v| {
-            v.position =
-                SubpixelPoint::new(2 * sample.x - v.position.x, 2 * sample.y - v.position.y);
-        })
-    };
+        for (vertex, corner) in triangle.vertices.iter_mut().zip(corners) {
+            vertex.position = corner;
+        }
+    }
+    other.vertices[2].depth = -values[2].depth;
+    other.vertices[2].varying = values[0].varying - values[2].varying;
+    let there = PixelRect { x0: px, y0: py, x1: px + 1, y1: py + 1 }.intersect(&window);
     subject.each_engine(|engine| {
-        let value = |t: &Triangle| {
-            let there = PixelRect { x0: px, y0: py, x1: px + 1, y1: py + 1 }.intersect(&window);
-            let found = engine.fragments(t, there);
-            found.first().copied().or_else(|| engine.fragments(&mirror(t), there).first().copied())
-        };
-        let (Some(f), Some(g)) = (value(&one), value(&other)) else {
+        let (Some(f), Some(g)) =
+            (owned_value(engine, &one, there), owned_value(engine, &other, there))
+        else {
             return Err("never owns the sample on the edge".to_owned());
         };
         // Each side may be off by the bound of its own triangle.
         let Tolerance { depth, attribute, .. } = engine.tolerance;
         let depth_bound = depth.at(depths_of(&one)) + depth.at(depths_of(&other));
-        let bounds = [0, 1].map_array(|k| {
-            attribute.at(values_of(&one, k)) + attribute.at(values_of(&other, k))
-        });
+        let (bounds, more) = (bounds_of(&one, attribute), bounds_of(&other, attribute));
+        let bounds = [bounds[0] + more[0], bounds[1] + more[1]];
         let difference = (f.varying - g.varying).abs();
         let is_near = difference.x <= bounds[0]
             && difference.y <= bounds[1]
@@ -346,6 +357,21 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
             g.varying
         ))
     })
+}
+
+/// The fragment of the one pixel of a window, of a triangle or of the same turned half round about the sample: that makes the other
+/// side of an edge the owner.
+fn owned_value(engine: &Engine, triangle: &Triangle, there: PixelRect) -> Option<Fragment<DVec2>> {
+    if let Some(fragment) = engine.fragments(triangle, there).first() {
+        return Some(*fragment);
+    }
+    let sample = centre_of(there.x0, there.y0);
+    let mut turned = *triangle;
+    for vertex in &mut turned.vertices {
+        let SubpixelPoint { x, y } = vertex.position;
+        vertex.position = SubpixelPoint::new(2 * sample.x - x, 2 * sample.y - y);
+    }
+    engine.fragments(&turned, there).first().copied()
 }
 
 /// The way from one point to another, made so short that four of them stay near.
@@ -402,6 +428,7 @@ pub(super) fn flat_depth(subject: &Implementations, input: &TriangleInput) -> Ou
 
 /// 31: the corners of the domain of w, of depth and of values.
 pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcome {
+    // Everything that is stored is 1/w, so the largest w is the smallest number.
     let (smallest, largest) = (1.0 / MAX_W, 1.0 / MIN_W);
     let inv_ws = [
         [smallest, largest, 1.0],
@@ -419,11 +446,12 @@ pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcom
     // The salt picks one of all pairs of the two lists.
     let inv_w = inv_ws[input.salt as usize % inv_ws.len()];
     let value = values[input.salt as usize / inv_ws.len() % values.len()];
-    let extreme = with(&input.triangle, |i, vertex| {
+    let mut extreme = input.triangle;
+    for (i, vertex) in extreme.vertices.iter_mut().enumerate() {
         vertex.inv_w = inv_w[i];
         vertex.depth = value[i];
         vertex.varying = DVec2::new(value[i], value[(i + 1) % 3]);
-    });
+    }
     subject.each_engine(|engine| {
         let fragments = engine.fragments(&extreme, input.window);
         let what = format_args!("from 1/w {inv_w:?} and values {value:?}");

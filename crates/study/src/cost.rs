@@ -85,6 +85,7 @@ fn boards<'a>(
 
 /// What the buffers of a choice take at their peak, in a window and for so many triangles.
 fn bytes(choice: &Choice, window: PixelRect, triangles: u64) -> u64 {
+    // The scene itself is not counted: every choice has that.
     let [of_pixel, of_triangle] = choice.bytes;
     of_pixel * pixels(window) + of_triangle * triangles
 }
@@ -94,7 +95,7 @@ fn pixels(window: PixelRect) -> u64 {
     u64::from(window.width()) * u64::from(window.height())
 }
 
-/// Pieces that are timed.
+/// Pieces that are timed: every so many-th of a view, so that all parts of it are among them.
 struct Sample {
     /// The numbers of the timed pieces, sorted.
     numbers: Vec<usize>,
@@ -122,11 +123,16 @@ impl Sample {
         // A triangle without a pixel takes about as long as one with four.
         let work = all.max(4 * pixels.len() as u64);
         let stride = work.div_ceil(most_px.max(1)).max(1) as usize;
-        let mut numbers: Vec<usize> = (0..pixels.len()).step_by(stride).collect();
-        let mut timed: u64 = numbers.iter().map(|&number| pixels[number]).sum();
+        let (mut numbers, mut others, mut timed) = (Vec::new(), Vec::new(), 0);
+        for (number, covered) in pixels.iter().enumerate() {
+            if number.is_multiple_of(stride) {
+                numbers.push(number);
+                timed += covered;
+            } else {
+                others.push(number);
+            }
+        }
         // The largest of the others are added until half of what was meant is covered.
-        let mut others: Vec<usize> =
-            (0..pixels.len()).filter(|number| !number.is_multiple_of(stride)).collect();
         others.sort_by_key(|&number| std::cmp::Reverse(pixels[number]));
         for number in others {
             if 2 * timed >= most_px.min(all) {
@@ -190,6 +196,7 @@ fn class<'a>(pieces: impl IntoIterator<Item = &'a Piece>, window: PixelRect) -> 
         values: Vec::new(),
         interior: None,
     };
+    // The place of a face in this list is the number of its triangle in the class.
     let mut faces = Vec::new();
     for piece in pieces {
         // Beyond the domain of the engines a piece is left out.
@@ -208,10 +215,11 @@ fn class<'a>(pieces: impl IntoIterator<Item = &'a Piece>, window: PixelRect) -> 
 
 /// Puts triangles of a model in place of those of a class.
 fn rename(found: &mut Details, faces: &[u32]) {
-    let face = |number: u32| faces[number as usize];
-    found.first = found.first.map(|(of, pixel)| (of.map(face), pixel));
-    for (pair, _) in &mut found.wrong {
-        *pair = pair.map_array(face);
+    if let Some((Some(first), _)) = &mut found.first {
+        *first = faces[*first as usize];
+    }
+    for number in found.wrong.iter_mut().flat_map(|(pair, _)| pair) {
+        *number = faces[*number as usize];
     }
     // Pieces of one triangle that were wrong each for itself are now one pair.
     merge(&mut found.wrong);
@@ -233,6 +241,7 @@ fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Bo
             Measure::new(title, format!("{unit} {short}"), Some(0.0)).counts(unit)
         });
     let to_time = coverage::Input::new(class(sample.of(&sampled.planes[0]), window).0);
+    // Both groups are one job, so their times are taken in the same rounds.
     let mut groups = Vec::new();
     for ladder in [Ladder::Scanline, Ladder::EdgeFunction] {
         // Of each chunk what each choice of the group gets wrong.
@@ -262,6 +271,7 @@ fn sum_of_chunks(
     choice: usize,
     sampled: &Sampled,
 ) -> Result<Details, String> {
+    // The first wrong sample of the first chunk that has one is the first of all.
     let mut sum = Details::default();
     for chunk in of_chunks {
         let Details { pixels, first, wrong, .. } = &chunk[choice].as_ref()?.found;
@@ -307,12 +317,10 @@ fn edge_function([a, b]: [[f64; 2]; 2], p: [f64; 2], u: f64) -> (f64, f64) {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let (qx, qy) = (p[0] - a[0], p[1] - a[1]);
     // What a difference of two corners is off by, and one of a point and a corner: a point is a centre, which floats hold exactly.
-    let of_edge = |i: usize, d: f64| u * (a[i].abs() + b[i].abs() + d.abs());
-    let of_point = |i: usize, q: f64| u * (a[i].abs() + q.abs());
-    let products = dx.abs() * of_point(1, qy)
-        + qy.abs() * of_edge(0, dx)
-        + dy.abs() * of_point(0, qx)
-        + qx.abs() * of_edge(1, dy);
+    let of_dx = u * (a[0].abs() + b[0].abs() + dx.abs());
+    let of_dy = u * (a[1].abs() + b[1].abs() + dy.abs());
+    let (of_qx, of_qy) = (u * (a[0].abs() + qx.abs()), u * (a[1].abs() + qy.abs()));
+    let products = dx.abs() * of_qy + qy.abs() * of_dx + dy.abs() * of_qx + qx.abs() * of_dy;
     let (p, q) = (dx * qy, dy * qx);
     let bound = products + u * (p.abs() + q.abs() + (p - q).abs());
     // For products of errors.
@@ -387,6 +395,7 @@ fn interpolation_board(
         }
         Ok((run, Some(entry.pass(&to_time)?)))
     };
+    // Times are of a sample of the pieces, errors of all that have values.
     let sampling = Sampling {
         judged: judged.judged(),
         looked_at: on_hard.as_ref().map(interpolation::Input::judged),
@@ -416,6 +425,7 @@ fn antialiasing_board((pieces, window): (&[Piece], PixelRect), timing: Timing) -
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
 fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
+    // What exact depths show is the same for all formats.
     let planes = &sampled.planes;
     let truths = parallel::map(planes.len(), |plane| exactly_seen(&planes[plane], sampled.window));
     let (mut choices, mut cells) = (Vec::new(), Vec::new());
@@ -457,6 +467,7 @@ fn depth_choice(format: DepthFormat, samples: usize) -> Choice {
 /// The samples at which a format shows another piece than exact depths do, a pair for each.
 fn wrongly_seen(sampled: &Sampled, truths: &[Frame<u32>], format: DepthFormat) -> Details {
     let window = sampled.window;
+    // Samples of all planes are counted; a pixel may have several.
     let mut found = Details::default();
     for (pieces, truth) in sampled.planes.iter().zip(truths) {
         let face = |number: u32| pieces.get(number as usize).map(|piece| piece.face);
@@ -491,8 +502,9 @@ pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
         let bound = SCANLINE.depth.at(depths);
         Scanline.runs(&piece.depth_only(), window, true, &mut |run| {
             for (x, &depth) in (run.x0_px..).zip(run.depths) {
-                let at = |frame: &Frame<f64>| frame.get(x, run.y_px).unwrap_or(f64::INFINITY);
-                let (old, reach) = (at(&nearest), bound + at(&error));
+                let [old, error_of_old] =
+                    [&nearest, &error].map(|frame| frame.get(x, run.y_px).unwrap_or(f64::INFINITY));
+                let reach = bound + error_of_old;
                 let before = seen.get(x, run.y_px).unwrap_or(NOTHING);
                 // Two depths that are farther apart than both bounds are told apart by floats, any others exactly.
                 let is_nearer = match (depth - old).abs() <= reach && before != NOTHING {
@@ -510,7 +522,7 @@ pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
     seen
 }
 
-/// Whether a piece is nearer than another one at a pixel, exactly.
+/// Whether a piece is nearer than another one at a pixel, exactly. One without area has no depth there, so it is nearer than nothing.
 fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
     let [a, b] = [piece, other].map_array(|piece| {
         let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);

@@ -262,6 +262,7 @@ pub(crate) fn differing<'a>(
     })
 }
 
+/// Whether two colours differ by more than so many steps of 255 in any channel.
 fn is_far(a: Colour, b: Colour, steps: u8) -> bool {
     a.into_iter().zip(b).any(|(a, b)| a.abs_diff(b) > steps)
 }

@@ -48,20 +48,7 @@ pub struct Cells {
 /// # Errors
 /// A sentence where cells cannot stand for the scene.
 pub fn cells(scene: &Scene, window: PixelRect, grid: CornerGrid) -> Result<Cells, String> {
-    let refused = |what: &str, instead: &str| {
-        Err(format!(
-            "a grid of its own is drawn pixel by pixel, which {what} is not made for: {instead}"
-        ))
-    };
-    if scene.hidden == Hidden::Painter {
-        return refused("drawing from back to front", "choose another scene");
-    }
-    if scene.shadows.is_some() {
-        return refused("a shadow map", "leave out --shadows");
-    }
-    if scene.items.iter().any(|item| item.material.shading == Shading::Gouraud) {
-        return refused("light of corners", "choose --shading flat or phong");
-    }
+    check_scene(scene)?;
     let mut cells = Scene { items: Vec::with_capacity(scene.items.len()), ..scene.clone() };
     let (mut disagreeing, mut count) = (0, 0);
     for (index, item) in scene.items.iter().enumerate() {
@@ -97,6 +84,22 @@ pub fn cells(scene: &Scene, window: PixelRect, grid: CornerGrid) -> Result<Cells
     Ok(Cells { scene: cells, disagreeing })
 }
 
+/// Refuses what needs whole triangles: an order of triangles, a map of them from the light, and light that is mixed from corners.
+fn check_scene(scene: &Scene) -> Result<(), String> {
+    let [what, instead] = if scene.hidden == Hidden::Painter {
+        ["drawing from back to front", "choose another scene"]
+    } else if scene.shadows.is_some() {
+        ["a shadow map", "leave out --shadows"]
+    } else if scene.items.iter().any(|item| item.material.shading == Shading::Gouraud) {
+        ["light of corners", "choose --shading flat or phong"]
+    } else {
+        return Ok(());
+    };
+    Err(format!(
+        "a grid of its own is drawn pixel by pixel, which {what} is not made for: {instead}"
+    ))
+}
+
 /// The pixels that an engine covers, from the top left.
 fn covered_pixels(
     engine: &impl RasterizeExact,
@@ -118,6 +121,7 @@ fn without(some: &[[i32; 2]], others: &[[i32; 2]]) -> u64 {
     if some == others {
         return 0;
     }
+    // Mostly both are the same; the search is for the few triangles on which engines disagree.
     let mut count = 0;
     for [x, y] in some {
         count += u64::from(others.binary_search_by_key(&[*y, *x], |[x, y]| [*y, *x]).is_err());
@@ -160,17 +164,10 @@ impl<'a> Builder<'a> {
     /// area.
     fn add(&mut self, cut: &Cut<'_, DVec3>, corners: [[f64; 2]; 3], winding: f64, pixel: [i32; 2]) {
         // The largest reach whose corners all lie in front of the eye; a cell without any is not drawn.
-        let centre = pixel.map_array(|px| f64::from(px) + 0.5);
+        let mut cells = REACHES.into_iter().filter_map(|reach| cell(cut, corners, pixel, reach));
+        let Some([a, b, c]) = cells.next() else { return };
         // A cell is seen from the side that its triangle is seen from.
-        let order = if winding > 0.0 { [0, 1, 2] } else { [0, 2, 1] };
-        let cell = REACHES.into_iter().find_map(|reach| {
-            let at = |i: usize| {
-                let [x, y] = CELL[order[i]].map_array(|by| by * reach / 256.0);
-                Value::at([centre[0] + x, centre[1] + y], &cut.triangle, corners)
-            };
-            Some([at(0)?, at(1)?, at(2)?])
-        });
-        let Some(cell) = cell else { return };
+        let cell = if winding > 0.0 { [a, b, c] } else { [a, c, b] };
         // The way of the pipeline backwards: from the window to clip space, times w, and from there to the object.
         let [width, height] = self.size;
         for Value { px: [x, y], depth, w, .. } in cell {
@@ -190,6 +187,7 @@ impl<'a> Builder<'a> {
         };
         self.normals.push(mixed(shares, normals));
         self.uvs.push(mixed(shares, of.map_array(|of| of.uv)));
+        // The corners of a part have neither tangents nor second coordinates, so these come from the mesh.
         let (tangents, uvs) =
             (mesh.triangles.tangents(cut.number), mesh.triangles.second_uvs(cut.number));
         self.tangents.push(mixed(shares, tangents));
@@ -218,6 +216,21 @@ impl<'a> Builder<'a> {
         }
         item
     }
+}
+
+/// What a part of a triangle, whose corners lie on the grid, has at the corners of a cell; nothing where one lies behind the eye.
+fn cell(
+    cut: &Cut<'_, DVec3>,
+    corners: [[f64; 2]; 3],
+    pixel: [i32; 2],
+    reach: f64,
+) -> Option<[Value<DVec3>; 3]> {
+    let [x, y] = pixel.map_array(|px| f64::from(px) + 0.5);
+    let [a, b, c] = CELL.map_array(|[right, down]| {
+        let px = [x + right * reach / 256.0, y + down * reach / 256.0];
+        Value::at(px, &cut.triangle, corners)
+    });
+    Some([a?, b?, c?])
 }
 
 /// What a part of a triangle has at a place in the window.
@@ -284,6 +297,7 @@ pub struct GridPrice {
 
 /// The price of each grid. The coverage of all grids is timed in the same rounds, so many times.
 pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<GridPrice>, BadScene> {
+    // What changes is found first, and then all grids are timed together.
     let (mut prices, mut outlines) = (Vec::new(), Vec::new());
     let mut unsnapped: Option<Frame<u32>> = None;
     // From the finest grid to the coarsest: the first one does not snap, and all others are compared with it.
@@ -377,6 +391,7 @@ impl Outlines {
 
 /// Which triangle is seen in each pixel, by the depths of the planes before corners are put on a grid.
 fn seen(pieces: &[Piece], window: PixelRect, grid: CornerGrid) -> Frame<u32> {
+    // Of equal depths the first piece stays.
     let mut seen = Frame::new(window, NOTHING);
     let mut nearest = Frame::new(window, f64::INFINITY);
     for piece in pieces {

@@ -243,6 +243,7 @@ pub fn find(
         case.pixels = pixels_of(&touched, case.kind);
     }
     found.sort_by_key(|case| case.kind);
+    // The least and the largest w of all corners in the window, none where nothing is in it.
     let mut w: Option<[f64; 2]> = None;
     for of_corner in pieces.iter().flat_map(|piece| piece.w) {
         let [least, most] = w.unwrap_or([f64::MAX, 0.0]);
@@ -285,6 +286,7 @@ fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
 
 /// The same scene with all triangles in the opposite order.
 fn turned(scene: &Scene) -> Scene {
+    // Items are drawn in their order, and triangles in that of their mesh.
     let mut turned = scene.clone();
     turned.items.reverse();
     for item in &mut turned.items {
@@ -378,13 +380,13 @@ impl Search<'_> {
         self.note(noted, note);
     }
 
-    /// Notes triangles with how bad each is, in any order; `note` gets that of the worst one.
-    fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
+    /// Notes triangles with how bad each is, in any order; in `note` that of the worst one takes the place of `{}`.
+    fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: &str) {
         // The sort is stable: of equally bad ones the first in drawing order stays in front.
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
         let (worst, _) = found.first().copied().unwrap_or_default();
         let all = &mut found.iter().map(|(_, triangle)| *triangle);
-        self.note_triangles(kind, all, note(&short(worst)));
+        self.note_triangles(kind, all, note.replace("{}", &short(worst)));
     }
 
     /// Finds out which triangles are seen, and how it is decided.
@@ -615,6 +617,7 @@ impl Search<'_> {
 
     /// Pixels with a sample on an edge of a piece after snapping; seen where the piece is not hidden.
     fn samples_on_edges(&mut self) {
+        // A sample counts once for each edge that it lies on.
         let mut noted = Noted::new(Kind::OnEdge);
         for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
             for piece in pieces {
@@ -665,6 +668,7 @@ impl Search<'_> {
 
     /// Triangles that snapping turns over or flattens.
     fn turned(&mut self) {
+        // A triangle may be turned without being seen, which is counted apart.
         let mut noted = Noted::new(Kind::Turned);
         // Triangles are counted at pixel centres, whatever samples the picture has.
         let mut flat = 0;
@@ -679,6 +683,7 @@ impl Search<'_> {
 
     /// Pieces in which w varies so much that 1/w in single precision may be a visible step off.
     fn wide_w(&mut self) {
+        // A part of a triangle that was cut has a range of w of its own.
         let mut wide: Vec<(f64, u32)> = Vec::new();
         for piece in self.pieces {
             let [a, b, c] = piece.w;
@@ -687,12 +692,12 @@ impl Search<'_> {
                 wide.push((ratio, piece.face));
             }
         }
-        let note = |worst: &str| format!("the widest one has a ratio of {worst}");
-        self.note_worst(Kind::WideW, wide, note);
+        self.note_worst(Kind::WideW, wide, "the widest one has a ratio of {}");
     }
 
     /// Triangles of textured materials with a coordinate whose rounding to f32 may be half a texel.
     fn far_textures(&mut self) {
+        // Triangles are numbered through all items, textured or not.
         let mut far: Vec<(f64, u32)> = Vec::new();
         let mut face = 0;
         for item in &self.scene.items {
@@ -714,8 +719,7 @@ impl Search<'_> {
                 face += 1;
             }
         }
-        let note = |worst: &str| format!("the farthest one is {worst} texels from 0");
-        self.note_worst(Kind::FarTexture, far, note);
+        self.note_worst(Kind::FarTexture, far, "the farthest one is {} texels from 0");
     }
 
     /// Pixels that have another colour when all triangles are drawn in the opposite order, and why: what no longer does with
@@ -762,24 +766,27 @@ impl Search<'_> {
                 equal += 1;
             }
         }
+        let in_format =
+            format!("by depths that are equal in {}: --depth f64 tells them apart", format.name());
+        // Each pixel has one cause: the four counts add up to all pixels.
         let mut causes = Vec::new();
-        let mut add = |count: usize, why: &str| {
+        for (count, why) in [
+            (pixels.len() - left.len(), "by blending: --layers mixes by depth"),
+            (folds, "where snapping folds a surface: see folds by snapping"),
+            (equal, "by equal depths: faces in one place, to be mended in the model"),
+            (left.len() - equal - folds, &in_format),
+        ] {
             if count > 0 {
                 causes.push(format!("{count} px {why}"));
             }
-        };
-        let in_format =
-            format!("by depths that are equal in {}: --depth f64 tells them apart", format.name());
-        add(pixels.len() - left.len(), "by blending: --layers mixes by depth");
-        add(folds, "where snapping folds a surface: see folds by snapping");
-        add(equal, "by equal depths: faces in one place, to be mended in the model");
-        add(left.len() - equal - folds, &in_format);
+        }
         self.note_order(&pixels, causes.join("; "));
         Ok(())
     }
 
     /// Notes the pixels that the order of drawing changes, with the triangles that are seen there.
     fn note_order(&mut self, pixels: &[(i32, i32)], note: String) {
+        // Of each pixel one triangle is known: the one that the first drawing shows.
         let mut faces = Vec::new();
         for &(x, y) in pixels {
             touch(&mut self.touched, [x, y], Kind::Order.bit());
@@ -832,6 +839,7 @@ impl Search<'_> {
             if now.len() != before.len() {
                 continue;
             }
+            // How far any corner moves in x or in y.
             let mut most: f64 = 0.0;
             for (before, now) in before.iter().zip(now) {
                 for ([ax, ay], [bx, by]) in before.px.into_iter().zip(now.px) {
@@ -842,8 +850,7 @@ impl Search<'_> {
                 far.push((most, face));
             }
         }
-        let note = |worst: &str| format!("the farthest corner moves by {worst} px");
-        self.note_worst(Kind::SinglePrecision, far, note);
+        self.note_worst(Kind::SinglePrecision, far, "the farthest corner moves by {} px");
         Ok(differing(picture, &draw(&rounded, target)?, 0).count() as u64)
     }
 }
@@ -873,9 +880,11 @@ impl Place {
             position: self.matrix * point.extend(1.0),
             varying: 0.0,
         });
+        // Far away, a product of matrices may exceed what a double holds.
         if !a.position.is_finite() || !b.position.is_finite() {
             return None;
         }
+        // An edge whose ends both lie outside of one border is not in the window.
         let [outside_a, outside_b] = [outcode(&a), outcode(&b)];
         if outside_a & outside_b != 0 {
             return None;

@@ -128,14 +128,17 @@ impl Welded {
         vertices
     }
 
+    /// Where a vertex is.
     fn point(&self, vertex: u32) -> DVec3 {
         self.points[vertex as usize]
     }
 
+    /// Where a border begins and ends.
     fn ends(&self, border: &Border) -> [DVec3; 2] {
         positions(&self.points, border.ends)
     }
 
+    /// Where the vertices of a polygon are.
     fn polygon(&self, vertices: &[u32]) -> Vec<DVec3> {
         vertices.iter().map(|vertex| self.point(*vertex)).collect()
     }

@@ -56,6 +56,17 @@ struct Candidate<'a> {
     snapped_here: Vec<&'a Piece>,
 }
 
+/// Whether a piece is part of the surface as given. What culling would remove if nothing was snapped is drawn, and no part of it.
+fn is_given(piece: &Piece, scene: &Scene, grid: CornerGrid) -> bool {
+    let is_culled = scene.items[piece.item as usize].cull != Cull::None;
+    !is_culled || piece.change(grid) != Change::Over
+}
+
+/// Whether a piece is one of these very pieces.
+fn is_among(piece: &Piece, pieces: &[&Piece]) -> bool {
+    pieces.iter().any(|other| std::ptr::eq(*other, piece))
+}
+
 /// The samples of a plane that snapping broke, from the top left. `lost` are the pieces that culling removes only since snapping has
 /// turned them over.
 pub(crate) fn broken<'a>(
@@ -67,15 +78,10 @@ pub(crate) fn broken<'a>(
     let Some(step) = grid.step_px() else { return Vec::new() };
     let ring = RING * step;
     let Surfaces { pieces, window, .. } = *surfaces;
-    // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
-    let is_given = |piece: &Piece| {
-        let is_culled = scene.items[piece.item as usize].cull != Cull::None;
-        !is_culled || piece.change(grid) != Change::Over
-    };
     // First, a count for each sample: by how many pieces more it is covered once they are snapped.
     let mut more = Frame::new(window, 0i32);
     for piece in pieces {
-        count_piece(&mut more, piece, grid, Some(is_given(piece)));
+        count_piece(&mut more, piece, grid, Some(is_given(piece, scene, grid)));
     }
     for piece in lost {
         count_piece(&mut more, piece, grid, None);
@@ -93,7 +99,7 @@ pub(crate) fn broken<'a>(
     }
     // Only these few samples are looked at closely: which pieces cover the points around them as given, and which the sample
     // itself once snapped.
-    for piece in pieces.iter().filter(|piece| is_given(piece)).chain(lost) {
+    for piece in pieces.iter().filter(|piece| is_given(piece, scene, grid)).chain(lost) {
         for candidate in candidates_near(&mut candidates, piece) {
             look_around(candidate, piece, ring);
         }
@@ -112,17 +118,19 @@ pub(crate) fn broken<'a>(
         let is_inside = given > 0 && around.iter().all(|count| *count == given);
         let is_crack = snapped < given;
         // Of a fold each piece must be one that the points tell of, or one that is turned over.
-        let is_known = |piece: &&Piece| {
-            piece.change(grid) == Change::Over
-                || given_here.iter().any(|given| std::ptr::eq(*given, *piece))
-        };
-        if !is_inside || snapped == given || !is_crack && !snapped_here.iter().all(is_known) {
+        let mut is_known = true;
+        for piece in &snapped_here {
+            is_known &= piece.change(grid) == Change::Over || is_among(piece, &given_here);
+        }
+        if !is_inside || snapped == given || !is_crack && !is_known {
             continue;
         }
+        // It is seen where one of its pieces is not certainly behind what is nearest there.
         let pieces = if is_crack { given_here } else { snapped_here };
-        let is_before =
-            |piece: &&Piece| surfaces.before(piece, sample).is_none_or(|[by, off]| by <= off);
-        let is_seen = pieces.iter().any(is_before);
+        let mut is_seen = false;
+        for piece in &pieces {
+            is_seen |= surfaces.before(piece, sample).is_none_or(|[by, off]| by <= off);
+        }
         broken.push(BrokenSample { sample, is_crack, is_seen, pieces });
     }
     broken
@@ -138,16 +146,18 @@ fn count_piece(more: &mut Frame<i32>, piece: &Piece, grid: CornerGrid, is_given:
     if is_given == Some(true) && corners.px() == grid.place(piece.px) {
         return;
     }
-    let mut add = |span: Span, by: i32| {
-        for more in more.span_mut(span.y_px, span.x0_px, span.x1_px) {
-            *more += by;
-        }
-    };
     if is_given != Some(false) {
-        ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
+        ScanlineExact.cover_exact(&corners, samples, |span| add(more, span, -1));
     }
     if is_given.is_some() {
-        grid.cover(piece.px, samples, &mut |span| add(span, 1));
+        grid.cover(piece.px, samples, &mut |span| add(more, span, 1));
+    }
+}
+
+/// Adds to the counts of the samples of a span.
+fn add(counts: &mut Frame<i32>, span: Span, by: i32) {
+    for count in counts.span_mut(span.y_px, span.x0_px, span.x1_px) {
+        *count += by;
     }
 }
 
@@ -174,8 +184,10 @@ pub(crate) fn turned<'a>(
     lost: &'a [Piece],
     grid: CornerGrid,
 ) -> impl Iterator<Item = (&'a Piece, Change)> {
-    let changed = move |piece: &'a Piece| (piece, piece.change(grid));
-    pieces.iter().chain(lost).map(changed).filter(|(_, change)| *change != Change::None)
+    pieces.iter().chain(lost).filter_map(move |piece| match piece.change(grid) {
+        Change::None => None,
+        change => Some((piece, change)),
+    })
 }
 
 impl BySnapping {
@@ -199,13 +211,17 @@ pub fn look(
     target: &Target,
     grid: CornerGrid,
 ) -> Result<(Classes, BySnapping), BadScene> {
-    let near = || Shape::nearly_meeting(scene, origins);
-    let (near, looked) = parallel::join(near, || look_at_planes(scene, target, grid));
+    // Corners that nearly meet are those of the mesh, whatever is seen of it, so both are looked for at once.
+    let (near, looked) = parallel::join(
+        || Shape::nearly_meeting(scene, origins),
+        || look_at_planes(scene, target, grid),
+    );
     let (classes, mut found) = looked?;
-    let face = |triangle: u32| face_of(scene, origins, triangle);
     found.nearly_meeting = near.len() as u64;
-    found.first_nearly_meeting = near.first().map(|place| face(place.triangles[0]));
-    found.first_turned = found.first_turned.map(face);
+    // A reader knows faces, not triangles in drawing order.
+    let first = near.first().map(|place| place.triangles[0]);
+    [found.first_nearly_meeting, found.first_turned] =
+        [first, found.first_turned].map(|triangle| Some(face_of(scene, origins, triangle?)));
     Ok((classes, found))
 }
 
@@ -217,6 +233,7 @@ fn look_at_planes(
 ) -> Result<(Classes, BySnapping), BadScene> {
     let scale = target.antialias().scale() as i32;
     let mut classes = Classes::new(target.size());
+    // The pixels of folds, then those of cracks.
     let mut pixels = [Vec::new(), Vec::new()];
     let mut found = BySnapping::default();
     let is_antialiased = target.antialias() != Antialias::None;
@@ -244,10 +261,15 @@ fn look_at_planes(
         pixels.dedup();
     }
     let [folds, cracks] = &pixels;
-    let first = |pixels: &[[i32; 2]]| pixels.first().map(|[y, x]| [*x, *y]);
-    (found.cracks, found.first_crack) = (cracks.len() as u64, first(cracks));
-    (found.folds, found.first_fold) = (folds.len() as u64, first(folds));
+    (found.cracks, found.first_crack) = (cracks.len() as u64, first_of(cracks));
+    (found.folds, found.first_fold) = (folds.len() as u64, first_of(folds));
     Ok((classes.counted(), found))
+}
+
+/// The first of pixels whose rows come before their columns.
+fn first_of(pixels: &[[i32; 2]]) -> Option<[i32; 2]> {
+    let [y, x] = *pixels.first()?;
+    Some([x, y])
 }
 
 /// The least and the largest coordinate of the corners of a piece, in x (0) or in y (1).
@@ -258,11 +280,13 @@ fn extent(piece: &Piece, axis: usize) -> [f64; 2] {
 
 /// The pixels whose samples a piece may cover as it is given or snapped.
 fn samples_near(piece: &Piece, ring: f64) -> PixelRect {
-    let [[x0, x1], [y0, y1]] = [0, 1].map_array(|axis| {
-        let [least, most] = extent(piece, axis);
-        [(least - 0.5 - ring).ceil() as i32, (most - 0.5 + ring).floor() as i32 + 1]
-    });
-    PixelRect { x0, y0, x1, y1 }
+    let ([left, right], [top, bottom]) = (extent(piece, 0), extent(piece, 1));
+    PixelRect {
+        x0: (left - 0.5 - ring).ceil() as i32,
+        y0: (top - 0.5 - ring).ceil() as i32,
+        x1: (right - 0.5 + ring).floor() as i32 + 1,
+        y1: (bottom - 0.5 + ring).floor() as i32 + 1,
+    }
 }
 
 /// The candidates in or beside the box of a piece.
@@ -270,11 +294,10 @@ fn candidates_near<'c, 'a>(
     candidates: &'c mut [Candidate<'a>],
     piece: &Piece,
 ) -> impl Iterator<Item = &'c mut Candidate<'a>> {
-    let [[x0, x1], [y0, y1]] = [0, 1].map_array(|axis| {
-        let [least, most] = extent(piece, axis);
-        // A pixel more on both sides is more than snapping and the points around a sample need.
-        [least.floor() as i32 - 1, most.ceil() as i32 + 1]
-    });
+    // A pixel more on both sides is more than snapping and the points around a sample need.
+    let ([left, right], [top, bottom]) = (extent(piece, 0), extent(piece, 1));
+    let (x0, x1) = (left.floor() as i32 - 1, right.ceil() as i32 + 1);
+    let (y0, y1) = (top.floor() as i32 - 1, bottom.ceil() as i32 + 1);
     // They are sorted by row.
     let first = candidates.partition_point(|candidate| candidate.sample[1] < y0);
     let end = candidates.partition_point(|candidate| candidate.sample[1] <= y1);

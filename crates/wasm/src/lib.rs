@@ -5,6 +5,7 @@
 pub mod answer;
 pub mod figures;
 mod gpu;
+pub mod no_answer;
 pub mod question;
 #[cfg(target_family = "wasm")]
 pub mod wasm_exports;

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::answer::answer_value;
 use crate::figures;
+use crate::no_answer::NoAnswer;
 
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
@@ -16,17 +17,18 @@ enum Request {
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
 pub fn answer(question: &str) -> String {
-    let answer = serde_json::from_str(question).map_err(|error| error.to_string()).and_then(ask);
-    answer.unwrap_or_else(|error| json!({ "error": error })).to_string()
+    let answer = ask(question).unwrap_or_else(|error| json!({ "error": error.to_string() }));
+    answer.to_string()
 }
 
-fn ask(question: Value) -> Result<Value, String> {
+fn ask(question: &str) -> Result<Value, NoAnswer> {
+    let question: Value = serde_json::from_str(question)?;
     match question["ask"].as_str() {
         Some("figure") => {
-            let Request::Figure(figure) =
-                serde_json::from_value(question).map_err(|error| error.to_string())?;
+            let Request::Figure(figure) = serde_json::from_value(question)?;
             figure.answer()
         }
+        // Figures are no concern of the engines, so their names join the list here.
         Some("list") => {
             let mut list = answer_value(question)?;
             list["figures"] = json!(figures::list());

@@ -16,6 +16,7 @@ use rasterproof_verify::comparison::{Convention, Rule, caught};
 
 use super::scenes::{Paint, Scene};
 
+/// Whose pictures the rules decide about.
 #[derive(Clone, Copy, Debug)]
 pub enum Rasterizer {
     /// The scanline engine: the picture that rules compare with.
@@ -57,17 +58,24 @@ impl Rasterizer {
         // These two are faults by what this project declares. Specifications permit both, and they are among the right
         // rasterizers here.
         let permitted = [TriangleMutant::BottomRightRule, TriangleMutant::ValuesThroughF32];
-        let planted = TriangleMutant::ALL.into_iter().filter(|mutant| !permitted.contains(mutant));
-        let mut all: Vec<Self> = planted.map(Self::Planted).collect();
+        let mut all = Vec::new();
+        for mutant in TriangleMutant::ALL {
+            if !permitted.contains(&mutant) {
+                all.push(Self::Planted(mutant));
+            }
+        }
         for entry in &SPECIMENS {
             if let Some(Specimen::Triangle(specimen)) = entry.specimen {
                 all.push(Self::Published(entry.name, specimen));
             }
         }
-        all.extend(RIGHT.map(|(name, permitted)| Self::Right(name, permitted)));
+        for (name, permitted) in RIGHT {
+            all.push(Self::Right(name, permitted));
+        }
         all
     }
 
+    /// Under this name it stands in the tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Reference => "scanline",
@@ -170,6 +178,7 @@ fn fill(
     single: bool,
     emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
+    // Pixels that the engine does not cover by its own rule have values of their own below.
     let mut known = HashMap::new();
     if !single {
         let mut keep = |f: Fragment<DVec2>| {
@@ -198,11 +207,12 @@ fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragme
         let (x, y) = v.position.to_px();
         [round(x - centre[0]), round(y - centre[1])]
     });
-    let area = |i: usize| {
+    // The area opposite to each corner.
+    let mut areas = [0.0; 3];
+    for (i, area) in areas.iter_mut().enumerate() {
         let ([ax, ay], [bx, by]) = (px[(i + 1) % 3], px[(i + 2) % 3]);
-        round(round(ax * by) - round(ay * bx))
-    };
-    let areas = [area(0), area(1), area(2)];
+        *area = round(round(ax * by) - round(ay * bx));
+    }
     let blend = |weights: [f64; 3], values: [f64; 3]| {
         let products = [0, 1, 2].map_array(|i| round(weights[i] * values[i]));
         let sum = round(round(weights[0] + weights[1]) + weights[2]);
@@ -224,6 +234,7 @@ fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragme
 /// A picture, and every fragment that went into it.
 #[derive(Clone, Debug)]
 pub struct Rendering {
+    /// Pixels in a row; the rows follow each other without a gap.
     pub width: usize,
     pub pixels: Vec<[u8; 3]>,
     /// The number of its triangle, and the fragment, in drawing order.
@@ -239,14 +250,18 @@ impl Rendering {
     }
 }
 
+/// What comes of a scene where it is drawn by a rasterizer.
 #[must_use]
 pub fn draw(subject: &Rasterizer, scene: &Scene) -> Rendering {
     let mut fragments = Vec::new();
     // A fragment is kept with the number of its triangle; a program that panics has drawn what it drew before.
     let drawing = caught(|| {
-        scene.triangles.iter().enumerate().all(|(i, triangle)| {
-            subject.fragments(triangle, scene, &mut |fragment| fragments.push((i, fragment)))
-        })
+        let mut is_drawn = true;
+        for (i, triangle) in scene.triangles.iter().enumerate() {
+            is_drawn =
+                is_drawn && subject.fragments(triangle, scene, &mut |f| fragments.push((i, f)));
+        }
+        is_drawn
     });
     let (width, height) = (scene.window.width() as usize, scene.window.height() as usize);
     let mut drawn = Rendering {

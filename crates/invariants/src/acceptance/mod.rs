@@ -27,11 +27,15 @@ pub struct Row {
     pub passed: Vec<Passed>,
     /// Pictures of faults that differ from the right picture and that the rule looks at.
     pub wrong_pictures: u64,
+    /// Of these, the ones that it refuses.
     pub refused_pictures: u64,
+    /// The accepted picture with the largest share of wrong pixels.
     pub worst_picture: Option<WrongPicture>,
     /// Pictures that the rule is not used on, since it refuses the right one.
     pub unusable_pictures: u64,
+    /// Right rasterizers of which it refuses at least one picture.
     pub refused_right: Vec<&'static str>,
+    /// Pictures of right rasterizers that it looks at, and those of them that it refuses.
     pub right_pictures: u64,
     pub refused_right_pictures: u64,
 }
@@ -54,6 +58,13 @@ pub struct WrongPicture {
     pub scene: String,
     pub wrong_pixels: u64,
     pub pixels: u64,
+}
+
+impl WrongPicture {
+    /// The wrong pixels as a share of all.
+    fn share(&self) -> f64 {
+        self.wrong_pixels as f64 / self.pixels as f64
+    }
 }
 
 impl Row {
@@ -135,12 +146,9 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
 fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Option<bool>>) {
     let right = draw(&Rasterizer::Reference, scene);
     let seen = rules::RightPicture::new(scene, &right);
-    let accepts = |subject: &Rasterizer, drawn: &Rendering| -> Vec<Option<bool>> {
-        let view = View { scene, seen: &seen, right: &right, drawn, subject };
-        RULES.iter().map(|rule| rule.accepts(&view)).collect()
-    };
     // A rule that refuses the right picture is of no use in this scene.
-    let usable = accepts(&Rasterizer::Reference, &right);
+    let subject = &Rasterizer::Reference;
+    let usable = decisions(&View { scene, seen: &seen, right: &right, drawn: &right, subject });
     let mut all = Vec::new();
     for subject in subjects {
         if !subject.can_draw(scene) {
@@ -152,7 +160,8 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Op
             continue;
         }
         let drawn = draw(subject, scene);
-        let mut accepts = accepts(subject, &drawn);
+        let view = View { scene, seen: &seen, right: &right, drawn: &drawn, subject };
+        let mut accepts = decisions(&view);
         // Who writes a suite sees that the right picture is refused, and leaves the scene out.
         for (accepts, usable) in accepts.iter_mut().zip(&usable) {
             *accepts = accepts.filter(|_| *usable == Some(true));
@@ -161,6 +170,11 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Op
         all.push(SceneJudgement { wrong_pixels, pixels, accepts });
     }
     (all, usable)
+}
+
+/// For each rule whether it accepts a picture.
+fn decisions(view: &View<'_>) -> Vec<Option<bool>> {
+    RULES.iter().map(|rule| rule.accepts(view)).collect()
 }
 
 /// The number of pixels that differ; all of them where there is no picture.
@@ -196,8 +210,7 @@ fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[SceneJudgement
                     wrong_pixels: judged.wrong_pixels,
                     pixels: judged.pixels,
                 };
-                let share = |p: &WrongPicture| p.wrong_pixels as f64 / p.pixels as f64;
-                if row.worst_picture.as_ref().is_none_or(|worst| share(worst) < share(&picture)) {
+                if row.worst_picture.as_ref().is_none_or(|worst| worst.share() < picture.share()) {
                     row.worst_picture = Some(picture);
                 }
             }

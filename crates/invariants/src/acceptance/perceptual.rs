@@ -35,7 +35,8 @@ fn to_xyz([r, g, b]: [f64; 3]) -> [f64; 3] {
 
 /// The inverse of [`to_xyz`], to nine digits.
 fn from_xyz(of_white: [f64; 3]) -> [f64; 3] {
-    let [x, y, z] = [0, 1, 2].map_array(|i| of_white[i] * WHITE[i]);
+    let [x, y, z] = of_white;
+    let (x, y, z) = (x * WHITE[0], y * WHITE[1], z * WHITE[2]);
     [
         3.241_003_275 * x - 1.537_398_934 * y - 0.498_615_861 * z,
         -0.969_224_334 * x + 1.875_930_071 * y + 0.041_554_224 * z,
@@ -107,16 +108,18 @@ pub struct Flip {
 }
 
 impl Flip {
+    /// Everything that does not depend on the other picture.
     pub fn new(width: usize, pixels: &[[u8; 3]]) -> Self {
         // First the picture in an opponent space, whose channels the eye resolves differently well.
         let mut seen = Vec::with_capacity(pixels.len());
         for rgb in linear_of_all(pixels) {
             seen.push(opponent(to_xyz(rgb)));
         }
-        let channels = [0, 1, 2].map_array(|i| {
+        let mut channels = [Channel::new(), Channel::new(), Channel::new()];
+        for (i, channel) in channels.iter_mut().enumerate() {
             let plane: Channel = seen.iter().map(|v| v[i]).collect();
-            contrast_filtered(&plane, width, CONTRAST[i])
-        });
+            *channel = contrast_filtered(&plane, width, CONTRAST[i]);
+        }
         // What is left of it is looked at as a picture again.
         let mut colours = Vec::with_capacity(pixels.len());
         let [lightness, reds, blues] = &channels;
@@ -229,8 +232,10 @@ pub fn ssim_error(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]]) -> f64 {
     (0..3).map(|channel| ssim_error_of(width, right, drawn, channel)).fold(0.0, f64::max)
 }
 
+/// The same of one channel.
 fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: usize) -> f64 {
     let height = (right.len() / width) as i64;
+    // The pixels of a disc, by their ways from its centre.
     let mut disc = Vec::new();
     for y in -PATCH..=PATCH {
         for x in -PATCH..=PATCH {
@@ -307,7 +312,8 @@ pub fn pixelmatch(right: &Rendering, drawn: &Rendering, threshold: f64) -> usize
 
 /// The difference of two colours in lightness and in two numbers for the hue.
 fn yiq(a: [u8; 3], b: [u8; 3]) -> [f64; 3] {
-    let [r, g, b] = [0, 1, 2].map_array(|i| f64::from(a[i]) - f64::from(b[i]));
+    let ([r, g, b], [other_r, other_g, other_b]) = (a.map_array(f64::from), b.map_array(f64::from));
+    let (r, g, b) = (r - other_r, g - other_g, b - other_b);
     [
         r * 0.298_895_31 + g * 0.586_622_47 + b * 0.114_482_23,
         r * 0.595_977_99 - g * 0.274_176_10 - b * 0.321_801_89,
@@ -356,13 +362,20 @@ fn is_smoothed(picture: &Rendering, other: &Rendering, place: usize) -> bool {
         return false;
     }
     // It is smoothed where it lies between a darker and a brighter pixel, one of which is in a plane in both pictures.
-    let is_even = |place: usize| has_siblings(picture, place) && has_siblings(other, place);
-    is_even(darkest.1) || is_even(brightest.1)
+    let mut is_even = false;
+    for (_, place) in [darkest, brightest] {
+        is_even |= has_siblings(picture, place) && has_siblings(other, place);
+    }
+    is_even
 }
 
 /// Whether three pixels around one have its colour.
 fn has_siblings(picture: &Rendering, place: usize) -> bool {
     let (places, on_border) = around(picture, place);
-    let same = |near: &&usize| picture.pixels[**near] == picture.pixels[place];
-    usize::from(on_border) + places.iter().filter(same).count() > 2
+    // As in [`is_smoothed`], the border counts as one.
+    let mut count = usize::from(on_border);
+    for near in places {
+        count += usize::from(picture.pixels[near] == picture.pixels[place]);
+    }
+    count > 2
 }

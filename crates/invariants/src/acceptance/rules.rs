@@ -16,7 +16,9 @@ use super::scenes::{Paint, Scene};
 pub struct View<'a> {
     pub scene: &'a Scene,
     pub seen: &'a RightPicture,
+    /// The picture of the reference.
     pub right: &'a Rendering,
+    /// The picture to be accepted or refused.
     pub drawn: &'a Rendering,
     /// Whose it is, for what a device reports about itself.
     pub subject: &'a Rasterizer,
@@ -31,6 +33,7 @@ pub struct RightPicture {
 }
 
 impl RightPicture {
+    /// Computes it of the reference's picture.
     pub fn new(scene: &Scene, right: &Rendering) -> Self {
         // Only pictures of white triangles are judged by kinds of pixels.
         let covers = (scene.paint == Paint::White)
@@ -186,6 +189,7 @@ fn largest(a: [u8; 3], b: [u8; 3]) -> u8 {
 
 /// Whether the first, the middle and the last pixel are as good as the same.
 fn samples_agree(right: &Rendering, drawn: &Rendering) -> bool {
+    // In a picture of an even height, the middle is below and right of the centre.
     let height = right.pixels.len() / right.width;
     let middle = height / 2 * right.width + right.width / 2;
     let places = [0, middle, right.pixels.len() - 1];
@@ -219,10 +223,12 @@ fn own(view: &View<'_>) -> bool {
     if view.subject.subpixel_bits() < 8 {
         return true;
     }
+    // The right fragment of each pixel of each triangle.
     let mut right = HashMap::new();
     for (i, fragment) in &view.right.fragments {
         right.insert((*i, fragment.x_px, fragment.y_px), fragment);
     }
+    // Bounds in f32 depend on how large coordinates are, so on the window.
     let side = f64::from(view.scene.window.width().max(view.scene.window.height()));
     for (i, fragment) in &view.drawn.fragments {
         let Some(right) = right.get(&(*i, fragment.x_px, fragment.y_px)) else { continue };

@@ -9,6 +9,7 @@ use rasterproof_render::scene::shapes;
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{Shape, Triangle};
 
+/// What the fragments of a scene leave in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {
     White,
@@ -20,6 +21,7 @@ pub enum Paint {
     Checker,
 }
 
+/// Triangles in a window, and how they become a picture.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
@@ -50,6 +52,7 @@ impl Scene {
 
 /// Side of the pictures of the suites, in pixels. A half of dEQP's 256, so that a run takes seconds.
 const SIDE: f64 = 128.0;
+/// Of each family.
 const CASES: u64 = 2;
 
 /// The scenes of both sets; the random ones depend on the seed.
@@ -110,6 +113,7 @@ fn quad(corners: [ScreenVertex<DVec2>; 4]) -> [Triangle; 2] {
 /// A square about a centre, turned by the angle whose half has the tangent `t`.
 fn turned(centre: [f64; 2], half: f64, t: f64) -> [Triangle; 2] {
     let (cos, sin) = ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
+    // The corners go from -1 to 1 in both directions of the square.
     let at = |u: f64, v: f64| {
         let [x, y] =
             [centre[0] + half * (u * cos - v * sin), centre[1] + half * (u * sin + v * cos)];
@@ -134,11 +138,13 @@ fn of_suites(seed: u64) -> Vec<Scene> {
         turned(centre, 0.3 * cell, f64::from(i) / 16.0)
     });
     list.push(scene("sixteen squares", Paint::Add, squares.collect()));
+    // A square twice as large as the window fills it, however it is turned.
     for (i, t) in [0.0, rng.unit()].into_iter().enumerate() {
         let whole = turned([SIDE / 2.0; 2], SIDE, t).to_vec();
         let name = ["window-filling square", "window-filling square, turned"][i];
         list.push(Scene { fills_window: true, ..scene(name, Paint::Add, whole) });
     }
+    // Corners at any place but the border, in perspective, each with a colour of its own.
     let mut anywhere = || {
         let place =
             |rng: &mut Rng| [0.05 + 0.9 * rng.unit(), 0.05 + 0.9 * rng.unit()].map(|v| v * SIDE);
@@ -162,6 +168,7 @@ fn of_suites(seed: u64) -> Vec<Scene> {
     let corners = corners.map(|vertices| ScreenTriangle { vertices }).to_vec();
     let small = PixelRect::window(4, 4);
     list.push(Scene { window: small, ..scene("two corners", Paint::White, corners) });
+    // A floor in perspective, wider than the window at its near end.
     let floor = quad([
         corner([20.0, 40.0], 0.9, 8.0, [0.0, 0.0]),
         corner([108.0, 40.0], 0.9, 8.0, [1.0, 0.0]),
@@ -178,6 +185,7 @@ fn sphere() -> Vec<Triangle> {
     let mesh = shapes::sphere(DVec3::ZERO, 1.0, 20, 12);
     let vertex = |corner: rasterproof_render::scene::Corner| {
         let p = mesh.positions[corner.position as usize];
+        // The eye is 2.5 in front of the centre.
         let w = p.z + 2.5;
         let px = [SIDE / 2.0 + 120.0 * p.x / w, SIDE / 2.0 - 120.0 * p.y / w];
         let shade = [(p.x + 1.0) / 4.0, (p.y + 1.0) / 4.0];

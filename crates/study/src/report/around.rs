@@ -30,6 +30,7 @@ pub struct Around {
     best: BTreeMap<(usize, String), (&'static str, u32)>,
 }
 
+/// The same for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     views: &'a [Turned],
@@ -44,6 +45,7 @@ const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of
 impl Around {
     /// Adds a view from a side, whose turn is in degrees.
     pub fn add(&mut self, turn: f64, hard: &HardCases, boards: &[Board]) {
+        // A kind that does not occur has no pixel.
         let pixels = |kind: Kind| hard.of(kind).map_or(0, |case| case.pixels);
         self.views.push(Turned {
             turn,
@@ -64,6 +66,7 @@ impl Around {
     /// Two tables, for a scene of this name.
     pub fn report(&self, scene: &str) -> Report {
         let mut rows = Vec::new();
+        // A row for each side, in the order in which they were added.
         for of in &self.views {
             let mut cells = vec![number(of.turn, 9)];
             for count in [of.kinds, of.slivers, of.order, of.by_rounding, of.equal] {

@@ -7,8 +7,8 @@
 use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Column, Ladder, Measure, Priced, Ratio, RatioKind, Recorded, Time, fastest,
-    prices,
+    Board, CELLS, Cell, Column, Ladder, Measure, Priced, Ratio, RatioKind, Recorded, Run, Time,
+    fastest, prices,
 };
 use rasterproof_precision::ladder::Work;
 use rasterproof_report::canvas;
@@ -24,6 +24,7 @@ const INDENT: usize = 2;
 
 /// A table for each measure of the error, for each kind of time and for each count of work.
 pub fn tables(board: &Board) -> Vec<Table> {
+    // First how wrong each choice is, then what it takes, then why.
     let mut tables = errors(board);
     if board.rounds > 0 {
         tables.extend(times(board));
@@ -80,7 +81,7 @@ fn times(board: &Board) -> [Table; 2] {
     // How far the quartiles are apart, in percent of the median.
     let mut spreads = Vec::new();
     for cell in board.cells.iter().flatten() {
-        if let Some(Time { pixel_ns: ns, .. }) = cell.run().and_then(|run| run.time.as_ref()) {
+        if let Some(Run { time: Some(Time { pixel_ns: ns, .. }), .. }) = cell.run() {
             spreads.push((ns.high - ns.low) / ns.median * 100.0);
         }
     }
@@ -90,8 +91,12 @@ fn times(board: &Board) -> [Table; 2] {
             "quartiles lie {middle:.0}% of the median apart in the middle cell, {worst:.0}% in the worst"
         ));
     }
-    let noise = board.columns.iter().filter_map(|column| column.noise.map(Ratio::off_one));
-    if let Some(worst) = noise.reduce(f64::max) {
+    // How far apart two equal passes are at most, by the classes in which that was measured.
+    let mut noises = Vec::new();
+    for column in &board.columns {
+        noises.extend(column.noise.map(Ratio::off_one));
+    }
+    if let Some(worst) = noises.into_iter().reduce(f64::max) {
         let worst = 100.0 * (worst - 1.0);
         items.notes.push(format!("two equal passes differ by at most {worst:.1}% in a class"));
     }
@@ -101,6 +106,7 @@ fn times(board: &Board) -> [Table; 2] {
 /// The time of a choice, marked where it is the fastest of its column.
 fn pixel_ns(board: &Board, choice: usize, column: usize) -> Option<(f64, Mark)> {
     let median = board.time(choice, column)?.pixel_ns.median;
+    // Several may be the fastest, if they take equally long.
     let fastest = fastest(board.ran(column)).and_then(|one| one.run.time.as_ref());
     let is_fastest = fastest.is_some_and(|time| time.pixel_ns.median >= median);
     Some((median, Mark::Plain(if is_fastest { '<' } else { ' ' })))
@@ -110,6 +116,7 @@ fn pixel_ns(board: &Board, choice: usize, column: usize) -> Option<(f64, Mark)> 
 fn work(board: &Board) -> [Table; 3] {
     type Count = fn(&Work) -> u64;
     let counts: [(&str, Count); 3] = [
+        // The edge function asks edges, the scanline computes crossings; no choice does both.
         ("edges asked, or crossings computed, for each covered pixel", |work| work.evaluations),
         ("divisions for each covered pixel", |work| work.divisions),
         ("exact decisions after a filter, for each covered pixel", |work| work.fallbacks),
@@ -140,7 +147,8 @@ fn cell_width(board: &Board) -> usize {
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
 }
 
-/// A row for each choice that has a number to show, and a column for each class of scenes in which one has.
+/// A row for each choice that has a number to show, and a column for each class of scenes in which one has. `cell` gets the numbers
+/// of a choice and of a column.
 fn block(
     board: &Board,
     caption: String,
@@ -203,12 +211,16 @@ fn not_run(board: &Board) -> Vec<String> {
             }
         }
     }
-    let line = |(why, list): (&str, Vec<String>)| format!("not run: {}: {why}", list.join(", "));
-    reasons.into_iter().map(line).collect()
+    let mut lines = Vec::new();
+    for (why, list) in reasons {
+        lines.push(format!("not run: {}: {why}", list.join(", ")));
+    }
+    lines
 }
 
 /// By each measure the choices that others dominate in every class of scenes, with those others.
 fn dominated(board: &Board) -> Vec<String> {
+    // A choice that another one beats in error and time has no use in any class.
     let mut lines = Vec::new();
     for measure in board.ranking() {
         let mut all = Vec::new();
@@ -225,6 +237,7 @@ fn dominated(board: &Board) -> Vec<String> {
 
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
+    // A kind of coverage that was not run in a class has a cell all the same.
     let mut rows = Vec::new();
     for price in prices(boards) {
         let [floats, snapped, given] =
@@ -267,14 +280,19 @@ pub fn report(recorded: &Recorded, mut figures: Vec<Figure>) -> Report {
 
 /// What the first plot shows; nothing without times.
 fn sentence(boards: &[Board]) -> Option<String> {
+    // Without coverage nothing has a price, and the last group is told in its place.
     let prices = prices(boards);
     if prices.is_empty() {
         return sentence_of_cheapest(boards.last()?);
     }
     let (mut snapped, mut given) = (Vec::new(), Vec::new());
     for price in &prices {
-        snapped.extend(price.snapped.as_ref().map(|priced| priced.ratio));
-        given.extend(price.given.as_ref().map(|priced| priced.ratio));
+        if let Some(priced) = &price.snapped {
+            snapped.push(priced.ratio);
+        }
+        if let Some(priced) = &price.given {
+            given.push(priced.ratio);
+        }
     }
     Some(format!(
         "By class of scenes, coverage that is exact once corners are snapped {}; exact for the corners as given, it {}.",
@@ -285,6 +303,7 @@ fn sentence(boards: &[Board]) -> Option<String> {
 
 /// In how many classes of scenes accuracy costs nothing; nothing where no choice was timed.
 fn sentence_of_cheapest(board: &Board) -> Option<String> {
+    // Of the classes in which anything was timed.
     let (mut exact, mut all) = (0, 0);
     for column in board.columns_run() {
         if let Some(best) = fastest(board.ran(column)) {
@@ -303,6 +322,7 @@ fn range_of_times(ratios: &[Ratio]) -> String {
     if ratios.is_empty() {
         return "was not measured".to_owned();
     }
+    // It is free where no class shows a difference; else the widest interval of all classes is told.
     let mut is_free = true;
     let (mut low, mut high) = (f64::INFINITY, 0.0f64);
     for ratio in ratios {
@@ -326,6 +346,7 @@ pub const PRICE: &str = "cost-price";
 
 /// The plots with their names, what answers the question first.
 pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
+    // The price stands first, and is left out where coverage was not measured.
     let mut plots = Vec::new();
     let prices = prices(boards);
     if !prices.is_empty() {

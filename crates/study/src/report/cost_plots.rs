@@ -12,16 +12,18 @@ use rasterproof_verify::judge::ascii;
 
 /// The widths of a drawing on a wide page, in a file and on a narrow page: that of three panels, two, or one.
 pub const WIDTHS: [f64; 3] = [1200.0, 800.0, 400.0];
+/// The colour behind the choices without any error.
 const SHELF: Ink = [233, 245, 236];
 
-const ROW: f64 = 13.0;
-/// Height of the part of a panel where errors are not zero.
 /// The height of a line of text, a bar, or a choice on the shelf, in px.
+const ROW: f64 = 13.0;
+/// The height of the part of a panel where errors are not zero.
 const SCATTER: f64 = 150.0;
 /// Room left of a panel for its axis, over it for its name, and below for the other axis.
 const AXIS: f64 = 48.0;
 const HEAD: f64 = 70.0;
 const FOOT: f64 = 46.0;
+/// Of a dot.
 const RADIUS: f64 = 3.5;
 
 /// A choice in a panel.
@@ -68,6 +70,7 @@ pub fn pareto(boards: &[Board], in_row: usize) -> Drawing {
 fn panel(board: &Board, column: usize) -> Panel {
     let info = &board.columns[column];
     let up = board.measures[0].title.to_string();
+    // Of a model each measure has its best choice, of a class of scenes the first one alone.
     let best = |measure| board.cheapest_exact(column, measure);
     if info.sampling.is_some() {
         let best: Vec<_> = board.ranking().filter_map(best).collect();
@@ -83,6 +86,7 @@ fn panel(board: &Board, column: usize) -> Panel {
     }
 }
 
+/// What the colours mean in panels of a model, where an exact choice is the goal of each job.
 const LEGEND: &str = "green: exact here, as a ring once corners are snapped; blue: wrong\n\
                       a circle around it: the cheapest exact choice\n\
                       line: the least error at each price; bars: the middle half of the times";
@@ -240,6 +244,7 @@ pub fn price(prices: &[Price], width: f64) -> Drawing {
         (GREEN, "the cheapest that is exact on the 1/256-px lattice (snaps)"),
         (SAND, "the cheapest that is exact for the vertices as given"),
     ];
+    // The longest bar of all classes has the whole room.
     let mut most: f64 = 1.0;
     for priced in prices.iter().flat_map(kinds).flatten() {
         most = most.max(priced.ratio.median);
@@ -337,6 +342,7 @@ fn dots(board: &Board, column: usize, best: &[JudgedChoice<'_>]) -> Vec<Dot> {
     let of_model = board.columns[column].sampling.is_some();
     let is_coverage = board.ladder.is_coverage();
     let dot = |choice: JudgedChoice<'_>| {
+        // Milliseconds of a model, nanoseconds a pixel of a class of scenes.
         let spread = match of_model {
             true => choice.times()?.spread().times(1e-6),
             false => choice.run.time.as_ref()?.pixel_ns,

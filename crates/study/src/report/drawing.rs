@@ -56,6 +56,7 @@ pub struct Data<'a> {
     pub grid: Option<&'a ByGrid>,
 }
 
+/// The rasterizers, in the order in which they drew.
 pub fn names(drawings: &[Drawing]) -> Vec<&'static str> {
     drawings.iter().map(|drawing| drawing.name).collect()
 }
@@ -130,13 +131,16 @@ pub struct ByGrid {
 impl ByGrid {
     /// Compares the picture on the usual grid with a drawing on another one.
     pub fn between((usual, usual_target): (&Frame<Colour>, &Target), drawing: &Drawing) -> Self {
+        // Ties are not looked for: what a grid changes is told whatever decides it.
         let (picture, target) = (&drawing.rendered.picture, &drawing.target);
         let compared = frame_comparison::compare((usual, usual_target), (picture, target), None);
         let mut first = None;
         for (y, row) in usual.rows() {
-            let differs =
-                |(x, own): (i32, &Colour)| (picture.get(x, y) != Some(*own)).then_some([x, y]);
-            first = first.or_else(|| (0..).zip(row).find_map(differs));
+            for (x, own) in (0..).zip(row) {
+                if first.is_none() && picture.get(x, y) != Some(*own) {
+                    first = Some([x, y]);
+                }
+            }
         }
         Self {
             pixels: frame_comparison::differing(usual, picture),
@@ -152,6 +156,7 @@ pub fn grid_notes(
     grid: CornerGrid,
     place: Option<impl std::fmt::Display>,
 ) -> Vec<String> {
+    // Where the differences were drawn to a file, its name.
     let place = place.map(|place| format!(", drawn in {place}")).unwrap_or_default();
     let usual = CornerGrid::USUAL;
     let sentence = match found.first {
@@ -173,19 +178,12 @@ pub fn grid_notes(
 
 /// What snapping breaks in words, a line each, and the command that names faces and cures.
 pub fn snapped(found: BySnapping, grid: CornerGrid, study: &str) -> Vec<String> {
-    let kinds = [
-        (found.cracks, found.first_crack, "in cracks, which show what is behind a surface"),
-        (found.folds, found.first_fold, "in folds, where a surface is drawn too often"),
-    ];
-    let line = |(count, first, what): (u64, Option<[i32; 2]>, &str)| {
-        let [x, y] = first?;
-        let pixels = words::count(count, "pixel", "pixels");
-        Some(format!(
-            "SNAPPING: {pixels} {what} once its corners are {grid}; the first is at {x}, {y}"
-        ))
-    };
+    let cracks = "in cracks, which show what is behind a surface";
+    let folds = "in folds, where a surface is drawn too often";
     // A line for each kind that occurs, then where to read more.
-    let mut lines: Vec<String> = kinds.into_iter().filter_map(line).collect();
+    let mut lines = Vec::new();
+    lines.extend(snapped_pixels(found.cracks, found.first_crack, cracks, grid));
+    lines.extend(snapped_pixels(found.folds, found.first_fold, folds, grid));
     if let Some(first) = found.first_turned {
         let BySnapping { turned_over, flattened, .. } = found;
         lines.push(format!(
@@ -203,6 +201,18 @@ pub fn snapped(found: BySnapping, grid: CornerGrid, study: &str) -> Vec<String> 
         lines.push(format!("the faces there, and what mends them: {study}"));
     }
     lines
+}
+
+/// How many pixels are broken in one way, and the first; nothing where there is none.
+fn snapped_pixels(
+    count: u64,
+    first: Option<[i32; 2]>,
+    what: &str,
+    grid: CornerGrid,
+) -> Option<String> {
+    let [x, y] = first?;
+    let pixels = words::count(count, "pixel", "pixels");
+    Some(format!("SNAPPING: {pixels} {what} once its corners are {grid}; the first is at {x}, {y}"))
 }
 
 /// What decides which surface is seen, and how far it reaches, in words: for every rasterizer, and for tiles.
@@ -264,6 +274,7 @@ pub fn add_to_page(
     });
     report.title = format!("The scene {}", scene.name);
     report.command.clone_from(&command);
+    // The plan comes before the tables that are there.
     let plan = drawings.first().map(|d| plan::table(&d.rendered.plan.decisions));
     report.tables.splice(0..0, plan);
     report.frames = vec![PictureView {
@@ -300,6 +311,7 @@ pub fn notes(
             c.fragments, c.depth_tests, c.depth_failed, c.shaded
         ),
     ];
+    // Only a scene that says how many layers it keeps leaves any out.
     if let (Some(most), true) = (scene.layers, c.layers > 0) {
         notes.push(format!(
             "layers {}, of which {} lie behind the {most} nearest of their sample and are left out",

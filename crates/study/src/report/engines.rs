@@ -116,6 +116,7 @@ struct JudgedEngine {
 }
 
 impl JudgedEngine {
+    /// Judges one engine; `case` makes of pieces what it takes.
     fn new(
         engine: &'static str,
         pieces: &[&Piece],
@@ -125,6 +126,7 @@ impl JudgedEngine {
         Self { engine, fault: judge(pieces, judged, case) }
     }
 
+    /// Its row of the table, with the command that shows the first fault.
     fn row(&self, subject: &Places<'_>) -> Row {
         let name = format!("{} against the oracle:", self.engine);
         let Some(Fault { what, triangle }) = &self.fault else {
@@ -137,6 +139,7 @@ impl JudgedEngine {
         Row::of(&[&name, what, &first]).marked(false)
     }
 
+    /// The same for machines.
     fn data(&self, subject: &Places<'_>) -> json::Engine {
         let (mut fault, mut face) = (None, None);
         if let Some(Fault { what, triangle }) = &self.fault {

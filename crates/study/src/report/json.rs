@@ -30,6 +30,7 @@ pub fn cost(recorded: &Recorded) -> Value {
 
 /// Which choices are the best by a measure, for each class of scenes, and which are beaten everywhere.
 fn verdict(board: &Board, measure: usize) -> Value {
+    // For each class the fastest of all, the fastest that is right, and the fastest that promises to be.
     let mut best = Vec::new();
     for column in board.columns_run() {
         // Without times there is no fastest choice, and nothing is said of the column.
@@ -43,6 +44,7 @@ fn verdict(board: &Board, measure: usize) -> Value {
             "cheapest_certain": certain.as_ref().map(JudgedChoice::name),
         }));
     }
+    // A choice is beaten where another one is better by the measure and as fast, in every class.
     let mut dominated = Vec::new();
     for (choice, by) in board.dominated(measure) {
         let by: Vec<_> = by.into_iter().map(|other| &other.name).collect();
@@ -76,6 +78,7 @@ pub struct Engine {
 
 /// Everything that was found, with the answers as sentences.
 pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Serialize) -> Value {
+    // The same numbers as in the tables, unrounded.
     let (scene, hard) = (subject.scene, found.hard);
     json!({
         "scene": scene.name, "triangles": scene.triangles(), "pieces": found.pieces,
@@ -96,17 +99,21 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
             "pixels": case.pixels, "note": case.note, "faces": faces,
         }));
     }
-    let shifted = |shifted: Option<Shifted>| {
-        let Shifted { by, pixel, triangle } = shifted?;
-        let face = face_of(subject.scene, subject.origins, triangle);
-        Some(json!({ "by": by, "pixel": pixel, "face": face }))
-    };
+    let shift = &found.shift;
+    // Each is null where nothing moves.
+    let [depth, texels, colour, normal] = [shift.depth, shift.texels, shift.colour, shift.normal]
+        .map(|largest| Some(shifted(subject, largest?)));
     json!({
         "cases": cases, "w": found.w, "f32_pixels": found.f32_pixels,
         "is_cut_short": found.is_cut_short,
-        "moved_depth": shifted(found.shift.depth), "moved_texels": shifted(found.shift.texels),
-        "moved_colour": shifted(found.shift.colour), "moved_normal": shifted(found.shift.normal),
+        "moved_depth": depth, "moved_texels": texels, "moved_colour": colour, "moved_normal": normal,
     })
+}
+
+/// By how much snapping moves a value at most, and where.
+fn shifted(subject: &Places<'_>, Shifted { by, pixel, triangle }: Shifted) -> Value {
+    let face = face_of(subject.scene, subject.origins, triangle);
+    json!({ "by": by, "pixel": pixel, "face": face })
 }
 
 /// A face, with what the file says of it where the scene is of one.
@@ -145,6 +152,7 @@ fn of_model(subject: &Places<'_>, board: &Board) -> Value {
             })
         }));
     }
+    // Where the board was not measured on a sample, nothing is said of one.
     let column = &board.columns[0];
     let (mut timed, mut judged, mut not_judged) = Default::default();
     if let Some(Sampling { items, pixels, judged: of_pixels, not_judged: pieces, .. }) =
@@ -167,6 +175,7 @@ fn of_model(subject: &Places<'_>, board: &Board) -> Value {
 
 /// A choice of a board of a model; what was not run has no numbers, and why.
 fn choice(subject: &Places<'_>, board: &Board, number: usize) -> Value {
+    // What was not run is an empty run, so that all choices have the same fields.
     let (choice, not_run) = (&board.choices[number], Run::default());
     let (run, refused) = match &board.cells[number][0] {
         Cell::Run(run) => (&**run, None),
@@ -190,7 +199,7 @@ fn choice(subject: &Places<'_>, board: &Board, number: usize) -> Value {
     })
 }
 
-/// Nanoseconds.
+/// Nanoseconds: a quarter of the rounds took less than the first, half less than the second, a quarter more than the last.
 fn quartiles(time: &Times) -> [f64; 3] {
     let Spread { low, median, high } = time.spread();
     [low, median, high]
@@ -198,6 +207,7 @@ fn quartiles(time: &Times) -> [f64; 3] {
 
 /// The effects of a scene, with what each takes or would take.
 fn needs(needs: &Needs, not_drawn: &str) -> Value {
+    // An effect that does no work has no ratio.
     let mut effects = Vec::new();
     for need in &needs.needs {
         let times = match need.adds(&needs.planned) {

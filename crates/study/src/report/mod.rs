@@ -21,7 +21,8 @@ use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Cheapest, JudgedChoice, Ladder, Part, Ratio, RatioKind, Times, fastest,
+    Board, CELLS, Cell, Cheapest, JudgedChoice, Ladder, Part, Ratio, RatioKind, Spread, Time,
+    Times, fastest,
 };
 use rasterproof_render::scene::Scene;
 
@@ -37,6 +38,7 @@ use rasterproof_report::words::{self, count, number, thousands};
 /// A scene, and how its triangles are named to a reader.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
+    /// Triangles are numbered through all items of it, in drawing order.
     pub scene: &'a Scene,
     pub origins: &'a [Origin],
     /// The command that shows a face, by its number from 1.
@@ -56,6 +58,7 @@ impl Places<'_> {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
 
+    /// The face of a triangle by its number, where its place would be too long.
     fn face(&self, triangle: u32) -> String {
         format!("face {}", face_of(self.scene, self.origins, triangle))
     }
@@ -67,6 +70,7 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
     for board in costs {
         let mut wrong = Vec::new();
         for choice in board.ran(0) {
+            // Wrong samples are counted for pairs of triangles, either of which may be of the kind.
             let mut count = 0;
             for ([a, b], samples) in &choice.run.found.wrong {
                 if found.is(*a, kind) || found.is(*b, kind) {
@@ -77,6 +81,7 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
                 wrong.push(format!("{} {}", choice.name(), thousands(count)));
             }
         }
+        // A group in which no choice is wrong on them has no line.
         if !wrong.is_empty() {
             let title = board.ladder.title();
             lines.push(format!("{title} ({}): {}", unit(board), wrong.join(", ")));
@@ -113,10 +118,12 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) ->
             "the model is so large that overlaps and T-junctions were looked for in a part of it";
         lines.push(why.to_owned());
     }
+    // The farther both are apart, the less digits single precision has for 1/w.
     if let Some([near, far]) = found.w {
         let [near, far] = [near, far].map(|w| number(w, 9));
         lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
     }
+    // The largest change of each value, with the place at which it is seen.
     let shift = &found.shift;
     let mut values = Vec::new();
     for (what, largest, unit) in [
@@ -154,13 +161,14 @@ fn answers(
     found: &StudyFindings<'_>,
     commands: [String; 3],
 ) -> Vec<Statement> {
+    // Depth buffers are told with the hard cases, since rounding decides in both.
     let stability = stability(subject, found.hard) + &z_fighting(found.costs);
     let [of_accuracy, of_hard_cases, of_effects] = commands;
-    let answer = |about, sentence, command| Statement { about, sentence, command };
+    let accuracy = accuracy(found.costs).concat();
     vec![
-        answer("accuracy", accuracy(found.costs).concat(), of_accuracy),
-        answer("hard cases", stability, of_hard_cases),
-        answer("effects", effects(found), of_effects),
+        Statement { about: "accuracy", sentence: accuracy, command: of_accuracy },
+        Statement { about: "hard cases", sentence: stability, command: of_hard_cases },
+        Statement { about: "effects", sentence: effects(found), command: of_effects },
     ]
 }
 
@@ -196,6 +204,7 @@ fn coverage(boards: &[Board]) -> impl Iterator<Item = &Board> {
 
 /// What exact coverage costs, above its picture; nothing where nothing was timed.
 pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
+    // The same plot for each width of a page.
     let drawn = cost_plots::WIDTHS.map(|width| cost_plots::coverage_of_model(boards, width));
     let figure = canvas::figure(
         "Each choice of coverage on the triangles of this view: wrong pixels against time",
@@ -205,18 +214,23 @@ pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
     coverage(boards).any(|board| board.rounds > 0).then_some(PicturedAnswer { sentence, figure })
 }
 
+/// Whether a model has no pixel on which a board could judge anything.
+fn is_without_pixels(board: &Board) -> bool {
+    matches!(board.columns[0].sampling, Some(sampling) if sampling.pixels.of == 0)
+}
+
+/// Whether a choice is exact by promise: so for every model, and not by chance.
+fn is_certain(choice: &JudgedChoice<'_>) -> bool {
+    !choice.choice().promises.is_empty() && wrong(choice) == 0.0
+}
+
 /// What exact coverage costs, in a sentence; and what is wrong.
 fn accuracy(boards: &[Board]) -> [String; 2] {
-    let is_empty =
-        |board: &Board| board.columns[0].sampling.is_some_and(|sampling| sampling.pixels.of == 0);
-    if coverage(boards).all(is_empty) {
+    if coverage(boards).all(is_without_pixels) {
         let none = "No pixel is covered in this view, so nothing was compared.".to_owned();
         return [none, String::new()];
     }
     let all: Vec<JudgedChoice<'_>> = coverage(boards).flat_map(|board| board.ran(0)).collect();
-    // By promise: only who promises to be exact is so for every model, and not by chance.
-    let is_certain =
-        |one: &JudgedChoice<'_>| !one.choice().promises.is_empty() && wrong(one) == 0.0;
     let certain = fastest(all.iter().copied().filter(is_certain));
     let (Some(cheapest), Some(certain)) = (fastest(all.iter().copied()), certain) else {
         let none = "No choice of coverage that is exact for every model takes these triangles.";
@@ -262,6 +276,7 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
 
 /// How many choices are wrong, and the worst of them.
 fn who_is_wrong(all: &[JudgedChoice<'_>], unit: &str) -> String {
+    // A choice that no measure finds wrong is none of them.
     let (mut number, mut worst) = (0, None);
     for choice in all {
         number += u64::from(wrong(choice) > 0.0);
@@ -280,7 +295,7 @@ fn who_is_wrong(all: &[JudgedChoice<'_>], unit: &str) -> String {
     format!(" {} of {of} choices {are_wrong}, in {pixels} {unit}.", thousands(number))
 }
 
-/// The word that ratios of times are told with: so many times as long.
+/// The word that ratios of times are told with: so many times as long, and not as fast.
 const LONG: &str = "long";
 
 /// Which depth buffers show another surface than exact depths do; nothing where none does.
@@ -288,6 +303,7 @@ fn z_fighting(boards: &[Board]) -> String {
     let Some(board) = boards.iter().find(|board| board.ladder == Ladder::Depth) else {
         return String::new();
     };
+    // Each format that errs, with its number of pixels.
     let mut wrong = Vec::new();
     for choice in board.ran(0) {
         if wrong_first(&choice) > 0 {
@@ -331,6 +347,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
     } else {
         sentence += " No other hard case is seen in this view.";
     }
+    // A kind that is only in the mesh may be seen from another side.
     let hidden = found.cases.len() - found.in_view().count();
     if hidden > 0 {
         let kinds = count(hidden as u64, "kind is", "kinds are");
@@ -351,10 +368,11 @@ fn effects(found: &StudyFindings<'_>) -> String {
         let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
     }
     // Whole frames are compared where the costs were measured.
-    let frames = found.costs.iter().find(|board| board.ladder == Ladder::Frames);
-    let frame = |name: &str| frames?.ran(0).find(|one| one.name() == name);
-    let both = frame("scanline all").zip(frame("scanline planned"));
-    if let Some(ratio) = both.and_then(|(every, planned)| every.over(&planned)) {
+    if let Some(frames) = found.costs.iter().find(|board| board.ladder == Ladder::Frames)
+        && let Some(every) = frames.ran(0).find(|one| one.name() == "scanline all")
+        && let Some(planned) = frames.ran(0).find(|one| one.name() == "scanline planned")
+        && let Some(ratio) = every.over(&planned)
+    {
         let _ = write!(
             sentence,
             " Paying for all {}, against what the plan pays for: {}.",
@@ -370,6 +388,7 @@ const MOST_ROWS: usize = 3;
 
 /// The first rows of a table, with a note of how many there are more.
 fn first_rows(columns: &str, mut rows: Vec<Row>) -> Table {
+    // How many are left out is told, so that nobody takes the first ones for all.
     let left_out = rows.len().saturating_sub(MOST_ROWS);
     rows.truncate(MOST_ROWS);
     let more = (left_out > 0).then(|| format!("and {left_out} more"));
@@ -401,6 +420,7 @@ fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
     let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
     let mut table = first_rows(columns, rows);
     // What this view does not show may be seen from another side.
+    // A case counts as hidden where nothing of it is seen here.
     let mut hidden = Vec::new();
     for case in &hard.cases {
         if case.in_view == 0 {
@@ -416,8 +436,14 @@ fn seen_first(subject: &Places<'_>, hard: &HardCases) -> Table {
 
 /// The effects without which the most pixels are wrong.
 fn called_first(needs: &Needs) -> Table {
-    let of = |state: State| needs.needs.iter().filter(move |need| need.state() == state);
-    let mut called: Vec<_> = of(State::CalledFor).collect();
+    let (mut called, mut safe) = (Vec::new(), Vec::new());
+    for need in &needs.needs {
+        match need.state() {
+            State::CalledFor => called.push(need),
+            State::ToBeSafe => safe.push(need.effect.name()),
+            _ => {}
+        }
+    }
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
     let mut rows = Vec::new();
     for need in called {
@@ -426,7 +452,6 @@ fn called_first(needs: &Needs) -> Table {
     }
     let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
     let mut table = first_rows(columns, rows);
-    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
     if !safe.is_empty() {
         let about = "paid for to be safe, though no pixel changes here";
         table.notes.push(format!("{about}: {}", safe.join(", ")));
@@ -458,6 +483,7 @@ fn exact_first(costs: &[Board]) -> Table {
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
 fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
     // All exact choices of all boards compete; without times there is no cheapest one.
+    // Times of both groups are comparable: they were measured in the same rounds.
     let exact: Vec<_> = boards.iter().flat_map(|board| board.exact(0, measure)).collect();
     let best = Cheapest::of(&exact).and_then(|best| Some((best.choice.times()?, best)));
     let Some((times, Cheapest { choice: best, equal, undecided })) = best else {
@@ -551,6 +577,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
         let all = names(&[&[*choice], &equal[..]].concat()).join(", ");
         return vec![format!("no difference between the exact choices ({short}): {all}")];
     }
+    // Others may be as fast, or cannot be told from it after these rounds.
     let mut lines = vec![format!("cheapest exact ({short}): {}", choice.name())];
     if !equal.is_empty() {
         lines.push(format!("no difference: {}", names(equal).join(", ")));
@@ -565,6 +592,7 @@ fn compared(best: &Cheapest<'_>, measure: usize) -> Vec<String> {
 
 /// How it is decided which surface is seen, in a sentence or two.
 fn ties(subject: &Places<'_>, classes: &Classes) -> String {
+    // Every pixel belongs to one class; those of equal depths are among those by rounding.
     let [decided, by_rounding, equal, by_order] =
         [classes.decided, classes.by_rounding, classes.equal, classes.by_order].map(thousands);
     let mut out = format!(
@@ -583,7 +611,9 @@ fn ties(subject: &Places<'_>, classes: &Classes) -> String {
 fn takes(needs: &Needs, need: &Need) -> String {
     match need.adds(&needs.planned) {
         Adds::NoWork => "no work".to_owned(),
+        // The time that is saved is not its own then.
         Adds::DrawsLess => "less is drawn without it".to_owned(),
+        // Of what is not paid for, the time that it would add is measured all the same.
         Adds::Times(_) if !need.is_paid_for => match need.adds_ms(&needs.planned) {
             Some(ms) => format!("would add {} ms", number(ms, 9)),
             None => "would add nothing that can be told".to_owned(),
@@ -598,6 +628,7 @@ fn takes(needs: &Needs, need: &Need) -> String {
 /// `by` the materials that call for an effect, the most visible first; nothing where none does.
 fn by_whom(need: &Need) -> String {
     const MOST: usize = 3;
+    // Their pixels are told where the effect pays by the pixel.
     let mut names = Vec::new();
     for (name, pixels) in need.materials.iter().take(MOST) {
         let name = printable_short(name, 40);
@@ -621,6 +652,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     // What is not called for and takes time that can be told.
     let mut idle = Vec::new();
     for need in &needs.needs {
+        // What takes no time that can be told needs no advice.
         if need.is_paid_for || need.adds_ms(&needs.planned).is_none() {
             continue;
         }
@@ -637,7 +669,6 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
         ));
     }
     // A line for each textured material, with what more samples change and take where its texture is fine.
-    let time = |name: &str| Some(needs.antialiasing.iter().find(|(other, _)| *other == name)?.1);
     for texture in &needs.textures {
         let name = printable_short(&texture.material, 40);
         let mut line = format!("texture of {name}: {} texels a pixel", number(texture.texels, 9));
@@ -645,7 +676,8 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
             let share = 100.0 * *far as f64 / texture.pixels.max(1) as f64;
             let _ =
                 write!(line, "; {antialiasing} leaves {share:.1}% of its pixels far from ssaa8");
-            if let Some(ratio) = time(antialiasing).filter(|_| *antialiasing != "none") {
+            let time = needs.antialiasing.iter().find(|(name, _)| name == antialiasing);
+            if let Some((_, ratio)) = time.filter(|(name, _)| *name != "none") {
                 let _ = write!(line, "; time against none: {}", ratio.words(LONG));
             }
         }
@@ -654,14 +686,18 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
-/// What a study found, as the report needs it.
+/// What a study found, as the report and the file for machines need it.
 pub struct StudyFindings<'a> {
+    /// The difficult triangles and pixels, by their kinds.
     pub hard: &'a HardCases,
     /// What each grid changes and takes; nothing where that was not measured.
     pub grids: &'a [GridPrice],
+    /// Which effects the view calls for.
     pub needs: &'a Needs,
     pub costs: &'a [Board],
+    /// Effects that the model calls for and that the pipeline does not have.
     pub not_drawn: &'a str,
+    /// Triangles in the window, of which one that is cut counts as its parts.
     pub pieces: usize,
     /// How long the file was read, where there is one.
     pub loading_s: Option<f64>,
@@ -669,6 +705,7 @@ pub struct StudyFindings<'a> {
 
 /// Plots of a study: error against time, and effects.
 fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
+    // An effect that takes no time that can be told and changes no pixel has no bar.
     let mut bars = Vec::new();
     for need in &found.needs.needs {
         let ms = need.adds_ms(&found.needs.planned);
@@ -678,6 +715,7 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
             bars.push(cost_plots::EffectBars { name, ms, is_saved, wrong });
         }
     }
+    // Panels stand three, two or one in a row, as the page is wide.
     let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
@@ -705,6 +743,7 @@ fn grids(prices: &[GridPrice]) -> Option<Table> {
             Some(bits) => format!("{bits} bits, 1/{} px", 1u32 << bits),
             None => "no grid".to_owned(),
         };
+        // Without a pixel that changes there is no first one.
         let first = price.first.map_or(String::new(), |[x, y]| format!("{x},{y}"));
         let [scanline, edge_function] =
             [number(price.scanline_ms, 9), number(price.edge_function_ms, 9)];
@@ -736,6 +775,7 @@ const EQUAL: Rgb<u8> = Rgb([190, 80, 220]);
 /// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
 fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     let mut marked = picture.clone();
+    let ways = around_a_pixel();
     // Half as bright, so that the marks are seen on any picture.
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
@@ -748,14 +788,14 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
         marked.put_pixel(x, y, HARD);
         // A pixel with others beside it is seen as it is.
         let mut near = 0;
-        for [dx, dy] in around_a_pixel() {
+        for [dx, dy] in &ways {
             near += i32::from(hard.touches(x_px + dx, y_px + dy));
         }
         if near > MARK_PX {
             continue;
         }
         // A ring of about five pixels, by the squares of its inner and its outer radius.
-        for [dx, dy] in around_a_pixel() {
+        for [dx, dy] in &ways {
             let at = [x_px + dx, y_px + dy].map(u32::try_from);
             if (17..=26).contains(&(dx * dx + dy * dy))
                 && let [Ok(x), Ok(y)] = at
@@ -769,9 +809,14 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
 }
 
 /// The ways from a pixel to all of those that a mark may reach, in x and in y.
-fn around_a_pixel() -> impl Iterator<Item = [i32; 2]> {
-    let by = -MARK_PX..=MARK_PX;
-    by.clone().flat_map(move |dy| by.clone().map(move |dx| [dx, dy]))
+fn around_a_pixel() -> Vec<[i32; 2]> {
+    let mut ways = Vec::new();
+    for dy in -MARK_PX..=MARK_PX {
+        for dx in -MARK_PX..=MARK_PX {
+            ways.push([dx, dy]);
+        }
+    }
+    ways
 }
 
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
@@ -807,6 +852,7 @@ pub fn report(
         command: command.clone(),
         tables,
         figures: figures(found),
+        // The picture once, with both maps over it.
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
             about: "The picture, where hard cases are seen in it, and what decides which surface is seen."
@@ -821,6 +867,7 @@ pub fn report(
 
 /// The picture and the two maps that lie over it.
 fn layers(hard: &HardCases) -> Vec<PictureLayer> {
+    // Both maps have the size of the picture, so that the page can lay them over it.
     let picture = picture::of_frame(&hard.picture);
     let marked = marked(hard, &picture);
     let decided = picture::painted(picture.width(), picture.height(), |x, y| {
@@ -891,6 +938,7 @@ fn needs_table(needs: &Needs, state: State) -> Table {
         let time = takes(needs, need);
         let (name, wrong) = (need.effect.name(), thousands(need.wrong));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
+        // Several decisions of the plan may have one reason, which is told once.
         let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
         rows.push(Row::of(&[&name, &pixels, &wrong, &time, &by_whom(need), &reasons.join("; ")]));
     }
@@ -912,6 +960,7 @@ fn or_dash(value: Option<f64>, width: usize) -> String {
 /// What a choice costs: its errors, its time, what it holds, and how it works.
 fn cost_row(board: &Board, number: usize) -> Row {
     let choice = &board.choices[number];
+    // What was not run has its reason in place of all numbers.
     let run = match &board.cells[number][0] {
         Cell::NotRun(why) => return Row::of(&[&choice.name, &format!("not run: {why}")]),
         Cell::Run(run) => run,
@@ -921,14 +970,12 @@ fn cost_row(board: &Board, number: usize) -> Row {
         cells.push(or_dash(*error, 9));
     }
     // Three cells, which are empty where nothing was timed.
-    let timed =
-        run.time.as_ref().and_then(|time| Some((time.rounds.as_ref()?.spread(), time.times)));
-    cells.extend(match timed {
-        None => Default::default(),
-        Some((spread, times)) => {
-            let [low, high] = [spread.low, spread.high].map(ms);
-            [ms(spread.median), format!("{low}-{high}"), times.to_string()]
+    cells.extend(match &run.time {
+        Some(Time { rounds: Some(rounds), times, .. }) => {
+            let Spread { low, median, high } = rounds.spread();
+            [ms(median), format!("{}-{}", ms(low), ms(high)), times.to_string()]
         }
+        _ => Default::default(),
     });
     cells.push(or_dash(run.found.bytes.map(|bytes| bytes as f64 / 1e6), 7));
     cells.push(choice.about.to_string());
@@ -945,6 +992,7 @@ fn part(part: Part) -> String {
 
 /// The choices of a group, a row for each.
 fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
+    // A column for each measure of the error stands between the name and the times.
     let mut columns = table::columns("~choice 23");
     for measure in &board.measures {
         columns.push(Column::numbers(&measure.short, &measure.title).least(9));
@@ -975,6 +1023,7 @@ fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
         }
     }
     if let Some(noise) = &column.noise {
+        // So much two times may differ without a reason.
         notes.push(format!("two equal passes in the same rounds: {:.3} times", noise.median));
     }
     notes.extend(advice(subject, board));

@@ -35,6 +35,7 @@ impl Line<'_> {
                 _ => run[0].to_string(),
             });
         }
+        // Items are counted where their ranges would not fit into a column.
         let text = runs.join(",");
         match text.len() {
             0 => "frame".to_owned(),
@@ -101,6 +102,7 @@ pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
 
 /// What becomes of the fragments of each piece, in order: a row for each list of stages, and the same as data.
 pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
+    // Pieces of an item with the same stages are one row.
     let mut rows = Vec::new();
     for StagedPieces { item, pieces, stages } in staged {
         rows.push(Row::of(&[item, &thousands(*pieces), &stages.join(", ")]));
@@ -119,6 +121,7 @@ pub fn stages(scene: &Scene, staged: &[StagedPieces]) -> Report {
     }
 }
 
+/// The stages for machines.
 #[derive(serde::Serialize)]
 struct Staged<'a> {
     scene: &'a str,
@@ -161,6 +164,7 @@ impl Measurement<'_> {
 
     /// What is called for, and what the rest costs, a sentence or two each.
     fn answers(&self) -> Vec<Statement> {
+        // An effect is paid for where it is on for anything, or decided while it is drawn.
         let mut paid = std::collections::BTreeSet::new();
         for decision in &self.frames[1].plan.decisions {
             if decision.on + decision.open > 0 {
@@ -186,8 +190,11 @@ impl Measurement<'_> {
                 "The planned frame against everything on: {everything}. Against the usual way: {usual}."
             )
         };
-        let answer = |about, sentence| Statement { about, sentence, command: String::new() };
-        vec![answer("effects", sentence), answer("time", time)]
+        // Neither has a command of its own.
+        vec![
+            Statement { about: "effects", sentence, command: String::new() },
+            Statement { about: "time", sentence: time, command: String::new() },
+        ]
     }
 
     /// The tables of the plan, and the frames as layers where there is a page.
@@ -231,6 +238,7 @@ impl Measurement<'_> {
     }
 }
 
+/// The measurement for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     scene: &'a str,
@@ -251,6 +259,7 @@ struct Data<'a> {
 fn of_each(savings: &Savings) -> Table {
     let mut rows = Vec::new();
     for Saving { effect, alone, last, wrong_without } in &savings.effects {
+        // Work that is not done is told beside the time, which may be too short to be told apart.
         let works = [thousands(alone.work), thousands(last.work)];
         let (name, wrong) = (effect.name(), thousands(*wrong_without));
         rows.push(Row::of(&[&name, &works[0], &alone.words(), &works[1], &last.words(), &wrong]));
@@ -299,6 +308,7 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
         );
     }
     if let Some(us) = survey_us {
+        // Each planned frame pays for the look, so it is told as a share of one.
         let share = 100.0 * us / savings.planned.time_us;
         notes.push(format!(
             "looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame"
@@ -317,6 +327,7 @@ fn row_of_frame(name: &str, frame: &Measured, ratio: &str) -> Row {
 
 /// What both frames counted, side by side.
 fn counts([everything, planned]: [&Rendered; 2]) -> Table {
+    // Both have the same counters in the same order.
     let mut rows = Vec::new();
     for ((name, all), (_, planned)) in
         everything.counters.shown().into_iter().zip(planned.counters.shown())
@@ -328,14 +339,16 @@ fn counts([everything, planned]: [&Rendered; 2]) -> Table {
 
 /// Both frames as layers, which have the same bits unless a plan is wrong.
 fn view(command: String, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
-    let layer =
-        |name, frame: &Rendered| PictureLayer::new(name, &picture::of_frame(&frame.picture));
+    let [everything, planned] = frames.map(|frame| picture::of_frame(&frame.picture));
     PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
         command,
         chapter: Chapter { title: "effects", path: "effects.md" },
-        layers: vec![layer("everything", frames[0]), layer("planned", frames[1])],
+        layers: vec![
+            PictureLayer::new("everything", &everything),
+            PictureLayer::new("planned", &planned),
+        ],
     }
 }
 

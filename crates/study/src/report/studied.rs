@@ -52,6 +52,7 @@ impl<'a> Studied<'a> {
     /// no such face is drawn.
     pub fn face(&self, number: u32) -> Option<(u32, Vec<String>, Vec<&Piece>)> {
         let Self { scene, origins, sampled, hard } = self;
+        // A face with more than three corners was read as several triangles.
         let mut triangles: Vec<u32> = Vec::new();
         for (triangle, face) in (0..).zip(faces(scene, origins)) {
             if face == number {
@@ -59,6 +60,7 @@ impl<'a> Studied<'a> {
             }
         }
         let first = *triangles.first()?;
+        // A line for each of its triangles, whose corners have all of their digits.
         let mut known = Vec::new();
         for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
             let mesh = &scene.items[item].mesh;
@@ -78,6 +80,7 @@ impl<'a> Studied<'a> {
         }
         let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
         known.push(format!("hard cases that it has a part in: {kinds}"));
+        // Of several samples in a pixel the piece at its centre is told.
         let mut pieces: Vec<&Piece> = Vec::new();
         for piece in sampled.at_centres() {
             if triangles.binary_search(&piece.face).is_ok() {
@@ -93,6 +96,7 @@ impl<'a> Studied<'a> {
 
     /// How much of the scene is in the window, and whether there is anything to compare.
     pub fn head(&self) -> String {
+        // Triangles are those of the scene, pieces those of them that the window shows.
         let Self { scene, sampled, .. } = self;
         let triangles = count(scene.triangles() as u64, "triangle", "triangles");
         let pieces = count(sampled.at_centres().len() as u64, "piece", "pieces");

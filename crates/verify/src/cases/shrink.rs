@@ -79,6 +79,7 @@ impl<C: Clone> SmallerSearch<C> {
         self.begin_step(steps);
     }
 
+    /// The candidates of the smallest case so far; none once all stages are over.
     fn begin_step<S: Steps<Case = C>>(&mut self, steps: &S) {
         let is_over = self.stage >= S::STAGES;
         let candidates =
@@ -150,31 +151,50 @@ type Point = [i32; 2];
 
 /// The corners of all triangles in subpixels, or the ends of all lines in pixels; corners that are not snapped are neither.
 fn points(case: &Case) -> Vec<Point> {
+    let mut points = Vec::new();
     match &case.shape {
         Shape::Triangles { list, .. } => {
-            list.iter().flat_map(|t| t.corners()).map(|p| [p.x, p.y]).collect()
+            for p in list.iter().flat_map(|t| t.corners()) {
+                points.push([p.x, p.y]);
+            }
         }
         Shape::Lines(lines) => {
-            lines.iter().flat_map(|l| l.ends).map(|end| [end.pixel.x, end.pixel.y]).collect()
+            for end in lines.iter().flat_map(|l| l.ends) {
+                points.push([end.pixel.x, end.pixel.y]);
+            }
         }
-        Shape::Unsnapped { .. } | Shape::Numbers { .. } => Vec::new(),
+        Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
     }
+    points
+}
+
+/// The least and the largest coordinate of points on an axis; nothing of none.
+fn extent(points: &[Point], axis: usize) -> Option<[i32; 2]> {
+    let mut ends = None;
+    for point in points {
+        let [least, most] = ends.unwrap_or([point[axis]; 2]);
+        ends = Some([least.min(point[axis]), most.max(point[axis])]);
+    }
+    ends
 }
 
 /// The case in a window that holds the whole shape with a pixel to spare, if that is small.
 fn around(case: &Case) -> Option<Case> {
     let points = points(case);
-    let px = |v: i32| match case.shape {
-        Shape::Triangles { .. } => i64::from(v.div_euclid(SUBPIXELS)),
-        _ => i64::from(v),
-    };
-    let range = |axis: usize| {
-        let along = || points.iter().map(|p| px(p[axis]));
-        let (first, end) = (along().min()? - 1, along().max()? + 2);
-        (end - first <= 48).then(|| Some((i32::try_from(first).ok()?, i32::try_from(end).ok()?)))?
-    };
-    let ((x0, x1), (y0, y1)) = (range(0)?, range(1)?);
+    let unit = if matches!(case.shape, Shape::Triangles { .. }) { SUBPIXELS } else { 1 };
+    let [x0, x1] = range_around(extent(&points, 0)?, unit)?;
+    let [y0, y1] = range_around(extent(&points, 1)?, unit)?;
     Some(Case { window: PixelRect { x0, y0, x1, y1 }, shape: case.shape.clone() })
+}
+
+/// From the pixel before the first to one past the pixel behind the last, if these are at most 48; a pixel has so many units.
+fn range_around([least, most]: [i32; 2], unit: i32) -> Option<[i32; 2]> {
+    let first = i64::from(least.div_euclid(unit)) - 1;
+    let end = i64::from(most.div_euclid(unit)) + 2;
+    if end - first > 48 {
+        return None;
+    }
+    Some([i32::try_from(first).ok()?, i32::try_from(end).ok()?])
 }
 
 /// The case with the values that `inspect` gives to corners which are typed in.
@@ -208,11 +228,11 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
     let points = points(case);
     let all = points.as_flattened();
-    let reach = |axis: usize| {
-        let along = || points.iter().map(|p| p[axis]);
-        along().max().zip(along().min()).map_or(0, |(max, min)| u64::from(max.abs_diff(min)))
-    };
-    let reach = reach(0) + reach(1);
+    // How far they reach in x and in y together.
+    let mut reach = 0;
+    for [least, most] in [extent(&points, 0), extent(&points, 1)].into_iter().flatten() {
+        reach += u64::from(most.abs_diff(least));
+    }
     let far = all.iter().map(|v| u64::from(v.unsigned_abs())).sum();
     match &case.shape {
         Shape::Triangles { list, .. } => {
@@ -222,9 +242,12 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
         }
         Shape::Lines(lines) => (lines.len(), own, 0, reach, 0, far, window),
         Shape::Unsnapped { list, .. } => {
-            let values = || list.iter().flat_map(|t| t.px()).flatten();
-            let bits = values().map(mantissa_bits).sum();
-            (list.len(), own, 0, 0, bits, values().map(|v| v.abs() as u64).sum(), window)
+            let (mut bits, mut far) = (0, 0);
+            for value in list.iter().flat_map(|t| t.px()).flatten() {
+                bits += mantissa_bits(value);
+                far += value.abs() as u64;
+            }
+            (list.len(), own, 0, 0, bits, far, window)
         }
         Shape::Numbers { .. } => (1, own, 0, 0, 0, 0, window),
     }
@@ -243,49 +266,60 @@ pub fn smaller_cases(case: &Case) -> Vec<Case> {
     candidates(case).into_iter().filter(|candidate| size(candidate) < current).collect()
 }
 
+/// What a step makes of a case, in the order in which it is looked at.
 fn candidates(case: &Case) -> Vec<Case> {
-    let with = |shape: Shape| Case { window: case.window, shape };
-    let shapes = match &case.shape {
+    let mut found = vec![plain(case)];
+    match &case.shape {
         Shape::Triangles { list, .. } if list.len() > 1 => {
             // One triangle alone, else one fewer.
-            let alone = list.iter().map(|t| vec![*t]);
-            let fewer = (0..list.len()).map(|i| [&list[..i], &list[i + 1..]].concat());
-            let lists = alone.chain(fewer);
-            lists.map(|list| with(Shape::Triangles { list, disjoint: false })).collect()
+            let mut lists = Vec::new();
+            for triangle in list {
+                lists.push(vec![*triangle]);
+            }
+            for i in 0..list.len() {
+                lists.push([&list[..i], &list[i + 1..]].concat());
+            }
+            for list in lists {
+                let shape = Shape::Triangles { list, disjoint: false };
+                found.push(Case { window: case.window, shape });
+            }
         }
         Shape::Lines(lines) if lines.len() > 1 => {
-            lines.iter().map(|line| with(Shape::Lines(vec![*line]))).collect()
+            for line in lines {
+                found.push(Case { window: case.window, shape: Shape::Lines(vec![*line]) });
+            }
         }
         Shape::Unsnapped { list, .. } if list.len() > 1 => {
-            list.iter().map(|t| Case::unsnapped(case.window, vec![*t])).collect()
+            for triangle in list {
+                found.push(Case::unsnapped(case.window, vec![*triangle]));
+            }
         }
-        Shape::Triangles { .. } => triangle_candidates(case),
-        Shape::Lines(_) => line_candidates(case),
+        Shape::Triangles { .. } => found.extend(triangle_candidates(case)),
+        Shape::Lines(_) => found.extend(line_candidates(case)),
         Shape::Unsnapped { list, .. } => {
-            let simpler = list.first().map(free_candidates).unwrap_or_default();
-            simpler.into_iter().map(|t| Case::unsnapped(case.window, vec![t])).collect()
+            for triangle in list.iter().flat_map(free_candidates) {
+                found.push(Case::unsnapped(case.window, vec![triangle]));
+            }
         }
         // What only programs are asked, the judge makes smaller.
-        Shape::Numbers { .. } => Vec::new(),
-    };
-    std::iter::once(plain(case)).chain(shapes).collect()
+        Shape::Numbers { .. } => {}
+    }
+    found
 }
 
-/// The one shape of a case in this window, each corner or end moved.
-fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> Case {
+/// The one shape of a case in this window, with its corners or ends at other places.
+fn placed(case: &Case, window: PixelRect, points: &[Point]) -> Case {
     let mut shape = case.shape.clone();
     match &mut shape {
         Shape::Triangles { list, disjoint } => {
             *disjoint = false;
-            for (i, vertex) in list.iter_mut().flat_map(|t| &mut t.vertices).enumerate() {
-                let [x, y] = by(i, [vertex.position.x, vertex.position.y]);
-                vertex.position = SubpixelPoint::new(x, y);
+            for (vertex, [x, y]) in list.iter_mut().flat_map(|t| &mut t.vertices).zip(points) {
+                vertex.position = SubpixelPoint::new(*x, *y);
             }
         }
         Shape::Lines(lines) => {
-            for (i, end) in lines.iter_mut().flat_map(|l| &mut l.ends).enumerate() {
-                let [x, y] = by(i, [end.pixel.x, end.pixel.y]);
-                end.pixel = PixelPoint::new(x, y);
+            for (end, [x, y]) in lines.iter_mut().flat_map(|l| &mut l.ends).zip(points) {
+                end.pixel = PixelPoint::new(*x, *y);
             }
         }
         Shape::Unsnapped { .. } | Shape::Numbers { .. } => {}
@@ -293,47 +327,66 @@ fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> 
     Case { window, shape }
 }
 
+/// The case with one of its points at another place.
+fn with_point(case: &Case, points: &[Point], number: usize, place: Point) -> Case {
+    let mut points = points.to_vec();
+    points[number] = place;
+    placed(case, case.window, &points)
+}
+
+/// The case with one coordinate of one point replaced.
+fn with_coordinate(case: &Case, points: &[Point], number: usize, axis: usize, value: i32) -> Case {
+    let mut place = points[number];
+    place[axis] = value;
+    with_point(case, points, number, place)
+}
+
 /// Points between two, nearest to the second first, a whole number of `unit` from the first: what lies on
 /// the edge between them goes on lying there.
-fn between(unit: i32, [x0, y0]: Point, [x1, y1]: Point) -> impl Iterator<Item = Point> {
+fn between(unit: i32, [x0, y0]: Point, [x1, y1]: Point) -> Vec<Point> {
     let [dx, dy] = [i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0)];
     let (mut divisor, mut rest) = (dx.abs(), dy.abs());
     while rest > 0 {
         (divisor, rest) = (rest, divisor % rest);
     }
+    // The edge is cut into so many equal steps between points of the grid.
     let steps = divisor / i64::from(unit);
-    let at = move |k: i64| {
-        [(x0, dx), (y0, dy)].map_array(|(v, d)| (i64::from(v) + d / steps * k) as i32)
-    };
-    [steps - 1, steps / 2, 1].into_iter().filter(move |&k| 0 < k && k < steps).map(at)
+    let mut points = Vec::new();
+    for k in [steps - 1, steps / 2, 1] {
+        if 0 < k && k < steps {
+            let (x, y) = (i64::from(x0) + dx / steps * k, i64::from(y0) + dy / steps * k);
+            points.push([x as i32, y as i32]);
+        }
+    }
+    points
 }
 
+/// A triangle nearer to the origin, on multiples of half a pixel, shorter, or with simpler coordinates.
 fn triangle_candidates(case: &Case) -> Vec<Case> {
     let Ok(corners) = <[Point; 3]>::try_from(points(case)) else { return Vec::new() };
     let w = case.window;
-    let here = |by: &dyn Fn(usize, Point) -> Point| moved(case, w, by);
     let mut found = Vec::new();
     // To the origin, window and all.
     if (w.x0, w.y0) != (0, 0) {
-        let shift = |v: i32, px: i32| v.saturating_sub(px.saturating_mul(SUBPIXELS));
         let window = PixelRect::window(w.width(), w.height());
-        found.push(moved(case, window, &|_, [x, y]| [shift(x, w.x0), shift(y, w.y0)]));
+        found.push(placed(case, window, &corners.map_array(|p| back(p, [w.x0, w.y0]))));
     }
     // A smaller window, around the origin.
-    found.extend(smaller_windows(w).map(|window| moved(case, window, &|_, p| p)));
+    for window in smaller_windows(w) {
+        found.push(placed(case, window, &corners));
+    }
     // By whole pixels towards the origin.
     for px in [[16, 0], [0, 16], [4, 0], [0, 4], [1, 0], [0, 1]] {
-        let along = |p: Point, axis: usize| p[axis].saturating_sub(px[axis] * SUBPIXELS);
-        found.push(here(&|_, p| [along(p, 0), along(p, 1)]));
+        found.push(placed(case, w, &corners.map_array(|p| back(p, px))));
     }
     // Everything to a multiple of half a pixel, then one corner: a tie that needs both of its
     // coordinates survives no step along one axis.
     for offset in [HALF_PIXEL / 2, 0, HALF_PIXEL - 1] {
-        found.push(here(&|_, p| halves(p, [offset; 2])));
+        found.push(placed(case, w, &corners.map_array(|p| halves(p, [offset; 2]))));
     }
-    for corner in 0..3 {
+    for (corner, point) in corners.into_iter().enumerate() {
         for nearby in NEARBY {
-            found.push(here(&|i, p| if i == corner { halves(p, nearby) } else { p }));
+            found.push(with_point(case, &corners, corner, halves(point, nearby)));
         }
     }
     // A corner along its edges towards the other two.
@@ -341,43 +394,44 @@ fn triangle_candidates(case: &Case) -> Vec<Case> {
         let [from, to] = [corners[corner], corners[other]];
         let on_halves = [from, to].as_flattened().iter().all(|v| v % HALF_PIXEL == 0);
         for point in between(if on_halves { HALF_PIXEL } else { 1 }, from, to) {
-            found.push(here(&|i, p| if i == corner { point } else { p }));
+            found.push(with_point(case, &corners, corner, point));
         }
     }
     // Everything closer to the first corner, then each coordinate alone.
-    let first = corners[0];
-    let halfway = |a: i32, b: i32| ((i64::from(a) + i64::from(b)) / 2) as i32;
-    found.push(here(&|_, [x, y]| [halfway(x, first[0]), halfway(y, first[1])]));
+    found.push(placed(case, w, &corners.map_array(|p| halfway(p, corners[0]))));
     for (corner, point) in corners.into_iter().enumerate() {
         for (axis, own) in point.into_iter().enumerate() {
-            let simpler = simpler_coordinates(own);
-            found.extend(simpler.into_iter().map(|value| here(&one_at(corner, axis, value))));
+            for value in simpler_coordinates(own) {
+                found.push(with_coordinate(case, &corners, corner, axis, value));
+            }
         }
     }
     found
 }
 
-/// Replaces one coordinate of one point.
-fn one_at(point: usize, axis: usize, value: i32) -> impl Fn(usize, Point) -> Point {
-    move |i, mut p| {
-        if i == point {
-            p[axis] = value;
-        }
-        p
-    }
+/// A point so many pixels to the left and up, or at the border of the domain.
+fn back([x, y]: Point, [dx, dy]: Point) -> Point {
+    [x.saturating_sub(dx.saturating_mul(SUBPIXELS)), y.saturating_sub(dy.saturating_mul(SUBPIXELS))]
+}
+
+/// The point in the middle of two, rounded towards zero.
+fn halfway([x0, y0]: Point, [x1, y1]: Point) -> Point {
+    let (x, y) = (i64::from(x0) + i64::from(x1), i64::from(y0) + i64::from(y1));
+    [(x / 2) as i32, (y / 2) as i32]
 }
 
 /// Half the window, then a row or column less, around its upper left corner; none that is empty.
-fn smaller_windows(w: PixelRect) -> impl Iterator<Item = PixelRect> {
+fn smaller_windows(w: PixelRect) -> Vec<PixelRect> {
     let (width, height) = (w.width(), w.height());
-    [(width / 2, height), (width, height / 2), (width - 1, height), (width, height - 1)]
-        .into_iter()
-        .filter(|&(width, height)| width > 0 && height > 0)
-        .map(move |(width, height)| PixelRect {
-            x1: w.x0 + width as i32,
-            y1: w.y0 + height as i32,
-            ..w
-        })
+    let mut windows = Vec::new();
+    for (width, height) in
+        [(width / 2, height), (width, height / 2), (width - 1, height), (width, height - 1)]
+    {
+        if width > 0 && height > 0 {
+            windows.push(PixelRect { x1: w.x0 + width as i32, y1: w.y0 + height as i32, ..w });
+        }
+    }
+    windows
 }
 
 /// What is added before rounding down to multiples of half a pixel: nearest first, then the other
@@ -387,24 +441,23 @@ const NEARBY: [Point; 5] =
 
 /// The point on the grid of half pixels that rounding down finds so much further on.
 fn halves([x, y]: Point, [dx, dy]: Point) -> Point {
-    let down = |v: i32, d: i32| v.saturating_add(d) & !(HALF_PIXEL - 1);
-    [down(x, dx), down(y, dy)]
+    let (x, y) = (x.saturating_add(dx), y.saturating_add(dy));
+    [x & !(HALF_PIXEL - 1), y & !(HALF_PIXEL - 1)]
 }
 
 /// Nearer to zero, on pixel borders, on centres.
 fn simpler_coordinates(value: i32) -> Vec<i32> {
     let border = value.div_euclid(SUBPIXELS).saturating_mul(SUBPIXELS);
-    let step = |v: i32| value - value.signum() * v.min(value.saturating_abs());
     let mut simpler = vec![
         0,
         value / 2,
         border,
         border.saturating_add(SUBPIXELS),
         border.saturating_add(HALF_PIXEL),
-        step(4 * SUBPIXELS),
-        step(SUBPIXELS),
-        step(HALF_PIXEL),
-        step(1),
+        towards_zero(value, 4 * SUBPIXELS),
+        towards_zero(value, SUBPIXELS),
+        towards_zero(value, HALF_PIXEL),
+        towards_zero(value, 1),
         value & !63,
         value & !15,
         value & !3,
@@ -414,23 +467,31 @@ fn simpler_coordinates(value: i32) -> Vec<i32> {
     simpler
 }
 
+/// A number so much nearer to zero, or zero.
+fn towards_zero(value: i32, by: i32) -> i32 {
+    value - value.signum() * by.min(value.saturating_abs())
+}
+
+/// A line in a smaller window, moved, shorter, or with simpler coordinates.
 fn line_candidates(case: &Case) -> Vec<Case> {
     let Ok(ends) = <[Point; 2]>::try_from(points(case)) else { return Vec::new() };
-    let w = case.window;
-    let here = |by: &dyn Fn(usize, Point) -> Point| moved(case, w, by);
-    let mut found: Vec<Case> =
-        smaller_windows(w).map(|window| moved(case, window, &|_, p| p)).collect();
-    for (dx, dy) in [(8, 0), (0, 8), (1, 0), (0, 1), (-8, 0), (0, -8), (-1, 0), (0, -1)] {
-        found.push(here(&|_, [x, y]| [x.saturating_sub(dx), y.saturating_sub(dy)]));
+    let mut found = Vec::new();
+    for window in smaller_windows(case.window) {
+        found.push(placed(case, window, &ends));
     }
-    for end in 0..2 {
-        for point in between(1, ends[end], ends[1 - end]) {
-            found.push(here(&|i, p| if i == end { point } else { p }));
+    for [dx, dy] in [[8, 0], [0, 8], [1, 0], [0, 1], [-8, 0], [0, -8], [-1, 0], [0, -1]] {
+        let moved = ends.map_array(|[x, y]| [x.saturating_sub(dx), y.saturating_sub(dy)]);
+        found.push(placed(case, case.window, &moved));
+    }
+    for (end, point) in ends.into_iter().enumerate() {
+        for place in between(1, point, ends[1 - end]) {
+            found.push(with_point(case, &ends, end, place));
         }
-        for (axis, value) in ends[end].into_iter().enumerate() {
-            let step = |v: i32| value - value.signum() * v.min(value.saturating_abs());
-            let simpler = [0, value / 2, step(8), step(2), step(1)];
-            found.extend(simpler.map(|value| here(&one_at(end, axis, value))));
+        for (axis, value) in point.into_iter().enumerate() {
+            let [far, near, next] = [8, 2, 1].map_array(|by| towards_zero(value, by));
+            for simpler in [0, value / 2, far, near, next] {
+                found.push(with_coordinate(case, &ends, end, axis, simpler));
+            }
         }
     }
     found
@@ -438,13 +499,15 @@ fn line_candidates(case: &Case) -> Vec<Case> {
 
 /// Fewer bits in one coordinate of a triangle that is not snapped.
 fn free_candidates(triangle: &FreeCorners) -> Vec<FreeCorners> {
-    let cut = |value: f64, bits: u64| f64::from_bits(value.to_bits() & !((1 << bits) - 1));
     let mut found = Vec::new();
     for (corner, axis) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)] {
         let value = triangle.px()[corner][axis];
-        let nearby = [0.0, value.round(), value.floor() + 0.5];
-        let bits = [52, 48, 44, 40, 36, 32, 29, 24, 20, 16, 12, 8, 4, 2, 1];
-        for simpler in nearby.into_iter().chain(bits.map(|bits| cut(value, bits))) {
+        let mut simpler = vec![0.0, value.round(), value.floor() + 0.5];
+        // The last bits of the mantissa are cut off, many of them first.
+        for bits in [52, 48, 44, 40, 36, 32, 29, 24, 20, 16, 12, 8, 4, 2, 1] {
+            simpler.push(f64::from_bits(value.to_bits() & !((1 << bits) - 1)));
+        }
+        for simpler in simpler {
             let mut px = triangle.px();
             px[corner][axis] = simpler;
             if simpler != value {
@@ -458,26 +521,34 @@ fn free_candidates(triangle: &FreeCorners) -> Vec<FreeCorners> {
 /// The positions of a case in pixels, as the command line takes them; those that are not snapped with all digits.
 #[must_use]
 pub fn describe(case: &Case) -> String {
-    let px = |p: SubpixelPoint| {
-        let (x, y) = p.to_px();
-        format!("{x},{y}")
-    };
-    let shapes: Vec<String> = match &case.shape {
+    let mut shapes = Vec::new();
+    match &case.shape {
         Shape::Triangles { list, .. } => {
-            list.iter().map(|t| t.corners().map_array(px).join(" ")).collect()
+            for triangle in list {
+                let px = triangle.corners().map_array(|p| p.to_px());
+                shapes.push(px.map_array(|(x, y)| format!("{x},{y}")).join(" "));
+            }
         }
-        Shape::Lines(lines) => lines
-            .iter()
-            .map(|l| l.ends.map_array(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
-            .collect(),
+        Shape::Lines(lines) => {
+            for line in lines {
+                let ends = line.ends.map_array(|end| format!("{},{}", end.pixel.x, end.pixel.y));
+                shapes.push(ends.join(" "));
+            }
+        }
         Shape::Unsnapped { list, .. } => {
-            let px = |[x, y]: [f64; 2]| format!("{x:?},{y:?}");
-            list.iter().map(|t| t.px().map_array(px).join(" ")).collect()
+            for triangle in list {
+                let px = triangle.px().map_array(|[x, y]| format!("{x:?},{y:?}"));
+                shapes.push(px.join(" "));
+            }
         }
         Shape::Numbers { formula, numbers } => {
-            vec![numbers.iter().fold(formula.name().to_owned(), |text, n| format!("{text} {n}"))]
+            let mut text = formula.name().to_owned();
+            for number in numbers {
+                text += &format!(" {number}");
+            }
+            shapes.push(text);
         }
-    };
+    }
     shapes.join("; ")
 }
 

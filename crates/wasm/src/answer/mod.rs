@@ -12,11 +12,17 @@ mod pixels;
 mod search;
 mod values;
 
+pub(crate) use lines::{Pen, strangers};
+pub(crate) use picture::line_between;
+pub(crate) use pixels::cover;
 pub(crate) use values::along;
 
 use serde::Deserialize;
 use serde_json::Value;
 
+use crate::no_answer::NoAnswer;
+
+/// A question; what each answer holds stands beside the function that makes it.
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
 enum Request {
@@ -69,12 +75,8 @@ enum Request {
 }
 
 /// The answer to a question, or why it makes no sense or cannot be drawn.
-pub(crate) fn answer_value(question: Value) -> Result<Value, String> {
-    serde_json::from_value(question).map_err(|error| error.to_string()).and_then(ask)
-}
-
-fn ask(question: Request) -> Result<Value, String> {
-    match question {
+pub(crate) fn answer_value(question: Value) -> Result<Value, NoAnswer> {
+    match serde_json::from_value(question)? {
         Request::List => Ok(search::list()),
         Request::Named { name } => search::named(&name),
         Request::Generated { family, seed, index } => search::generated(&family, seed, index),

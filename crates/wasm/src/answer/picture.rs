@@ -3,19 +3,22 @@
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
+use crate::no_answer::NoAnswer;
+use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{
     Corners, FreeCorners, MAX_W, MIN_W, PixelPoint, ScreenTriangle, ScreenVertex, check_value,
     refused_number,
 };
-use rasterproof_faults::published::{RealTriangle, RealVertex};
+use rasterproof_faults::published::{RealTriangle, RealVertex, from_screen};
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 
 /// The longest side of a window in pixels: more cannot be seen, and takes longer than a frame.
 const MOST_SIDE_PX: i64 = 128;
-/// The most triangles or lines of one picture.
+/// The most triangles or lines of one picture, so that a question from an address does not take for ever.
 const MOST_SHAPES: usize = 4096;
 
 /// A corner: a position in pixels and what it carries.
@@ -34,10 +37,42 @@ pub(super) struct Corner {
     v: f64,
 }
 
+/// Without a w all corners are equally far away.
 fn one() -> f64 {
     1.0
 }
 
+impl Corner {
+    /// A vertex on the lattice; or the reason why it has no place there, with its position and the name of the number.
+    fn on_lattice(&self) -> Result<ScreenVertex<DVec2>, NoAnswer> {
+        let vertex = ScreenVertex::by_name([self.x, self.y], self.depth, self.w, self.varying());
+        let (name, refusal) = match (vertex, check_value(self.u), check_value(self.v)) {
+            (Ok(vertex), Ok(()), Ok(())) => return Ok(vertex),
+            (Err(refused), _, _) => refused,
+            (_, Err(refusal), _) => ("u", refusal),
+            (_, _, Err(refusal)) => ("v", refusal),
+        };
+        let Self { x, y, .. } = self;
+        Err(format!("corner {x}, {y}: {}", refused_number(name, refusal)).into())
+    }
+
+    /// A vertex as published code takes it, in which w is no check but a number.
+    fn as_real(&self) -> RealVertex {
+        RealVertex {
+            position_px: DVec2::new(self.x, self.y),
+            depth: self.depth,
+            w: self.w.clamp(MIN_W, MAX_W),
+            varying: self.varying(),
+        }
+    }
+
+    /// What engines interpolate beside the depth.
+    fn varying(&self) -> DVec2 {
+        DVec2::new(self.u, self.v)
+    }
+}
+
+/// What the page sends to be drawn, and gets back of a case.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Picture {
@@ -54,73 +89,66 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    pub fn window(&self) -> Result<PixelRect, String> {
+    /// The window, if it can be shown.
+    pub fn window(&self) -> Result<PixelRect, NoAnswer> {
         let [x0, y0, x1, y1] = self.window;
-        let side = |low: i32, high: i32| i64::from(high) - i64::from(low);
-        let sides = [side(x0, x1), side(y0, y1)];
-        if sides.iter().any(|side| !(1..=MOST_SIDE_PX).contains(side)) {
+        // In 64 bits, since the page may send any numbers.
+        let width = i64::from(x1) - i64::from(x0);
+        let height = i64::from(y1) - i64::from(y0);
+        let range = 1..=MOST_SIDE_PX;
+        if !range.contains(&width) || !range.contains(&height) {
             return Err(format!(
-                "a window of {} x {} pixels: 1 to {MOST_SIDE_PX} on each side can be shown",
-                sides[0], sides[1]
-            ));
+                "a window of {width} x {height} pixels: 1 to {MOST_SIDE_PX} on each side can be shown"
+            )
+            .into());
         }
         if self.triangles.len().max(self.lines.len()) > MOST_SHAPES {
-            return Err(format!("more than {MOST_SHAPES} triangles or lines"));
+            return Err(format!("more than {MOST_SHAPES} triangles or lines").into());
         }
         Ok(PixelRect { x0, y0, x1, y1 })
     }
 
-    pub fn on_lattice(&self) -> Result<Vec<Triangle>, String> {
-        let vertex = |c: &Corner| {
-            let vertex = ScreenVertex::by_name([c.x, c.y], c.depth, c.w, DVec2::new(c.u, c.v));
-            let checked = |name, value| check_value(value).map_err(|refusal| (name, refusal));
-            let values = checked("u", c.u).and(checked("v", c.v));
-            vertex.and_then(|vertex| values.map(|()| vertex)).map_err(|(name, refusal)| {
-                format!("corner {}, {}: {}", c.x, c.y, refused_number(name, refusal))
-            })
-        };
-        let triangle = |[a, b, c]: &[Corner; 3]| {
-            Ok(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
-        };
-        self.triangles.iter().map(triangle).collect()
+    /// The triangles with their corners snapped to the lattice.
+    pub fn on_lattice(&self) -> Result<Vec<Triangle>, NoAnswer> {
+        let mut all = Vec::new();
+        for [a, b, c] in &self.triangles {
+            let vertices = [a.on_lattice()?, b.on_lattice()?, c.on_lattice()?];
+            all.push(ScreenTriangle { vertices });
+        }
+        Ok(all)
     }
 
     /// The corners on the lattice in pixels, for the outlines of what was drawn.
-    pub fn outlines(&self) -> Result<Vec<[[f64; 2]; 3]>, String> {
+    pub fn outlines(&self) -> Result<Vec<[[f64; 2]; 3]>, NoAnswer> {
         Ok(self.on_lattice()?.iter().map(|triangle| in_px(triangle.corners())).collect())
     }
 
     /// The corners as they are given.
-    pub fn as_given(&self) -> Result<Vec<FreeCorners>, String> {
-        let corners = |t: &[Corner; 3]| FreeCorners::new(t.map(|c| [c.x, c.y]));
-        self.triangles.iter().map(|t| corners(t).map_err(|refusal| refusal.to_string())).collect()
+    pub fn as_given(&self) -> Result<Vec<FreeCorners>, NoAnswer> {
+        let mut all = Vec::new();
+        for triangle in &self.triangles {
+            all.push(FreeCorners::new(triangle.map(|corner| [corner.x, corner.y]))?);
+        }
+        Ok(all)
     }
 
     /// The triangles as the specimens take them: real numbers, the lattice's where they snap.
-    pub fn as_real(&self) -> Result<Vec<RealTriangle>, String> {
+    pub fn as_real(&self) -> Result<Vec<RealTriangle>, NoAnswer> {
         if self.snap {
-            return Ok(self
-                .on_lattice()?
-                .iter()
-                .map(rasterproof_faults::published::from_screen)
-                .collect());
+            return Ok(self.on_lattice()?.iter().map(from_screen).collect());
         }
+        // They refuse nothing, so that is done for them.
         self.as_given()?;
-        let vertex = |c: &Corner| RealVertex {
-            position_px: DVec2::new(c.x, c.y),
-            depth: c.depth,
-            w: c.w.clamp(MIN_W, MAX_W),
-            varying: DVec2::new(c.u, c.v),
-        };
-        Ok(self.triangles.iter().map(|t| [vertex(&t[0]), vertex(&t[1]), vertex(&t[2])]).collect())
+        Ok(self.triangles.iter().map(|corners| corners.map(|c| c.as_real())).collect())
     }
 
+    /// The lines between the centres of their pixels; nothing is refused, since any pixel is an end.
     pub fn lines(&self) -> Vec<Line> {
-        let pixel = |[x, y]: [i32; 2]| PixelPoint::new(x, y);
-        self.lines.iter().map(|[a, b]| plain_line(pixel(*a), pixel(*b))).collect()
+        self.lines.iter().map(|&[from, to]| line_between(from, to)).collect()
     }
 
-    pub fn case(&self) -> Result<Case, String> {
+    /// The picture as a case of the test families.
+    pub fn case(&self) -> Result<Case, NoAnswer> {
         let shape = match (self.lines.is_empty(), self.snap) {
             (false, _) => Shape::Lines(self.lines()),
             (true, true) => Shape::Triangles { list: self.on_lattice()?, disjoint: false },
@@ -130,7 +158,7 @@ impl Picture {
     }
 }
 
-/// What travels to the page; windows that are too large for it are cut.
+/// What travels to the page, where it is drawn, and back as a question; windows that are too large for it are cut.
 impl From<&Case> for Picture {
     fn from(case: &Case) -> Self {
         let mut picture =
@@ -140,13 +168,12 @@ impl From<&Case> for Picture {
                 picture.triangles = list.iter().map(|t| t.vertices.map(corner)).collect();
             }
             Shape::Lines(lines) => {
-                let end = |p: PixelPoint| [p.x, p.y];
-                let ends = lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]);
-                picture.lines = ends.collect();
+                for line in lines {
+                    picture.lines.push(line.ends.map(|end| [end.pixel.x, end.pixel.y]));
+                }
             }
             Shape::Unsnapped { list, .. } => {
-                let corner = |[x, y]: [f64; 2]| Corner { x, y, w: 1.0, depth: 0.0, u: 0.0, v: 0.0 };
-                picture.triangles = list.iter().map(|t| t.px().map(corner)).collect();
+                picture.triangles = list.iter().map(|t| t.px().map(plain_corner)).collect();
                 picture.snap = false;
             }
             Shape::Numbers { .. } => {}
@@ -155,18 +182,53 @@ impl From<&Case> for Picture {
     }
 }
 
+/// A vertex of the lattice in pixels, as the page has it.
 fn corner(vertex: ScreenVertex<DVec2>) -> Corner {
     let (x, y) = vertex.position.to_px();
     let DVec2 { x: u, y: v } = vertex.varying;
     Corner { x, y, w: 1.0 / vertex.inv_w, depth: vertex.depth, u, v }
 }
 
+/// A corner that carries nothing.
+fn plain_corner([x, y]: [f64; 2]) -> Corner {
+    Corner { x, y, w: 1.0, depth: 0.0, u: 0.0, v: 0.0 }
+}
+
+/// The part of a window that can be shown.
 fn cut(window: PixelRect) -> [i32; 4] {
-    let end = |low: i32, high: i32| high.min(low.saturating_add(MOST_SIDE_PX as i32));
-    [window.x0, window.y0, end(window.x0, window.x1), end(window.y0, window.y1)]
+    let side = MOST_SIDE_PX as i32;
+    let x1 = window.x1.min(window.x0.saturating_add(side));
+    let y1 = window.y1.min(window.y0.saturating_add(side));
+    [window.x0, window.y0, x1, y1]
+}
+
+/// A line between the centres of two pixels.
+pub(crate) fn line_between([x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> Line {
+    plain_line(PixelPoint::new(x0, y0), PixelPoint::new(x1, y1))
 }
 
 /// Positions in pixels, for the outline of what was drawn.
 pub(super) fn in_px(corners: Corners) -> [[f64; 2]; 3] {
     corners.map(|p| [p.x, p.y].map(|sub| f64::from(sub) / f64::from(SUBPIXELS)))
+}
+
+/// What somebody drew, or why nothing, with the name: an engine that refuses takes no place from the others.
+pub(super) fn panel(name: &str, drawn: Result<Value, NoAnswer>) -> Value {
+    let mut panel = drawn.unwrap_or_else(|refused| json!({ "refused": refused.to_string() }));
+    panel["name"] = json!(name);
+    panel
+}
+
+/// A panel for each of these names.
+pub(super) fn panels(by: &[String], draw: impl Fn(&str) -> Result<Value, NoAnswer>) -> Vec<Value> {
+    by.iter().map(|name| panel(name, draw(name))).collect()
+}
+
+/// The values of all pixels, row by row. A frame itself may hold more, between its rows.
+pub(super) fn flat<T: Copy>(frame: &Frame<T>) -> Vec<T> {
+    let mut all = Vec::new();
+    for (_, row) in frame.rows() {
+        all.extend_from_slice(row);
+    }
+    all
 }

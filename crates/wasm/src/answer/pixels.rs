@@ -3,12 +3,13 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::picture::Picture;
+use super::picture::{Picture, flat, panels};
+use crate::no_answer::NoAnswer;
 use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function_exact::probe::edges_at;
-use rasterproof_core::triangle::FreeCorners;
+use rasterproof_core::triangle::{Corners, FreeCorners};
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::published::Published;
 use rasterproof_registry::engines::{self, Engine, ExactEngine, Specimen};
@@ -20,10 +21,19 @@ use rasterproof_verify::oracle::rational::cover_and_count_ties;
 const RULES: [&str; 2] = ["exclusive-edges", "inclusive-edges"];
 
 /// The rasterizer of this name, or the planted fault.
-pub(super) fn lattice_engine(name: &str) -> Result<Engine, String> {
+pub(super) fn lattice_engine(name: &str) -> Result<Engine, NoAnswer> {
     let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
     let engine = entry.and_then(|entry| entry.engine);
-    engine.ok_or_else(|| format!("no rasterizer is called {name}"))
+    Ok(engine.ok_or_else(|| format!("no rasterizer is called {name}"))?)
+}
+
+/// How often an engine hits each pixel of a window.
+pub(crate) fn cover(engine: Engine, triangles: &[Corners], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for &corners in triangles {
+        engine.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+    }
+    hits
 }
 
 /// Who covers pixels on this page.
@@ -39,7 +49,8 @@ pub(super) enum Painter {
 
 impl Painter {
     /// The one of this name; off the lattice an engine stands for its exact form.
-    pub fn find(name: &str, snap: bool) -> Result<Self, String> {
+    pub fn find(name: &str, snap: bool) -> Result<Self, NoAnswer> {
+        // Off the lattice the two planted rules have exact forms of their own.
         match name {
             "exclusive-edges" if !snap => return Ok(Self::FreeStrict),
             "inclusive-edges" if !snap => {
@@ -47,9 +58,11 @@ impl Painter {
             }
             _ => {}
         }
+        // Of the planted faults only these rules are offered, so that a name in an address finds no other.
         let rule = RULES.contains(&name).then(|| engines::find_planted(name)).flatten();
         let entry = engines::find(name).copied().or(rule);
         let entry = entry.ok_or_else(|| format!("nobody is called {name}"))?;
+        // Published code takes real numbers, and an exact engine any: they need no lattice.
         if let Some(Specimen::Triangle(specimen)) = entry.specimen {
             return Ok(Self::Published(specimen));
         }
@@ -60,26 +73,24 @@ impl Painter {
             Some(engine) if snap => Ok(Self::Lattice(engine)),
             Some(_) => {
                 let exact = engines::find(&format!("{name}-exact"));
-                exact
-                    .and_then(|entry| entry.exact_engine)
-                    .map(Self::Free)
-                    .ok_or_else(|| format!("{name} draws on the lattice only"))
+                match exact.and_then(|entry| entry.exact_engine) {
+                    Some(exact) => Ok(Self::Free(exact)),
+                    None => Err(format!("{name} draws on the lattice only").into()),
+                }
             }
-            None => Err(format!("{name} draws no triangles")),
+            None => Err(format!("{name} draws no triangles").into()),
         }
     }
 
-    /// Hits in the window.
-    pub fn coverage(self, picture: &Picture) -> Result<Coverage, String> {
+    /// Hits in the window, of all triangles of the picture together.
+    pub fn coverage(self, picture: &Picture) -> Result<Coverage, NoAnswer> {
         let window = picture.window()?;
         let mut hits = Coverage::new(window, 0);
         match self {
             Self::Lattice(engine) => {
-                for triangle in picture.on_lattice()? {
-                    engine.cover(triangle.corners(), window, |s| {
-                        hits.hit(s.y_px, s.x0_px, s.x1_px);
-                    });
-                }
+                let list = picture.on_lattice()?;
+                let corners: Vec<_> = list.iter().map(Triangle::corners).collect();
+                hits = cover(engine, &corners, window);
             }
             Self::Free(engine) => {
                 for corners in free(picture)? {
@@ -88,22 +99,14 @@ impl Painter {
             }
             Self::FreeStrict => {
                 for corners in picture.as_given()? {
-                    let is_inside = |x_px: i32, y_px: i32| {
-                        edges_at(&corners, x_px, y_px)
-                            .is_some_and(|edges| edges.iter().all(|edge| edge.side.is_gt()))
-                    };
-                    for y_px in window.y0..window.y1 {
-                        for x_px in (window.x0..window.x1).filter(|&x_px| is_inside(x_px, y_px)) {
-                            hits.hit(y_px, x_px, x_px + 1);
-                        }
-                    }
+                    cover_strictly(&corners, &mut hits);
                 }
             }
             Self::Published(specimen) => {
                 for triangle in picture.as_real()? {
-                    specimen
-                        .cover(&triangle, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
-                        .map_err(|refused| refused.to_string())?;
+                    specimen.cover(&triangle, window, &mut |s| {
+                        hits.hit(s.y_px, s.x0_px, s.x1_px);
+                    })?;
                 }
             }
         }
@@ -111,8 +114,22 @@ impl Painter {
     }
 }
 
+/// Hits the pixels whose samples lie inside of all three edges.
+fn cover_strictly(corners: &FreeCorners, hits: &mut Coverage) {
+    let PixelRect { x0, y0, x1, y1 } = hits.bounds();
+    for y_px in y0..y1 {
+        for x_px in x0..x1 {
+            // A triangle without area has no edges and no inside.
+            let Some(edges) = edges_at(corners, x_px, y_px) else { return };
+            if edges.iter().all(|edge| edge.side.is_gt()) {
+                hits.hit(y_px, x_px, x_px + 1);
+            }
+        }
+    }
+}
+
 /// The corners of a picture for the exact forms: snapped first, where it snaps.
-fn free(picture: &Picture) -> Result<Vec<FreeCorners>, String> {
+fn free(picture: &Picture) -> Result<Vec<FreeCorners>, NoAnswer> {
     if !picture.snap {
         return picture.as_given();
     }
@@ -120,13 +137,14 @@ fn free(picture: &Picture) -> Result<Vec<FreeCorners>, String> {
 }
 
 /// The oracle's hits, and how many samples lie on a boundary.
-pub(super) fn truth(picture: &Picture) -> Result<(Coverage, u64), String> {
+pub(super) fn truth(picture: &Picture) -> Result<(Coverage, u64), NoAnswer> {
     let window = picture.window()?;
     if picture.snap {
         let list: Vec<Triangle> = picture.on_lattice()?;
         let ties = list.iter().map(|t| samples_on_boundary(&t.corners(), window)).sum();
         return Ok((Painter::Lattice(Engine::Oracle).coverage(picture)?, ties));
     }
+    // Off the lattice both come of one walk, whose numbers are fractions.
     let mut hits = Coverage::new(window, 0);
     let mut ties = 0;
     for corners in picture.as_given()? {
@@ -137,28 +155,22 @@ pub(super) fn truth(picture: &Picture) -> Result<(Coverage, u64), String> {
 
 /// Hits as digits, row by row; 9 stands for 9 and more.
 pub(super) fn digits(hits: &Coverage) -> String {
-    let digit = |hits: &u8| char::from(b'0' + (*hits).min(9));
-    hits.rows().flat_map(|(_, row)| row.iter().map(digit)).collect()
+    flat(hits).into_iter().map(|hits| char::from(b'0' + hits.min(9))).collect()
 }
 
-/// Pixels that are hit too seldom, and too often.
-pub(super) fn missing_and_extra(hits: &Coverage, truth: &Coverage) -> (u64, u64) {
-    let (mut missing, mut extra) = (0, 0);
-    for ((_, row), (_, right)) in hits.rows().zip(truth.rows()) {
-        for (hits, right) in row.iter().zip(right) {
-            missing += u64::from(hits < right);
-            extra += u64::from(hits > right);
-        }
+/// Hits beside the right ones.
+fn compared(hits: &Coverage, truth: &Coverage) -> Value {
+    let (mut missing, mut extra, mut twice) = (0, 0, 0);
+    for (hits, right) in flat(hits).into_iter().zip(flat(truth)) {
+        missing += u64::from(hits < right);
+        extra += u64::from(hits > right);
+        // Of those too many, the ones that are hit again.
+        twice += u64::from(hits > right && hits > 1);
     }
-    (missing, extra)
-}
-
-/// Those of the pixels hit too often that are hit more than once.
-fn again(hits: &Coverage, truth: &Coverage) -> usize {
-    let both = hits.rows().zip(truth.rows());
-    both.flat_map(|((_, row), (_, right))| row.iter().zip(right))
-        .filter(|&(hits, right)| hits > right && *hits > 1)
-        .count()
+    json!({
+        "hits": digits(hits), "covered": hits.covered(),
+        "missing": missing, "extra": extra, "twice": twice,
+    })
 }
 
 /// Asks for the pixels of a picture by several engines.
@@ -170,32 +182,24 @@ pub(super) struct Draw {
 }
 
 impl Draw {
-    pub fn answer(&self) -> Result<Value, String> {
+    /// Panels with the hits of each engine as digits, and how many pixels are `missing`, `extra` and hit `twice`; the oracle's hits in
+    /// `truth`, the samples on boundaries in `ties`, the triangles as they were drawn in `outlines`.
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
+        let snap = self.picture.snap;
+        // The oracle's pixels, with which each panel is compared.
         let (target, ties) = truth(&self.picture)?;
-        let outlines = match self.picture.snap {
+        let outlines = match snap {
             true => self.picture.outlines()?,
             false => self.picture.as_given()?.iter().map(FreeCorners::px).collect(),
         };
-        let panels: Vec<_> = self.by.iter().map(|name| self.panel(name, &target)).collect();
+        let panels = panels(&self.by, |name| {
+            let hits = Painter::find(name, snap)?.coverage(&self.picture)?;
+            Ok(compared(&hits, &target))
+        });
         Ok(json!({
             "panels": panels, "truth": digits(&target), "covered": target.covered(),
             "ties": ties, "outlines": outlines,
         }))
-    }
-
-    fn panel(&self, name: &str, target: &Coverage) -> Value {
-        let snap = self.picture.snap;
-        let hits = Painter::find(name, snap).and_then(|painter| painter.coverage(&self.picture));
-        match hits {
-            Ok(hits) => {
-                let (missing, extra) = missing_and_extra(&hits, target);
-                json!({
-                    "name": name, "hits": digits(&hits), "covered": hits.covered(),
-                    "missing": missing, "extra": extra, "twice": again(&hits, target),
-                })
-            }
-            Err(refused) => json!({ "name": name, "refused": refused }),
-        }
     }
 }
 

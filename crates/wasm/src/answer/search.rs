@@ -7,97 +7,114 @@ use serde_json::{Value, json};
 
 use super::lines::Pen;
 use super::picture::Picture;
-use super::pixels::{Painter, missing_and_extra, truth};
-use rasterproof_core::grid::PixelRect;
+use super::pixels::{Painter, truth};
+use crate::no_answer::NoAnswer;
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
-use rasterproof_registry::engines::{ENTRIES, Entry, LineEngine, SPECIMENS, Specimen};
+use rasterproof_registry::engines::{ENTRIES, LineEngine, SPECIMENS, Specimen};
 use rasterproof_verify::cases::named::{self, Input};
 use rasterproof_verify::cases::shrink::shrink;
 use rasterproof_verify::cases::{self, Family, unsnapped};
 
+/// A name that the page offers, with what it is about.
+fn entry(name: &str, about: &str) -> Value {
+    json!({ "name": name, "about": about })
+}
+
+/// The entries of a list of families.
+fn family_entries(families: &[Family]) -> Vec<Value> {
+    families.iter().map(|family| entry(family.name, family.about)).collect()
+}
+
 /// Every name that the page offers.
 pub(super) fn list() -> Value {
-    let entry = |name: &str, about: &str| json!({ "name": name, "about": about });
-    let families = |lines: bool| -> Vec<Value> {
-        let list = if lines { cases::lines::FAMILIES } else { cases::triangles::FAMILIES };
-        list.iter().map(|family| entry(family.name, family.about)).collect()
-    };
-    let off: Vec<_> = unsnapped::FAMILIES.iter().map(|f| entry(f.name, f.about)).collect();
-    let named: Vec<_> = named::named()
-        .iter()
-        .filter(|case| matches!(case.input, Input::Drawn { .. }))
-        .map(|case| entry(case.name, case.about))
-        .collect();
+    let mut named = Vec::new();
+    for case in named::named() {
+        // What every engine refuses has no picture.
+        if matches!(case.input, Input::Drawn { .. }) {
+            named.push(entry(case.name, case.about));
+        }
+    }
+    // What the book's code was run on natively, once.
     let recorded: Vec<_> = RECORDED.iter().map(|case| entry(case.name, case.specimen)).collect();
-    let painter =
-        |e: &Entry| json!({ "name": e.name, "about": e.about, "specimen": e.specimen.is_some() });
-    let all = || ENTRIES.iter().chain(&SPECIMENS);
-    let triangles: Vec<_> = all()
-        .filter(|e| {
-            let covers = e.engine.is_some() || e.exact_engine.is_some();
-            covers || matches!(e.specimen, Some(Specimen::Triangle(_)))
-        })
-        .map(painter)
-        .collect();
-    let lines: Vec<_> = all()
-        .filter(|e| e.line_engine.is_some() || matches!(e.specimen, Some(Specimen::Line(_))))
-        .map(painter)
-        .collect();
+    // Some draw both, most of them one.
+    let (mut triangles, mut lines) = (Vec::new(), Vec::new());
+    for by in ENTRIES.iter().chain(&SPECIMENS) {
+        let mut shown = entry(by.name, by.about);
+        shown["specimen"] = json!(by.specimen.is_some());
+        let covers = by.engine.is_some() || by.exact_engine.is_some();
+        if covers || matches!(by.specimen, Some(Specimen::Triangle(_))) {
+            triangles.push(shown.clone());
+        }
+        if by.line_engine.is_some() || matches!(by.specimen, Some(Specimen::Line(_))) {
+            lines.push(shown);
+        }
+    }
     json!({
-        "families": families(false), "lineFamilies": families(true), "offFamilies": off,
+        "families": family_entries(cases::triangles::FAMILIES),
+        "lineFamilies": family_entries(cases::lines::FAMILIES),
+        "offFamilies": family_entries(unsnapped::FAMILIES),
         "named": named, "recorded": recorded, "triangles": triangles, "lines": lines,
     })
 }
 
 /// A named case, or a recorded input of the book's code.
-pub(super) fn named(name: &str) -> Result<Value, String> {
+pub(super) fn named(name: &str) -> Result<Value, NoAnswer> {
     if let Some(case) = RECORDED.iter().find(|case| case.name == name) {
-        let corner = |[x, y]: [f64; 2]| json!({ "x": x, "y": y });
-        let triangles: Vec<_> = case.corners_px().iter().map(|t| t.map(corner)).collect();
+        let mut triangles = Vec::new();
+        for corners in case.corners_px() {
+            triangles.push(corners.map(|[x, y]| json!({ "x": x, "y": y })));
+        }
         let side = RECORDED_SIDE_PX;
         let picture =
             json!({ "window": [0, 0, side, side], "snap": false, "triangles": triangles });
         return Ok(json!({ "name": name, "about": case.specimen, "picture": picture }));
     }
+    // All others are cases by name, of which those that are refused have no picture.
     let found = named::find(name).ok_or_else(|| format!("no case is called '{name}'"))?;
     match &found.input {
         Input::Drawn { case, .. } => Ok(json!({
             "name": found.name, "about": found.about, "picture": Picture::from(case),
         })),
-        Input::Refused(_) => Err(format!("{name} is refused by every engine: {}", found.about)),
+        Input::Refused(_) => {
+            Err(format!("{name} is refused by every engine: {}", found.about).into())
+        }
     }
 }
 
-pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, String> {
+/// The case of a family with this seed and number.
+pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, NoAnswer> {
     let family = family(name)?;
+    // The window is cut where it is larger than the page shows, as it is while searching.
     let picture = Picture::from(&family.case(seed, index));
     Ok(json!({ "name": name, "about": family.about, "picture": picture }))
 }
 
-fn family(name: &str) -> Result<&'static Family, String> {
+/// The family of this name, of triangles, of lines, or off the lattice.
+fn family(name: &str) -> Result<&'static Family, NoAnswer> {
     let family = cases::all_families().find(|family| family.name == name);
-    family.ok_or_else(|| format!("no family is called '{name}'"))
+    Ok(family.ok_or_else(|| format!("no family is called '{name}'"))?)
 }
 
 /// Whether somebody's pixels of a case differ from the oracle's; what is refused does not differ.
 fn is_caught(by: &str, picture: &Picture) -> bool {
-    let wrong = || -> Result<bool, String> {
-        let window = picture.window()?;
-        let lines = picture.lines();
-        if lines.is_empty() {
-            let hits = Painter::find(by, picture.snap)?.coverage(picture)?;
-            return Ok(missing_and_extra(&hits, &truth(picture)?.0) != (0, 0));
-        }
-        let pen = Pen::find(by)?;
-        let sorted = |pen: Pen, window: PixelRect| -> Result<Vec<_>, String> {
-            let drawn: Result<Vec<_>, _> = lines.iter().map(|l| pen.pixels(l, window)).collect();
-            let mut pixels = drawn?.concat();
-            pixels.sort_unstable();
-            Ok(pixels)
-        };
-        Ok(sorted(pen, window)? != sorted(Pen::Engine(LineEngine::Oracle), window)?)
-    };
-    wrong().unwrap_or(false)
+    differs(by, picture).unwrap_or(false)
+}
+
+/// Whether they differ: of triangles in how often a pixel is hit, of lines in which pixels are set, and how often.
+fn differs(by: &str, picture: &Picture) -> Result<bool, NoAnswer> {
+    if picture.lines().is_empty() {
+        let hits = Painter::find(by, picture.snap)?.coverage(picture)?;
+        return Ok(hits != truth(picture)?.0);
+    }
+    let drawn = sorted_pixels(Pen::find(by)?, picture)?;
+    Ok(drawn != sorted_pixels(Pen::Engine(LineEngine::Oracle), picture)?)
+}
+
+/// The pixels of all lines: the order in which they are set does not matter here.
+fn sorted_pixels(pen: Pen, picture: &Picture) -> Result<Vec<[i32; 2]>, NoAnswer> {
+    let mut pixels = pen.each(&picture.lines(), picture.window()?)?.concat();
+    pixels.sort_unstable();
+    Ok(pixels)
 }
 
 /// Asks for the first of `count` cases from number `from` on which somebody is caught.
@@ -112,17 +129,21 @@ pub(super) struct Search {
 }
 
 impl Search {
-    pub fn answer(&self) -> Result<Value, String> {
+    /// The number of the case in `found`, null where none was, and the number to go on from in `next`.
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
         let family = family(&self.family)?;
-        let picture = |index| Picture::from(&family.case(self.seed, index));
-        if picture(0).lines().is_empty() {
-            Painter::find(&self.by, picture(0).snap)?;
+        // Who draws nothing of this family is refused at once, since nothing is found afterwards.
+        let first = Picture::from(&family.case(self.seed, 0));
+        if first.lines().is_empty() {
+            Painter::find(&self.by, first.snap)?;
         } else {
             Pen::find(&self.by)?;
         }
+        // The page asks again from `next` on, and stays answerable in between.
         let end = self.from.saturating_add(self.count.min(100_000));
         for index in self.from..end {
-            let picture = picture(index);
+            let picture = Picture::from(&family.case(self.seed, index));
+            // The first one is enough; the page shrinks it next.
             if is_caught(&self.by, &picture) {
                 return Ok(json!({ "found": index, "next": index + 1, "picture": picture }));
             }
@@ -140,20 +161,23 @@ pub(super) struct Shrink {
 }
 
 impl Shrink {
-    pub fn answer(&self) -> Result<Value, String> {
+    /// The picture of each case that still failed, the smallest last.
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
         if !is_caught(&self.by, &self.picture) {
-            return Err(format!("{} draws this rightly, so there is nothing to shrink", self.by));
+            return Err(
+                format!("{} draws this rightly, so there is nothing to shrink", self.by).into()
+            );
         }
         // What is tried and still fails is what is taken, so the trials tell the way.
         let steps = RefCell::new(vec![json!(self.picture)]);
-        let fails = |picture: Picture| {
+        shrink(self.picture.case()?, |smaller| {
+            let picture = Picture::from(smaller);
             let fails = is_caught(&self.by, &picture);
             if fails {
                 steps.borrow_mut().push(json!(picture));
             }
             fails
-        };
-        shrink(self.picture.case()?, |smaller| fails(Picture::from(smaller)));
+        });
         Ok(json!({ "steps": steps.into_inner() }))
     }
 }

@@ -10,6 +10,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::target::to_colour;
 
+/// x to the right and y down, in pixels of a window or in units of the drawing.
 pub(super) type Point = [f64; 2];
 
 /// Every drawing is as wide as a telephone shows without scaling it down much.
@@ -30,12 +31,14 @@ const COLOURS: [(&str, [&str; 2]); 11] = [
     ("grip", ["#0b57d0", "#7fb0ff"]),
 ];
 
+/// What each class looks like; a colour in braces depends on the theme.
 const RULES: &str = ".paper{fill:{paper}}.grid{fill:none;stroke:{grid}}.ink{fill:none;stroke:{ink};stroke-width:2}\
     .soft{fill:none;stroke:{soft};stroke-width:1.5;stroke-dasharray:5 4}.dot{fill:{ink}}\
     .on{fill:{on}}.miss{fill:{miss}}.extra{fill:{extra}}.twice{fill:{twice}}\
     .dark{fill:#3d4a57}.pale{fill:#e8c48a}.one{fill:{one}}.two{fill:{two}}.grip{fill:{grip};stroke:{paper};stroke-width:2}\
     text{fill:{ink};font:15px sans-serif}";
 
+/// The rules of style with their colours.
 fn rules(is_dark: bool) -> String {
     fill(RULES, &COLOURS.map(|(name, colours)| (name, colours[usize::from(is_dark)].to_owned())))
 }
@@ -63,9 +66,8 @@ impl Panel {
 
     /// Where a position in pixels lies on the drawing.
     pub fn place(&self, [x, y]: Point) -> Point {
-        let PixelRect { x0, y0, .. } = self.window;
-        let along = |value: f64, first: i32| (value - f64::from(first)) * self.unit;
-        [self.corner[0] + along(x, x0), self.corner[1] + along(y, y0)]
+        let (right, down) = (x - f64::from(self.window.x0), y - f64::from(self.window.y0));
+        [self.corner[0] + right * self.unit, self.corner[1] + down * self.unit]
     }
 
     /// Every pixel of the window, row by row.
@@ -74,8 +76,29 @@ impl Panel {
         (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]))
     }
 
+    /// Where its lower border lies, below which other parts of the drawing begin.
     pub fn bottom(&self) -> f64 {
         self.corner[1] + f64::from(self.window.height()) * self.unit
+    }
+}
+
+/// The centre of a pixel, where it is sampled, in pixels.
+pub(super) fn centre(pixel: [i32; 2]) -> Point {
+    pixel.map(|v| f64::from(v) + 0.5)
+}
+
+/// Space from above: x to the right, z up.
+#[derive(Clone, Copy)]
+pub(super) struct FromAbove {
+    /// Where the eye lies on the drawing, from which x and z are counted.
+    pub eye: Point,
+    pub unit: f64,
+}
+
+impl FromAbove {
+    /// Where a point at this x and z lies on the drawing.
+    pub fn place(&self, x: f64, z: f64) -> Point {
+        [self.eye[0] + x * self.unit, self.eye[1] - z * self.unit]
     }
 }
 
@@ -112,21 +135,25 @@ impl Drawing {
     pub fn pixel(&mut self, panel: &Panel, [x, y]: [i32; 2], class: &str, letter: &str) {
         self.square(panel, [x, y], class.to_owned());
         if self.is_answered && !letter.is_empty() {
-            let [x, y] = panel.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            let [x, y] = panel.place(centre([x, y]));
+            // The line on which letters stand is below their middle.
             self.text([x, y + 5.0], "middle", letter);
         }
     }
 
+    /// A pixel of the answer in a colour that is computed.
     pub fn colour(&mut self, panel: &Panel, pixel: [i32; 2], rgb: DVec3) {
         let [r, g, b, _] = to_colour(rgb);
         self.square(panel, pixel, format!("#{r:02x}{g:02x}{b:02x}"));
     }
 
+    /// Paints a pixel, if the answer is shown.
     fn square(&mut self, panel: &Panel, [x, y]: [i32; 2], paint: String) {
         if !self.is_answered {
             return;
         }
         let (corner, unit) = (panel.place([x, y].map(f64::from)), panel.unit);
+        // A pixel that goes on a run makes it longer, so that a picture is small enough for a page.
         match self.runs.last_mut() {
             Some(run)
                 if run.paint == paint && [run.corner[0] + run.width, run.corner[1]] == corner =>
@@ -151,6 +178,7 @@ impl Drawing {
         }
         let mut all = String::new();
         for (paint, path) in paths {
+            // A colour of its own stands in the path, a class in the rules.
             let paint = match paint.strip_prefix('#') {
                 Some(_) => format!("class=\"px\" fill=\"{paint}\""),
                 None => format!("class=\"px {paint}\""),
@@ -178,8 +206,8 @@ impl Drawing {
     /// The centres of the pixels, where they are sampled.
     pub fn samples(&mut self, panel: &Panel) {
         let mut path = String::new();
-        for [x, y] in panel.pixels() {
-            let [x, y] = panel.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+        for pixel in panel.pixels() {
+            let [x, y] = panel.place(centre(pixel));
             let _ = write!(path, "M{} {y}h3v3h-3z", x - 1.5);
         }
         self.add(format_args!(
@@ -203,17 +231,33 @@ impl Drawing {
         self.add(format_args!("<path class=\"{class}\" d=\"{path}{end}\"/>"));
     }
 
+    /// A line with a point at its end.
     pub fn arrow(&mut self, class: &str, from: Point, to: Point) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let scale = 9.0 / (dx * dx + dy * dy).sqrt().max(1.0);
-        let barb = |turn: f64| {
-            let (x, y) = (dx * scale, dy * scale);
-            [to[0] - x + y * turn, to[1] - y - x * turn]
-        };
+        let (x, y) = (dx * scale, dy * scale);
+        // The barbs begin behind the point, each half as far to its side.
+        let one = [to[0] - x - y * 0.5, to[1] - y + x * 0.5];
+        let other = [to[0] - x + y * 0.5, to[1] - y - x * 0.5];
         self.path(class, &[from, to], false);
-        self.path(class, &[barb(-0.5), to, barb(0.5)], false);
+        self.path(class, &[one, to, other], false);
     }
 
+    /// The border of a panel whose single pixels are too small for a grid.
+    pub fn border(&mut self, panel: &Panel) {
+        let PixelRect { x1, y1, .. } = panel.window;
+        let [left, top] = panel.corner;
+        let [right, bottom] = panel.place([x1, y1].map(f64::from));
+        self.path("grid", &[[left, top], [right, top], [right, bottom], [left, bottom]], true);
+    }
+
+    /// A hook below the middle of a row of 13 pixels.
+    pub fn middle_mark(&mut self, panel: &Panel) {
+        let [x, y] = panel.place([6.5, 1.0]);
+        self.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
+    }
+
+    /// A disk that marks a point of the drawing.
     pub fn dot(&mut self, [x, y]: Point, radius: f64) {
         self.add(format_args!(
             "<circle class=\"dot\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>"
@@ -227,6 +271,7 @@ impl Drawing {
         ));
     }
 
+    /// Something to drag; `scale` is how far it moves for a step of 1 to the right and down.
     pub fn grip(&mut self, [x, y]: Point, scale: Point) {
         self.grips.push(([x, y], scale));
         // Before the answer it cannot be dragged, and is a point like others.
@@ -236,6 +281,7 @@ impl Drawing {
         ));
     }
 
+    /// A grip with its letter beside it.
     pub fn named_grip(&mut self, [x, y]: Point, scale: Point, letter: &str) {
         self.grip([x, y], scale);
         self.text([x + 12.0, y - 6.0], "start", letter);
@@ -244,6 +290,7 @@ impl Drawing {
     /// A grip on a scale of its own below the picture, for a value that has no place in it.
     pub fn slider(&mut self, given: &FigureInput<'_>, grip: usize, top: f64, says: &str) {
         let ([low, _], [high, _]) = (given.grips[grip].low, given.grips[grip].high);
+        // The words before it are as long as 100 px at most.
         let (left, right) = (110.0, WIDTH - 20.0);
         let scale = (right - left) / (high - low);
         let spot = [left + (given.at[grip][0] - low) * scale, top];
@@ -254,15 +301,18 @@ impl Drawing {
 
     /// Arrows from each point of the drawing to the next one, and back to the first.
     pub fn arrows(&mut self, class: &str, points: [Point; 3]) {
-        (0..3).for_each(|i| self.arrow(class, points[i], points[(i + 1) % 3]));
+        for i in 0..3 {
+            self.arrow(class, points[i], points[(i + 1) % 3]);
+        }
     }
 
     /// Hits beside the right ones: missing, too many, hit more than once.
     pub fn hits(&mut self, panel: &Panel, hits: &Coverage, right: &Coverage) {
         for pixel in panel.pixels() {
-            let count = |frame: &Coverage| frame.get(pixel[0], pixel[1]).unwrap_or(0);
-            let (class, letter) = match (count(hits), count(right)) {
+            let [hits, right] = [hits, right].map(|frame| frame.get(pixel[0], pixel[1]));
+            let (class, letter) = match (hits.unwrap_or(0), right.unwrap_or(0)) {
                 (0, 0) => continue,
+                // Missing, too many where nothing should be, right, and again.
                 (is, should) if is < should => ("miss", "−"),
                 (1, 0) => ("extra", "+"),
                 (1, _) => ("on", ""),
@@ -280,6 +330,7 @@ impl Drawing {
         }
     }
 
+    /// The picture within a page, whose theme is known.
     pub fn inline(&self, is_dark: bool) -> String {
         let (Self { height, body, .. }, pixels) = (self, self.pixels());
         let rules = rules(is_dark);

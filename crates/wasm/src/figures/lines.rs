@@ -1,46 +1,31 @@
 //! Figures about lines.
 
-use super::drawing::{Drawing, Panel};
+use super::drawing::{Drawing, Panel, centre};
 use super::{FigureInput, LiveFigure, Predict};
-use rasterproof_core::contract::DrawLine as _;
+use crate::answer::{Pen, line_between, strangers};
+use crate::no_answer::NoAnswer;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::PixelPoint;
-use rasterproof_faults::published::PublishedLine as _;
 use rasterproof_faults::published::sysu_bresenham::SysuBresenham;
-use rasterproof_verify::cases::named::plain_line;
 
-type Pixels = Vec<[i32; 2]>;
-
+/// The pixels of a line between two pixels, in the order in which a pen sets them.
 pub(super) fn drawn(
-    given: &FigureInput<'_>,
+    pen: Pen,
     from: [i32; 2],
     to: [i32; 2],
     window: PixelRect,
-) -> Pixels {
-    let line = plain_line(PixelPoint::new(from[0], from[1]), PixelPoint::new(to[0], to[1]));
-    let mut pixels = Vec::new();
-    given.pen.draw(&line, window, |f| pixels.push([f.x_px, f.y_px]));
-    pixels
+) -> Result<Vec<[i32; 2]>, NoAnswer> {
+    pen.pixels(&line_between(from, to), window)
 }
 
-/// A line drawn both ways, by a drawer whose ties depend on the direction.
-pub(super) fn there_and_back(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
+/// A line drawn both ways, by a drawer whose ties depend on the direction. Asks how many pixels only one of the two has.
+pub(super) fn there_and_back(given: &FigureInput<'_>) -> Result<LiveFigure, NoAnswer> {
+    // The grip moves in whole pixels.
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(10, 6, 34.0, 10.0);
-    let published = |from: [i32; 2], to: [i32; 2]| -> Result<Pixels, String> {
-        let mut pixels = Vec::new();
-        let ends = [from, to].map(|p| p.map(|v| f64::from(v) + 0.5));
-        SysuBresenham
-            .draw(ends, panel.window, &mut |x, y| pixels.push([x, y]))
-            .map_err(|refused| refused.to_string())?;
-        Ok(pixels)
-    };
-    let (there, back) = (published([0, 0], end)?, published(end, [0, 0])?);
-    let differ = |there: &Pixels, back: &Pixels| {
-        let lacks = |a: &Pixels, b: &Pixels| a.iter().filter(|p| !b.contains(p)).count();
-        lacks(there, back) + lacks(back, there)
-    };
-    let ours = [drawn(given, [0, 0], end, panel.window), drawn(given, end, [0, 0], panel.window)];
+    let published = Pen::Published(&SysuBresenham);
+    let there = drawn(published, [0, 0], end, panel.window)?;
+    let back = drawn(published, end, [0, 0], panel.window)?;
+    // A pixel of both has no arrow on it.
     let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for pixel in panel.pixels() {
         match (there.contains(&pixel), back.contains(&pixel)) {
@@ -51,43 +36,43 @@ pub(super) fn there_and_back(given: &FigureInput<'_>) -> Result<LiveFigure, Stri
         }
     }
     drawing.grid(&panel);
-    let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
-    drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
-    let count = differ(&there, &back);
+    drawing.outline(&panel, "ink", &[centre([0, 0]), centre(end)], false);
+    drawing.grip(panel.place(centre(end)), [panel.unit; 2]);
+    let differ = strangers(&there, &back) + strangers(&back, &there);
+    // Our own pen, for the sentence that compares.
+    let pen = Pen::Engine(given.pen);
+    let there = drawn(pen, [0, 0], end, panel.window)?;
+    let back = drawn(pen, end, [0, 0], panel.window)?;
+    let ours = strangers(&there, &back) + strangers(&back, &there);
     let [x, y] = end;
     Ok(LiveFigure {
         drawing,
-        predict: Predict::Number(count as f64, 0),
-        values: vec![
-            ("differ", count.to_string()),
-            ("ours", differ(&ours[0], &ours[1]).to_string()),
-        ],
+        predict: Predict::Number(differ as f64, 0),
+        values: vec![("differ", differ.to_string()), ("ours", ours.to_string())],
         link: Some(format!(
             "#scene=line&lines=0,0,{x},{y};{x},{y},0,0&window=0,0,10,6&by=sysu-bresenham,dda&step=99"
         )),
     })
 }
 
-/// Asks which pixels a line from pixel (0, 0) to the grip draws.
-pub(super) fn line_pixels(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
+/// Asks which pixels a line from pixel (0, 0) to the grip draws: one for each step along its longer axis.
+pub(super) fn line_pixels(given: &FigureInput<'_>) -> Result<LiveFigure, NoAnswer> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(9, 6, 36.0, 10.0);
-    let line = drawn(given, [0, 0], end, panel.window);
+    // In the order of the pen, which the figure does not show.
+    let line = drawn(Pen::Engine(given.pen), [0, 0], end, panel.window)?;
     let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for &pixel in &line {
         drawing.pixel(&panel, pixel, "on", "");
     }
     drawing.grid(&panel);
     drawing.samples(&panel);
-    let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
-    drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
-    let pixels = panel.pixels().map(|pixel| (pixel, line.contains(&pixel))).collect();
+    drawing.outline(&panel, "ink", &[centre([0, 0]), centre(end)], false);
+    drawing.grip(panel.place(centre(end)), [panel.unit; 2]);
     let [x, y] = end;
     Ok(LiveFigure {
         drawing,
-        predict: Predict::Pixels(panel, pixels),
+        predict: Predict::among(panel, &line),
         values: vec![("count", line.len().to_string())],
         link: Some(format!(
             "#scene=line&lines=0,0,{x},{y}&window=0,0,9,6&by=dda,bresenham&step=99"

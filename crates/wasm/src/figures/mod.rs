@@ -14,11 +14,10 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
-use crate::answer::answer_value;
+use crate::no_answer::NoAnswer;
 use drawing::{Drawing, Panel, Point};
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 use rasterproof_registry::engines::{self, Engine, LineEngine};
 
@@ -61,6 +60,7 @@ struct Text {
     grips: Vec<String>,
 }
 
+/// Both have the same figures, with the same grips and numbers.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
@@ -82,15 +82,53 @@ struct FigureInput<'a> {
     pen: LineEngine,
 }
 
+/// What the reader predicts before the answer is shown, and what is right.
 enum Predict {
-    /// Which of these pixels of a panel.
-    Pixels(Panel, Vec<([i32; 2], bool)>),
+    /// Which pixels of a panel; the right answer for each of them, row by row.
+    Pixels(Panel, Vec<bool>),
     /// The right answer is the option with this index.
     Choice(usize),
     /// The right answer is a number, shown with so many decimals.
     Number(f64, usize),
 }
 
+impl Predict {
+    /// The right pixels are those that are hit.
+    fn covered(panel: Panel, hits: &Coverage) -> Self {
+        let right = panel.pixels().map(|[x, y]| hits.get(x, y) != Some(0));
+        Self::Pixels(panel, right.collect())
+    }
+
+    /// The right pixels are those of a list.
+    fn among(panel: Panel, list: &[[i32; 2]]) -> Self {
+        Self::Pixels(panel, panel.pixels().map(|pixel| list.contains(&pixel)).collect())
+    }
+
+    /// What the page needs to ask for a prediction, and to say whether it is right.
+    fn answer(&self, text: &Text, words: &[(&str, String)]) -> Value {
+        match self {
+            Self::Pixels(panel, right) => {
+                // Each cell with its corner and side on the drawing, to be clicked there.
+                let mut cells = Vec::new();
+                for [x, y] in panel.pixels() {
+                    let [left, top] = panel.place([x, y].map(f64::from));
+                    cells.push(json!([left, top, panel.unit, x, y]));
+                }
+                json!({ "kind": "pixels", "cells": cells, "right": right })
+            }
+            Self::Choice(right) => {
+                let options: Vec<_> =
+                    text.options.iter().map(|option| fill(option, words)).collect();
+                json!({ "kind": "choice", "options": options, "right": right })
+            }
+            Self::Number(value, decimals) => {
+                json!({ "kind": "number", "decimals": decimals, "right": format!("{value:.decimals$}") })
+            }
+        }
+    }
+}
+
+/// What a figure shows for one position of its grips.
 struct LiveFigure {
     drawing: Drawing,
     predict: Predict,
@@ -100,8 +138,10 @@ struct LiveFigure {
     link: Option<String>,
 }
 
-type Draw = fn(&FigureInput<'_>) -> Result<LiveFigure, String>;
+/// A figure may be dragged where an engine refuses it; the page then says why.
+type Draw = fn(&FigureInput<'_>) -> Result<LiveFigure, NoAnswer>;
 
+/// Who draws each figure of `figures.json`, by its name there.
 const DRAWN_BY: [(&str, Draw); 30] = [
     ("one-sample", coverage::one_sample),
     ("snap-to-even", coverage::snap_to_even),
@@ -135,6 +175,7 @@ const DRAWN_BY: [(&str, Draw); 30] = [
     ("texel", light::texel),
 ];
 
+/// Asks for a figure as it is with its grips at these positions.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Ask {
@@ -152,50 +193,46 @@ pub(crate) struct Ask {
 }
 
 impl Ask {
-    pub fn answer(&self) -> Result<Value, String> {
+    /// The picture, what is asked and what is right, the texts with their numbers, and the grips with their ranges.
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
         let figure = find(&self.name)?;
         let text = figure.text(self.language);
         let (at, drawn) = figure.draw(&self.at, self.is_answered, self.by.as_deref())?;
         let words = figure.words(&at, &drawn);
-        let fill = |text: &str| fill(text, &words);
-        let predict = match &drawn.predict {
-            Predict::Pixels(panel, pixels) => {
-                let cell = |([x, y], _): &([i32; 2], bool)| {
-                    let [left, top] = panel.place([*x, *y].map(f64::from));
-                    json!([left, top, panel.unit, x, y])
-                };
-                json!({
-                    "kind": "pixels", "cells": pixels.iter().map(cell).collect::<Vec<_>>(),
-                    "right": pixels.iter().map(|(_, is_right)| is_right).collect::<Vec<_>>(),
-                })
-            }
-            Predict::Choice(right) => {
-                let options: Vec<_> = text.options.iter().map(|option| fill(option)).collect();
-                json!({ "kind": "choice", "options": options, "right": right })
-            }
-            Predict::Number(value, decimals) => {
-                json!({ "kind": "number", "decimals": decimals, "right": format!("{value:.decimals$}") })
-            }
+        // A grip moves within its range in space, and its spot on the drawing moves with it.
+        let mut grips = Vec::new();
+        for (i, (spot, scale)) in drawn.drawing.grips.iter().enumerate() {
+            let grip = &figure.grips[i];
+            grips.push(json!({
+                "name": text.grips[i], "value": at[i], "spot": spot, "scale": scale,
+                "low": grip.low, "high": grip.high, "step": grip.step,
+            }));
+        }
+        let mut values = Map::new();
+        for (name, text) in &words {
+            values.insert((*name).to_owned(), json!(text));
+        }
+        // Without a scene that draws the same, the playground shows the figure with its grips here.
+        let link = match &drawn.link {
+            Some(link) => link.clone(),
+            None => format!("#scene=figure&figure={}&at={}", figure.name, json!(at)),
         };
-        let grips = figure.grips.iter().zip(&text.grips).zip(&at).zip(&drawn.drawing.grips);
-        let grips: Vec<_> = grips
-            .map(|(((grip, name), value), (spot, scale))| {
-                json!({
-                    "name": name, "value": value, "spot": spot, "scale": scale,
-                    "low": grip.low, "high": grip.high, "step": grip.step,
-                })
-            })
-            .collect();
-        let values: Map<_, _> =
-            words.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
-        let link = drawn
-            .link
-            .unwrap_or_else(|| format!("#scene=figure&figure={}&at={}", figure.name, json!(at)));
         Ok(json!({
-            "title": text.title, "question": fill(&text.question), "answer": fill(&text.answer),
-            "alt": fill(&text.alt), "at": at, "svg": drawn.drawing.inline(self.is_dark), "predict": predict,
+            "title": text.title, "question": fill(&text.question, &words),
+            "answer": fill(&text.answer, &words), "alt": fill(&text.alt, &words), "at": at,
+            "svg": drawn.drawing.inline(self.is_dark), "predict": drawn.predict.answer(text, &words),
             "grips": grips, "link": link, "values": values,
         }))
+    }
+}
+
+impl Grip {
+    /// The nearest step to a value along an axis that the grip can reach.
+    fn on_step(&self, axis: usize, value: f64) -> f64 {
+        let (low, high) = (self.low[axis], self.high[axis]);
+        let on_step = low + ((value - low) / self.step).round() * self.step;
+        // Steps such as 0.1 leave a last bit behind.
+        ((on_step * 1e6).round() / 1e6).clamp(low, high)
     }
 }
 
@@ -214,30 +251,27 @@ impl Figure {
     /// Draws the figure; the positions of the grips are brought into their ranges and onto their steps.
     fn draw(
         &self,
-        at: &[Point],
+        given: &[Point],
         is_answered: bool,
         by: Option<&str>,
-    ) -> Result<(Vec<Point>, LiveFigure), String> {
-        let place = |(i, grip): (usize, &Grip)| {
-            let given = at.get(i).unwrap_or(&grip.start);
-            let along = |axis: usize| {
-                let (low, high) = (grip.low[axis], grip.high[axis]);
-                let on_step = low + ((given[axis] - low) / grip.step).round() * grip.step;
-                // Steps such as 0.1 leave a last bit behind.
-                ((on_step * 1e6).round() / 1e6).clamp(low, high)
-            };
-            [along(0), along(1)]
-        };
-        let at: Vec<Point> = self.grips.iter().enumerate().map(place).collect();
-        if at.as_flattened().iter().any(|v| v.is_nan()) {
-            return Err(format!("{}: a grip is nowhere", self.name));
+    ) -> Result<(Vec<Point>, LiveFigure), NoAnswer> {
+        // A grip of which nothing is said stays where it begins.
+        let mut at = Vec::new();
+        for (i, grip) in self.grips.iter().enumerate() {
+            let [x, y] = *given.get(i).unwrap_or(&grip.start);
+            at.push([grip.on_step(0, x), grip.on_step(1, y)]);
         }
+        if at.as_flattened().iter().any(|v| v.is_nan()) {
+            return Err(format!("{}: a grip is nowhere", self.name).into());
+        }
+        // Whoever draws only lines leaves triangles to the scanline engine, and the other way round.
         let (mut fill, mut pen) = (Engine::Scanline, LineEngine::Dda);
         if let Some(name) = by {
             let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
             let entry = entry.ok_or_else(|| format!("nobody is called {name}"))?;
             (fill, pen) = (entry.engine.unwrap_or(fill), entry.line_engine.unwrap_or(pen));
         }
+        // The names of `figures.json` and those here may differ while one is written.
         let given = FigureInput { grips: &self.grips, at: &at, is_answered, fill, pen };
         let draw = DRAWN_BY.iter().find(|(name, _)| *name == self.name);
         let (_, draw) = draw.ok_or_else(|| format!("nobody draws {}", self.name))?;
@@ -247,36 +281,47 @@ impl Figure {
 
     /// What stands for the names in braces in the texts.
     fn words<'a>(&'a self, at: &[Point], drawn: &LiveFigure) -> Vec<(&'a str, String)> {
-        let positions = self.grips.iter().zip(at).flat_map(|(grip, at)| grip.names.iter().zip(at));
-        let positions = positions.map(|(name, value)| (name.as_str(), number(*value, 6)));
-        positions.filter(|(name, _)| !name.is_empty()).chain(drawn.values.iter().cloned()).collect()
+        let mut words = Vec::new();
+        for (grip, at) in self.grips.iter().zip(at) {
+            for (name, value) in grip.names.iter().zip(at) {
+                if !name.is_empty() {
+                    words.push((name.as_str(), number(*value, 6)));
+                }
+            }
+        }
+        words.extend(drawn.values.iter().cloned());
+        words
     }
 
     /// The numbers that the prose of its page may repeat, each by its name, where the grips begin.
-    pub fn numbers(&self) -> Result<Vec<(String, f64)>, String> {
+    pub fn numbers(&self) -> Result<Vec<(String, f64)>, NoAnswer> {
         let (at, drawn) = self.draw(&[], true, None)?;
-        let words = self.words(&at, &drawn).into_iter();
-        let number = |(name, text): (&str, String)| Some((name.to_owned(), text.parse().ok()?));
-        Ok(words.filter_map(number).collect())
+        let mut numbers = Vec::new();
+        for (name, text) in self.words(&at, &drawn) {
+            // What is a word and no number is not repeated.
+            if let Ok(value) = text.parse() {
+                numbers.push((name.to_owned(), value));
+            }
+        }
+        Ok(numbers)
     }
 
-    /// The picture of the figure with its answer, as a file.
-    pub fn still(&self) -> Result<String, String> {
+    /// The picture of the figure with its answer, as a file: what a page shows where no script runs.
+    pub fn still(&self) -> Result<String, NoAnswer> {
         Ok(self.draw(&[], true, None)?.1.drawing.file())
     }
 
     /// What a page says in the place of the figure, with everything for those who read without scripts.
-    pub fn block(&self, language: Language) -> Result<String, String> {
+    pub fn block(&self, language: Language) -> Result<String, NoAnswer> {
         let (at, drawn) = self.draw(&[], true, None)?;
         let (text, words) = (self.text(language), self.words(&at, &drawn));
-        let fill = |text: &str| fill(text, &words);
+        let [alt, question, answer] =
+            [&text.alt, &text.question, &text.answer].map(|part| fill(part, &words));
+        // The pages in Chinese lie one folder deeper, and show the same pictures.
         let folder = if language == Language::En { "figures" } else { "../figures" };
         let name = &self.name;
         Ok(format!(
-            "<rp-figure scene=\"{name}\">\n\n![{}]({folder}/live/{name}.svg)\n\n**{}** {}\n\n</rp-figure>",
-            fill(&text.alt),
-            fill(&text.question),
-            fill(&text.answer),
+            "<rp-figure scene=\"{name}\">\n\n![{alt}]({folder}/live/{name}.svg)\n\n**{question}** {answer}\n\n</rp-figure>"
         ))
     }
 }
@@ -287,9 +332,10 @@ pub(crate) fn list() -> Vec<Value> {
     ALL.iter().map(entry).collect()
 }
 
-pub fn find(name: &str) -> Result<&'static Figure, String> {
+/// The figure of this name; a page may have been written for another version.
+pub fn find(name: &str) -> Result<&'static Figure, NoAnswer> {
     let found = ALL.iter().find(|figure| figure.name == name);
-    found.ok_or_else(|| format!("no figure is called {name}"))
+    Ok(found.ok_or_else(|| format!("no figure is called {name}"))?)
 }
 
 /// A text with values in the places of their names: `{n}`, or `{n:pixel:pixels}` where a word follows the number. A name
@@ -331,17 +377,24 @@ fn number(value: f64, decimals: usize) -> String {
 }
 
 /// Triangles in pixels, snapped to the grid.
-fn snapped(triangles: &[[Point; 3]]) -> Result<Vec<Corners>, String> {
-    let point = |[x, y]: Point| SubpixelPoint::from_px(x, y).map_err(|refusal| refusal.to_string());
-    triangles.iter().map(|&[a, b, c]| Ok([point(a)?, point(b)?, point(c)?])).collect()
+fn snapped(triangles: &[[Point; 3]]) -> Result<Vec<Corners>, NoAnswer> {
+    triangles.iter().map(snapped_triangle).collect()
 }
 
-fn cover(engine: Engine, triangles: &[Corners], window: PixelRect) -> Coverage {
-    let mut hits = Coverage::new(window, 0);
-    for &corners in triangles {
-        engine.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
-    }
-    hits
+/// One of them.
+fn snapped_triangle(corners: &[Point; 3]) -> Result<Corners, NoAnswer> {
+    let [a, b, c] = corners.map(|[x, y]| SubpixelPoint::from_px(x, y));
+    Ok([a?, b?, c?])
+}
+
+/// The pixels that are covered less often than they should be: the answer for each pixel of a panel, row by row.
+fn lacking(panel: &Panel, hits: &Coverage, right: &Coverage) -> Vec<bool> {
+    panel.pixels().map(|[x, y]| hits.get(x, y) < right.get(x, y)).collect()
+}
+
+/// How many of these hold.
+fn count(each: &[bool]) -> usize {
+    each.iter().filter(|holds| **holds).count()
 }
 
 /// The address of a scene of the playground with triangles of x, y and what else each corner has.
@@ -350,10 +403,21 @@ fn with_triangles<const N: usize>(
     triangles: &[[[f64; N]; 3]],
     more: &str,
 ) -> Option<String> {
-    let corner = |c: &[f64; N]| c.map(|value| number(value, 6)).join(",");
-    let triangle = |t: &[[f64; N]; 3]| t.iter().map(corner).collect::<Vec<_>>().join("_");
-    let all: Vec<_> = triangles.iter().map(triangle).collect();
-    Some(format!("#scene={scene}&t={}{more}", all.join(";")))
+    let list = in_address(triangles, |value| number(value, 6));
+    Some(format!("#scene={scene}&t={list}{more}"))
+}
+
+/// The list of triangles in an address, with these words for each number.
+fn in_address<const N: usize>(triangles: &[[[f64; N]; 3]], word: impl Fn(f64) -> String) -> String {
+    let mut list = String::new();
+    for corners in triangles {
+        if !list.is_empty() {
+            list.push(';');
+        }
+        // Commas between the numbers of a corner, a line between corners.
+        list += &corners.map(|corner| corner.map(&word).join(",")).join("_");
+    }
+    list
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use std::cell::RefCell;
 use super::judge::{Judge, Pixels};
 use super::subjects::triangle;
 use super::{Batch, Device, Layout, Topic};
+use crate::no_answer::NoAnswer;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::ask::Step;
@@ -33,6 +34,7 @@ thread_local! {
 }
 
 impl WaitingSearch {
+    /// A search that knows of the device the finest grid it may have, and how far corners may lie from their window.
     fn new(device: Device) -> Self {
         let declared = Convention::default();
         let finest = SUBPIXELS / device.step();
@@ -53,7 +55,7 @@ impl WaitingSearch {
     }
 
     /// Reads the answers off a picture.
-    fn take(&mut self, device: Device, pixels: &str) -> Result<(), String> {
+    fn take(&mut self, device: Device, pixels: &str) -> Result<(), NoAnswer> {
         let read = Pixels::read(Topic::Coverage, device, LAYOUT, pixels)?;
         let mut answers = Vec::new();
         for (index, question) in self.of_picture().iter().enumerate() {
@@ -86,7 +88,7 @@ impl WaitingSearch {
 impl Judge {
     /// The next picture, or the cause where everything was answered. Without pixels a search begins; it goes on with the hits of the
     /// picture before, row by row, as digits from 0.
-    pub fn cause(&self) -> Result<Value, String> {
+    pub fn cause(&self) -> Result<Value, NoAnswer> {
         let Self { batch: Batch { device, .. }, pixels, .. } = self;
         WAITING.with_borrow_mut(|waiting| {
             if pixels.is_empty() {

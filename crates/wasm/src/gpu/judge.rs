@@ -6,6 +6,7 @@
 use super::expected::{Forgiving, Planes, expected, is_tiling, line_fits, pixels, planes};
 use super::place::{Place, RULES, cover, place};
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
+use crate::no_answer::NoAnswer;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec2;
@@ -49,6 +50,7 @@ pub(crate) struct Tally {
     worst: f64,
 }
 
+/// A pixel that differs: in which plane, where in the cell, what the specification says of it, and of a value by how much.
 #[derive(Serialize)]
 struct Mark {
     plane: usize,
@@ -99,7 +101,7 @@ fn hypotheses() -> Vec<Hypothesis> {
 
 impl Judge {
     /// What the pixels of a batch are worth, with the first subject that breaks a promise and the first that differs as it may.
-    pub fn answer(&self) -> Result<Value, String> {
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
         let Batch { check, device, .. } = self.batch;
         let (layout, list) = self.batch.subjects()?;
         // A subject that the page sends need not be a tiling.
@@ -107,7 +109,7 @@ impl Judge {
             && !is_tiling(subject, layout.cell)
         {
             return Err(
-                "the triangles overlap, share no edge, turn differently, or are thin".to_owned()
+                "the triangles overlap, share no edge, turn differently, or are thin".into()
             );
         }
         let read = Pixels::read(check, device, layout, &self.pixels)?;
@@ -153,7 +155,7 @@ pub(super) fn failing(
     layout: Layout,
     pixels: &str,
     subjects: &[Drawing],
-) -> Result<Vec<bool>, String> {
+) -> Result<Vec<bool>, NoAnswer> {
     let read = Pixels::read(check, device, layout, pixels)?;
     let mut fail = Vec::new();
     for (index, subject) in subjects.iter().enumerate() {
@@ -162,7 +164,7 @@ pub(super) fn failing(
     Ok(fail)
 }
 
-/// What was read back of a picture.
+/// What was read back of a picture, row by row from the top.
 pub(super) struct Pixels {
     layout: Layout,
     bytes: Vec<u8>,
@@ -177,21 +179,22 @@ impl Pixels {
         device: Device,
         layout: Layout,
         pixels: &str,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, NoAnswer> {
         let values = check == Topic::Values;
         // Digits are shorter than numbers and need no decoder; values are too many bits for a digit.
         let bytes = match values {
-            true => STANDARD.decode(pixels).map_err(|e| e.to_string())?,
+            true => STANDARD.decode(pixels).map_err(|error| error.to_string())?,
             false => pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
         };
         let size = if values { 16 } else { planes(check, device) };
         if bytes.len() != (layout.side * layout.side) as usize * size {
             let side = layout.side;
-            return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()));
+            return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()).into());
         }
         Ok(Self { layout, bytes, size })
     }
 
+    /// What was read of the subject with this number.
     pub(super) fn cell(&self, index: usize) -> Cell<'_> {
         let Self { layout, ref bytes, size } = *self;
         Cell { layout, origin: layout.origin(index), bytes, size }
@@ -207,7 +210,7 @@ pub(super) struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// The bytes of a row of the cell.
+    /// The bytes of a row of the cell, as many for each pixel as the picture has.
     pub(super) fn row(&self, y: i32) -> &[u8] {
         let [x0, y0] = self.origin;
         let start = ((y0 + y) * self.layout.side + x0) as usize * self.size;
@@ -238,7 +241,7 @@ impl Cell<'_> {
     }
 }
 
-/// What came of one subject.
+/// What came of one subject: what was expected, what was drawn, and the pixels in which they differ.
 #[derive(Default)]
 struct PictureJudgement {
     ours: Planes,
@@ -313,6 +316,7 @@ fn explaining(subject: &Drawing, hits: &[u8], side: i32) -> Vec<bool> {
 
 /// Whether a triangle may have these hits and no others, whatever the rule for samples on edges.
 fn has_pixels(corners: &Corners, hits: &[u8], side: i32) -> bool {
+    // Hits are counted in the box around the corners.
     let columns = pixels_of(corners.map(|p| p.x), side);
     let mut inside = 0;
     for y in pixels_of(corners.map(|p| p.y), side) {
@@ -357,6 +361,7 @@ fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut PictureJudge
     let lit = pixels(side).zip(hits).filter(|(_, hits)| **hits > 0).map(|(px, _)| px).collect();
     let fits = line_fits(device, &ends, &lit, side);
     judged.explained = fits.iter().map(|fit| *fit == Fit::Equal).collect();
+    // A pixel that is set twice is set by no rule.
     let broken = device.interface == Interface::Webgl2
         && (fits[0] == Fit::Outside || hits.iter().any(|hits| *hits > 1));
     // The rule is about all pixels of a line together, so all of its marks are alike.
@@ -368,6 +373,7 @@ fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut PictureJudge
 /// Depth and attributes in perspective against exact ones.
 fn values(device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
     let side = cell.layout.cell;
+    // Without an exact triangle nothing is expected and nothing compared.
     let empty = vec![vec![0; (side * side) as usize]];
     let mut judged =
         PictureJudgement { ours: empty.clone(), theirs: empty, ..PictureJudgement::default() };
@@ -432,6 +438,7 @@ fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
 /// Depth and two attributes of a triangle's plane at a place, in f64.
 fn values_at(triangle: &Triangle, s: DVec2) -> [f64; 3] {
     let v = &triangle.vertices;
+    // The weight of a corner is the area opposite to it as a share of the whole one.
     let px = triangle.corners().map(|p| DVec2::from(p.to_px()));
     let cross = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
     let area = cross(px[0], px[1], px[2]);
@@ -466,6 +473,7 @@ impl PictureJudgement {
         tally.pixels += self.pixels;
         tally.free += u64::from(self.word() == Standing::Allowed);
         tally.broken += u64::from(self.word() == Standing::Outside);
+        // Checks have as many hypotheses as they have, so the first subject says how many there are.
         tally.explained.resize(tally.explained.len().max(self.explained.len()), 0);
         for (sum, explains) in tally.explained.iter_mut().zip(&self.explained) {
             *sum += u64::from(*explains);
@@ -482,6 +490,7 @@ impl PictureJudgement {
                 outlines.push(shape.iter().map(|v| [v[0] / v[3], v[1] / v[3]]).collect());
             }
         }
+        // Only where samples are read one by one does it matter where they lie.
         let samples = match check {
             Topic::Samples if device.samples_apart => super::expected::SAMPLES.to_vec(),
             _ => Vec::new(),
@@ -549,6 +558,7 @@ fn facts(check: Topic, tally: &Tally) -> Value {
     match check {
         Topic::Lattice => {
             let RoundedPositions { explained, bits, rounding } = best_hypothesis(tally);
+            // The finest lattice that explains all subjects, whatever the rounding.
             let mut finest = None;
             for (hypothesis, n) in hypotheses().iter().zip(&tally.explained) {
                 if *n == tally.subjects {
@@ -916,11 +926,12 @@ mod tests {
 
     #[test]
     fn bad_questions_get_a_sentence() {
-        let error = |more: Value| batch("coverage", "webgl2", more).answer().unwrap_err();
+        let error =
+            |more: Value| batch("coverage", "webgl2", more).answer().unwrap_err().to_string();
         assert!(error(json!({ "only": [] })).contains("1 to 64 shapes"));
         assert!(error(json!({ "only": [[[1e9, 0, 0, 0, 0, 0]]] })).contains("3 vertices"));
         let batch = batch("coverage", "webgl2", json!({}));
         let judge = Judge { batch, pixels: "00".to_owned(), tally: Tally::default() };
-        assert!(judge.answer().unwrap_err().contains("2 bytes"));
+        assert!(judge.answer().unwrap_err().to_string().contains("2 bytes"));
     }
 }

@@ -17,6 +17,7 @@ mod subjects;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::no_answer::NoAnswer;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 pub(crate) use judge::Judge;
@@ -94,6 +95,7 @@ type Vertex = [f64; 6];
 #[serde(transparent)]
 pub(crate) struct Drawing(pub Vec<Vec<Vertex>>);
 
+/// Subjects of a check that are drawn into one picture.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Batch {
@@ -155,6 +157,7 @@ impl Topic {
 pub(crate) struct Plan {}
 
 impl Plan {
+    /// The batches of all checks, in the order in which the page asks for them.
     pub fn answer(&self) -> Value {
         let mut all = Vec::new();
         for (check, batches) in &subjects::PLAN {
@@ -168,7 +171,7 @@ impl Plan {
 
 impl Batch {
     /// Draws a subject of its own in place of those of a number.
-    fn subjects(&self) -> Result<(Layout, Vec<Drawing>), String> {
+    fn subjects(&self) -> Result<(Layout, Vec<Drawing>), NoAnswer> {
         let (mut layout, mut list) = subjects::of(self.check, self.device, self.seed, self.number);
         if let Some(subject) = &self.only {
             layout = subjects::layout_for(self.check, subject)?;
@@ -178,7 +181,8 @@ impl Batch {
         Ok((layout, list))
     }
 
-    pub fn answer(&self) -> Result<Value, String> {
+    /// The picture to draw, as numbers for the interface.
+    pub fn answer(&self) -> Result<Value, NoAnswer> {
         let (layout, list) = self.subjects()?;
         let drawn = list.iter().map(|subject| subjects::drawn(self.check, subject));
         Ok(self.device.picture(self.check, layout, drawn))
@@ -207,6 +211,7 @@ impl Device {
     ) -> Value {
         let (mut bytes, mut draws) = (Vec::new(), Vec::new());
         for (index, vertices) in subjects.enumerate() {
+            // Each subject is moved to its own cell.
             let origin = layout.origin(index);
             draws.push([vertices.len() as i32, origin[0], origin[1]]);
             for vertex in vertices {

@@ -10,6 +10,7 @@ use super::expected::is_tiling;
 use super::judge::{Judge, failing};
 use super::subjects::{area, drawn, from_whole, layout_for, triangle, whole};
 use super::{Batch, Device, Drawing, Topic, Vertex};
+use crate::no_answer::NoAnswer;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
@@ -30,7 +31,7 @@ thread_local! {
 impl Judge {
     /// The next picture of a search, which begins with a subject that fails, and goes on with the pixels of the picture before. At its
     /// end there are no more subjects; `smallest` is what it has reached.
-    pub fn smaller(&self) -> Result<Value, String> {
+    pub fn smaller(&self) -> Result<Value, NoAnswer> {
         let Batch { check, device, ref only, .. } = self.batch;
         let steps = DrawingSteps { check, device };
         WAITING.with_borrow_mut(|waiting| {
@@ -42,6 +43,7 @@ impl Judge {
             }
             let WaitingSearch { search, asked } =
                 waiting.as_mut().ok_or("no search waits for a picture")?;
+            // The pixels say which of the subjects that wait still fail.
             if only.is_none() {
                 let layout = layout_for(check, &search.smallest)?;
                 let fails = failing(check, device, layout, &self.pixels, asked)?;
@@ -102,6 +104,7 @@ fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Dr
 /// Of subjects that are no more than corners: those whose corners lie on the device's lattice and in the cell.
 fn smaller_corners(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     let step = if check == Topic::Lattice { 1 } else { device.step() };
+    // The steps are those by which cases are shrunk without a GPU.
     let list = subject.corners().into_iter().map(plain_triangle).collect();
     let window = PixelRect::window(cell as u32, cell as u32);
     let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
@@ -128,6 +131,7 @@ fn smaller_whole(subject: &Drawing) -> Vec<Drawing> {
     let mut found = Vec::new();
     for corner in 0..3 {
         for axis in 0..4 {
+            // 0, the half, whole numbers of 64 and of 8, and one less.
             let v: i64 = corners[corner][axis];
             for simpler in [0, v / 2, v / 64 * 64, v / 8 * 8, v - v.signum()] {
                 let mut smaller = corners;
@@ -145,7 +149,7 @@ fn smaller_whole(subject: &Drawing) -> Vec<Drawing> {
 /// The shapes of a subject with x, y and depth divided by w.
 type Shapes = Vec<Vec<Vertex>>;
 
-/// Divides x, y and depth by w.
+/// Divides x, y and depth by w: so places and depths are simple numbers, whatever w is.
 fn divided(Drawing(shapes): &Drawing) -> Shapes {
     let mut all = shapes.clone();
     for vertex in all.iter_mut().flatten() {
@@ -157,7 +161,7 @@ fn divided(Drawing(shapes): &Drawing) -> Shapes {
     all
 }
 
-/// Multiplies x, y and depth by w.
+/// Multiplies x, y and depth by w, as the interface takes them.
 fn multiplied(mut shapes: Shapes) -> Drawing {
     for vertex in shapes.iter_mut().flatten() {
         let by = vertex[3];
@@ -171,6 +175,7 @@ fn multiplied(mut shapes: Shapes) -> Drawing {
 /// Of subjects with values: fewer shapes, nearer to each other and to the cell's corner, with simpler numbers.
 fn smaller_numbers(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     let shapes = divided(subject);
+    // Without some of the shapes, in a standard place, or with a change of all or of one vertex.
     let mut found = fewer(&shapes);
     for px in [1.0, 2.0, 4.0, 8.0] {
         found.push(canonical(check, &shapes, px));
@@ -251,6 +256,7 @@ fn add_changed_singly(shapes: &Shapes, found: &mut Vec<Shapes>) {
             let middle = |axis: usize| ((v[axis] + other[axis]) * 2.0).floor() / 4.0;
             found.push(at_place(shapes, v, [middle(0), middle(1)]));
         }
+        // Both coordinates in the same way, and each by itself.
         let (xs, ys) = (positions(v[0]), positions(v[1]));
         for (x, y) in xs.iter().zip(&ys) {
             found.push(at_place(shapes, v, [*x, *y]));
@@ -261,6 +267,7 @@ fn add_changed_singly(shapes: &Shapes, found: &mut Vec<Shapes>) {
         for y in ys {
             found.push(at_place(shapes, v, [v[0], y]));
         }
+        // Depth, w and both attributes, at all vertices that are the same one.
         for axis in 2..6 {
             for value in simpler(v[axis]) {
                 let mut all = shapes.clone();

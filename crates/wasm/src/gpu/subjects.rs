@@ -4,6 +4,7 @@
 //! has cells; some that do not fit a cell are left out, and the next ones take their places.
 
 use super::{Device, Drawing, Interface, Layout, Topic, Vertex};
+use crate::no_answer::NoAnswer;
 use rasterproof_core::geometry::{ORDERS, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
@@ -80,7 +81,7 @@ fn cell_of(check: Topic, number: u64) -> i32 {
 }
 
 /// The layout for one subject, which comes from the page and may be anything.
-pub(super) fn layout_for(check: Topic, Drawing(shapes): &Drawing) -> Result<Layout, String> {
+pub(super) fn layout_for(check: Topic, Drawing(shapes): &Drawing) -> Result<Layout, NoAnswer> {
     let wanted = match check {
         Topic::Lines => 2,
         _ => 3,
@@ -100,7 +101,8 @@ pub(super) fn layout_for(check: Topic, Drawing(shapes): &Drawing) -> Result<Layo
     if !is_right {
         return Err(format!(
             "the case must hold 1 to 64 shapes of {wanted} vertices before the eye, within {SIDE} px"
-        ));
+        )
+        .into());
     }
     // As large as the largest window of the check that has to be: corners decide.
     let mut reach = 0;
@@ -168,6 +170,7 @@ pub(super) fn drawn(check: Topic, Drawing(shapes): &Drawing) -> Vec<Vertex> {
     if check != Topic::Order {
         return shapes.concat();
     }
+    // One after the other into the same cell, so that each pixel is hit six times or by none.
     let mut vertices = Vec::new();
     for shape in shapes {
         vertices.extend(ORDERS.as_flattened().iter().map(|i| shape[*i]));
@@ -182,6 +185,7 @@ fn family(name: &str) -> Option<&'static Family> {
 
 /// The triangles of a case on the device's lattice; none where a corner leaves the cell.
 fn snapped(family: &Family, seed: u64, index: u64, step: i32, cell: i32) -> Option<Vec<Corners>> {
+    // Other families than those of triangles are not asked for.
     let Shape::Triangles { list, .. } = family.case(seed, index).shape else { return None };
     let mut all: Vec<Corners> = Vec::new();
     let range = 0..=cell * SUBPIXELS;
@@ -327,6 +331,7 @@ fn line(rng: &mut Rng, step: i32, cell: i32, index: u64) -> Option<Vec<Vertex>> 
 /// Two triangles whose depths lean through each other; their first attributes tell them apart.
 fn crossing(rng: &mut Rng, step: i32, cell: i32) -> Vec<Vec<Vertex>> {
     let steps = i64::from(cell) * i64::from(SUBPIXELS / step);
+    // Corners anywhere in the cell, depths in whole 1024ths.
     let mut shapes = vec![Vec::new(); 2];
     for (shape, number) in shapes.iter_mut().zip([1.0, 2.0]) {
         for _ in 0..3 {
