@@ -8,7 +8,7 @@ export type Mask =
   | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array | Int8Array | Int16Array | Int32Array | boolean[] | number[];
 
 export interface Options {
-  /** Cases of each family; 100 where it is not given. */
+  /** Cases of each family; 50 where it is not given. */
   cases?: number;
   /** Decides every generated case; 1 where it is not given. */
   seed?: number;

@@ -227,7 +227,7 @@ const judges = (call, [request, reply], capability, read, write, probe) => {
     if (typeof fn !== 'function') throw new TypeError(`${call} takes a function; got ${describe(fn)}`);
     if (typeof hits !== 'boolean') throw new RangeError(`hits is ${hits}; expected true or false`);
     const judged = { fn, name: fn.name || 'function', kind: undefined, hits };
-    const header = Object.entries({ cases: 100, ...options, hits: hits || undefined }).flatMap(([option, value]) =>
+    const header = Object.entries({ cases: 50, ...options, hits: hits || undefined }).flatMap(([option, value]) =>
       [value].flat().filter((one) => one !== undefined).map((one) => `${option} ${one}`.replace(/\s+/g, ' ')));
     // What it returns for one case, in a window that is no square, says what can be seen in its answers.
     ask(judged, probe.split(' '), () => 'the first request, which is no generated case');

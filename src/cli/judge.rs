@@ -32,8 +32,8 @@ use rasterproof_report::written_test::{self, Language};
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
-    /// Cases of each family
-    #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 1000,
+    /// Cases of each family; of a design two or four times as many
+    #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 500,
         value_parser = super::whole::<u64>(1..=u64::MAX), allow_negative_numbers = true)]
     cases: u64,
     /// Seconds for all that is asked after the start; a last answer is waited for one second more

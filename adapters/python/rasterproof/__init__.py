@@ -34,7 +34,7 @@ Tessellator = Callable[[List[NDArray[Any]]], Union[None, NDArray[Any], Sequence[
 class Options(TypedDict, total=False):
     """What the four functions take beside the function that is judged."""
 
-    cases: int  # of each family; 100 where it is not given
+    cases: int  # of each family; 50 where it is not given
     seed: int  # decides every generated case; 1 where it is not given
     family: Union[str, Sequence[str]]  # only this one, or these
     case: int  # only the case of this number

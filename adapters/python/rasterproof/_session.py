@@ -42,7 +42,7 @@ def program() -> str:
 def judge(kind: Kind, fn: Callable[..., Any], options: Mapping[str, Any]) -> None:
     if not callable(fn):
         raise TypeError(f"{kind.call} takes a function; got {type(fn).__name__}")
-    options = {"cases": 100, **options}
+    options = {"cases": 50, **options}
     hits = options.pop("hits", False)
     if not isinstance(hits, bool):
         raise ValueError(f"hits is {hits!r}; expected True or False")

@@ -7,7 +7,7 @@ import pytest
 from . import Judge
 
 
-CHOICES = (("cases", 100, "cases of each family"), ("seed", 1, "decides every generated case"))
+CHOICES = (("cases", 50, "cases of each family"), ("seed", 1, "decides every generated case"))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

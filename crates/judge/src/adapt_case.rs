@@ -44,12 +44,12 @@ pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
 
-/// The numbers of the cases of a family: a design of many classes has more of them, so that nearly all of its triples are asked.
+/// The numbers of the cases of a family: a design has more of them, so that nearly all of its triples are asked.
 #[must_use]
 pub fn numbers(options: &Options, design: Option<&Topic>) -> Range<u64> {
     let Range { start, end } = options.numbers();
-    let blocks = design.filter(|_| options.only.is_none()).map_or(1, Topic::blocks);
-    start..end.saturating_mul(blocks)
+    let times = design.filter(|_| options.only.is_none()).map_or(1, Topic::times);
+    start..end.saturating_mul(times)
 }
 
 /// Whether the cases of a family are thin lines, which have verbs and checks of their own.

@@ -101,7 +101,7 @@ impl Asking {
 }
 
 impl Terms for Asking {
-    const CASES: u64 = 1000;
+    const CASES: u64 = 500;
 }
 
 /// Of a limited time that began then, what is left for the families: a tenth of all is for the questions after them.

@@ -603,11 +603,11 @@ pub fn case_that_asks(
 ) -> Option<(&'static str, u64)> {
     let truth = Truth::of(declared);
     let (asked, all) = (adapt_case::families(&options.families), adapt_case::families(&[]));
+    let of_designs = asked.iter().map(|family| adapt_case::numbers(options, family.design()).end);
+    let numbers = options.numbers().start..of_designs.max().unwrap_or(0);
     // The windings are found with the first cases of a family that may not be among those that are judged.
-    let indices = options
-        .numbers()
-        .map(|index| (index, &asked))
-        .chain((0..BEFORE).map(|index| (index, &all)));
+    let indices =
+        numbers.map(|index| (index, &asked)).chain((0..BEFORE).map(|index| (index, &all)));
     let mut questions = Vec::new();
     // Families take turns, as they do where they are judged, so that an early case is found early.
     for (index, families) in indices {

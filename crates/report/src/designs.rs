@@ -69,11 +69,12 @@ fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
         }
     });
     let of_engines = ["design", "w-design", "line-design"].contains(&design);
+    let of_judge = Options::default().cases;
     // Of samples every eighth case of a family is asked.
     let cases = match design {
-        "sample-design" => 125,
+        "sample-design" => of_judge / 8,
         _ if of_engines => 20_000,
-        _ => 1000,
+        _ => of_judge,
     };
     (chosen.collect(), cases)
 }
@@ -84,7 +85,7 @@ pub fn of_topic(topic: &Topic) -> Shares {
     let question = |index: u64| facts::design::case(topic, 1, index, &limits);
     let (families, cases) = families_beside(topic.name);
     let drawn = families.iter().flat_map(|family| (0..cases).map(|index| family.case(1, index)));
-    let of_judge = Options::default().cases * topic.blocks();
+    let of_judge = Options::default().cases * topic.times();
     let defaults = [Some(of_judge), (cases == 20_000).then_some(cases)];
     Shares {
         whole: DesignShare::of(topic, 0..1000, &limits, &question),

@@ -135,7 +135,7 @@ fn families(check: Check) -> &'static [&'static str] {
     match check {
         Check::Values => values::FAMILIES,
         Check::Samples => &["uniform", "half-integer"],
-        Check::SampleValues => &["w-4", facts::values::TOPIC.name],
+        Check::SampleValues => &["w-4", facts::sample_values::TOPIC.name],
         Check::Depth => &["depth-order", "depth-near-tie"],
         Check::Near | Check::Carried => &["near-plane"],
         Check::Wide => &["wide-line"],

@@ -138,6 +138,30 @@ fn explain_themselves(singles: u64, pairs: u64) {
     }
 }
 
+/// What is asked by the facts of a design is asked by those of the check that is explained, not of another one.
+#[test]
+fn questions_have_the_facts_of_their_check() {
+    let all = "HELLO 2 x coverage attributes samples4 sample-values depth clip clip-attributes wide-line area";
+    let declared = Declared::parse(all).unwrap();
+    for check in [
+        Check::Values,
+        Check::Samples,
+        Check::SampleValues,
+        Check::Depth,
+        Check::Near,
+        Check::Carried,
+        Check::Wide,
+        Check::Area,
+    ] {
+        let of_families = families(check).iter().filter_map(|name| topic(name));
+        for topic in of_families.chain(learn::topic(check)) {
+            let case = topic.any(&mut Rng::new(topic.name, SEED, 0));
+            let checks = Check::of(topic.name, &case, 0, &declared);
+            assert!(checks.contains(&check), "{check:?} has questions of {}", topic.name);
+        }
+    }
+}
+
 #[test]
 fn values_explain_themselves() {
     explain_themselves(5, 2);

@@ -56,6 +56,12 @@ fn stage_of(check: Check) -> Option<&'static dyn AnyLearnable> {
     })
 }
 
+/// The kind of question by whose facts the mistakes of a check are learned.
+#[cfg(test)]
+pub(super) fn topic(check: Check) -> Option<&'static rasterproof_verify::cases::facts::Topic> {
+    stage_of(check).map(|stage| stage.topic())
+}
+
 /// Learns of a program that is wrong in a check.
 pub async fn learn(asker: &StageAsker, check: Check, truth: &Truth) -> Option<Learned> {
     Learner::new(asker, check, truth, stage_of(check)?).learn().await

@@ -9,7 +9,7 @@ use crate::stages::sample_values::{SampleShading, ShadedPixel};
 use crate::stages::search::{Spot, Stage, both, singles};
 use crate::stages::wide::{WideDrawn, WidePixel};
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::cases::facts::{Topic, area, values, wide};
+use rasterproof_verify::cases::facts::{Topic, area, sample_values, wide};
 use rasterproof_verify::learn::rows::{Quantities, Unit, value};
 use rasterproof_verify::learn::trial::Work;
 
@@ -100,7 +100,7 @@ impl PixelStage for AreaDrawn {
 }
 
 impl PixelStage for SampleShading {
-    const TOPIC: &'static Topic = &values::TOPIC;
+    const TOPIC: &'static Topic = &sample_values::TOPIC;
 
     fn of_pixel(pixel: &ShadedPixel<'_>, out: &mut Quantities) {
         of_spot(&pixel.spot, out);

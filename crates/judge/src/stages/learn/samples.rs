@@ -11,7 +11,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_verify::cases::Case;
-use rasterproof_verify::cases::facts::{Topic, triangles};
+use rasterproof_verify::cases::facts::{Topic, samples};
 use rasterproof_verify::learn::rows::{Quantities, TriangleInWindow, Unit};
 use rasterproof_verify::learn::trial::Work;
 
@@ -29,7 +29,7 @@ pub struct Sample<'a> {
 impl Learnable for Samples {
     type Part<'a> = Sample<'a>;
     type Change = SampleMask;
-    const TOPIC: &'static Topic = &triangles::TOPIC;
+    const TOPIC: &'static Topic = &samples::TOPIC;
     const PART: &'static str = "sample";
 
     fn of_question(case: &Case, out: &mut Quantities) {

@@ -46,7 +46,7 @@ impl AskedClasses {
     #[must_use]
     pub fn by<Q, L>(topic: &Topic<Q, L>, limits: &L, questions: impl Iterator<Item = Q>) -> Self {
         let table = table_of(topic, limits, questions);
-        let [pairs, triples] = table.counts();
+        let [pairs, triples] = [2, 3].map(|together| table.count(together));
         let mut impossible = design::impossible(topic);
         impossible.retain(|pair| table.has(pair));
         let words = |[first, second]: [u16; 2]| {
@@ -58,7 +58,7 @@ impl AskedClasses {
 
 /// The pairs and triples of the questions that have the facts of a topic.
 fn table_of<Q, L>(topic: &Topic<Q, L>, limits: &L, questions: impl Iterator<Item = Q>) -> Table {
-    let mut table = Table::new(topic.count());
+    let mut table = Table::new(topic.count(), 3);
     for question in questions {
         if let Some(classes) = topic.classes(&question, limits) {
             table.note(&classes);

@@ -5,7 +5,8 @@
 //! looked for that hold a class of fact k - 1. A
 //! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
 //!
-//! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. Some are drawn
+//! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. After
+//! [`BY_TRIPLES`] blocks hardly a triple is missing, and the one is taken that has most quadruples. Some are drawn
 //! at random, and more are made of two cases that were chosen, each the example of a class, so that rare classes have their turn as
 //! often as frequent ones. What is rare is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
 //! data ([`impossible`]).
@@ -21,6 +22,8 @@ use crate::cases::{Case, Limits};
 
 /// Cases of a block.
 pub const BLOCK: u64 = 1000;
+/// Blocks whose cases are chosen by pairs and triples; those of later ones are chosen by quadruples.
+const BY_TRIPLES: u64 = 20;
 /// Cases of a block that are chosen before what is rare is looked for.
 const EASY: u64 = 150;
 /// Candidates at a time for something rare.
@@ -51,7 +54,12 @@ struct Effort {
     made: usize,
     /// Things that are wanted, with [`AT_ONCE`] candidates each.
     wanted: usize,
+    /// By combinations of how many classes a candidate is chosen; by larger ones where several are alike by smaller ones.
+    together: &'static [usize],
 }
+
+const PAIRS_AND_TRIPLES: &[usize] = &[2, 3];
+const QUADRUPLES: &[usize] = &[4];
 
 impl Effort {
     /// Every pair has to be in the first block, and nearly every triple in the first two: so many classes have more or fewer of
@@ -59,9 +67,10 @@ impl Effort {
     fn of_block(number: u64, classes: usize) -> Self {
         let made = classes.pow(3) / CLASSES_CUBED_TO_ONE;
         match number {
-            0 => Self { drawn: 6, made, wanted: 8 },
-            1 => Self { drawn: 2, made, wanted: 1 },
-            _ => Self { drawn: 2, made: 0, wanted: 1 },
+            0 => Self { drawn: 6, made, wanted: 8, together: PAIRS_AND_TRIPLES },
+            1 => Self { drawn: 2, made, wanted: 1, together: PAIRS_AND_TRIPLES },
+            2..BY_TRIPLES => Self { drawn: 2, made: 0, wanted: 1, together: PAIRS_AND_TRIPLES },
+            _ => Self { drawn: 2, made: 2, wanted: 1, together: QUADRUPLES },
         }
     }
 }
@@ -134,23 +143,20 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
         self.best(candidates)
     }
 
-    /// The first candidate with most pairs that are missing, and of several such with most triples.
-    fn best(&self, candidates: Vec<Candidate<Q>>) -> Option<Candidate<Q>> {
-        let missing_pairs = |of: &Candidate<Q>| self.table.missing_pairs(&of.classes);
-        let pairs: Vec<usize> = candidates.iter().map(missing_pairs).collect();
-        let most = *pairs.iter().max()?;
-        let mut best: Option<(usize, Candidate<Q>)> = None;
-        for (candidate, pairs) in candidates.into_iter().zip(pairs) {
-            // Counting triples takes ten times as long, so that it is done for the best alone.
-            if pairs < most {
-                continue;
+    /// The first candidate with most combinations that are missing.
+    fn best(&self, mut candidates: Vec<Candidate<Q>>) -> Option<Candidate<Q>> {
+        for together in self.effort.together {
+            // Counting larger ones takes longer, so that it is done for the best alone.
+            if candidates.len() == 1 {
+                break;
             }
-            let triples = self.table.missing_triples(&candidate.classes);
-            if best.as_ref().is_none_or(|(most, _)| triples > *most) {
-                best = Some((triples, candidate));
-            }
+            let missing = |of: &Candidate<Q>| self.table.missing(*together, &of.classes);
+            let counts: Vec<usize> = candidates.iter().map(missing).collect();
+            let most = counts.iter().max().copied();
+            let mut counts = counts.into_iter();
+            candidates.retain(|_| counts.next() == most);
         }
-        best.map(|(_, candidate)| candidate)
+        candidates.into_iter().next()
     }
 
     /// A candidate drawn at random.
@@ -187,7 +193,7 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
                 nearest = Some((has, candidate.case.clone()));
             }
             // It may have something else that is missing.
-            if is_found || self.table.missing_pairs(&candidate.classes) > 0 {
+            if is_found || self.table.missing(2, &candidate.classes) > 0 {
                 candidates.push(candidate);
             }
             if is_found {
@@ -318,13 +324,16 @@ pub(crate) fn block_without<Q: Clone, L>(
     let facts = topic.starts().len() as u64;
     let third = number.checked_sub(1).map(|number| (number % facts) as usize);
     let all = topic.count();
+    let effort = Effort::of_block(number, all);
+    // No candidate is chosen by larger combinations.
+    let largest = effort.together.iter().copied().fold(3, usize::max);
     let mut chooser = Chooser {
         topic,
         limits,
         rng: Rng::new(topic.name, seed, number),
-        effort: Effort::of_block(number, all),
+        effort,
         impossible,
-        table: Table::new(all),
+        table: Table::new(all, largest),
         chosen: Vec::with_capacity(BLOCK as usize),
         examples: vec![Vec::new(); all],
         wanted: VecDeque::new(),
@@ -394,7 +403,7 @@ pub fn case(topic: &Topic, seed: u64, index: u64, limits: &Limits) -> Case {
 
 #[cfg(test)]
 mod tests {
-    use super::super::TOPICS;
+    use super::super::{TOPICS, lines, near, triangles};
     use super::*;
     use crate::partition::{Coordinates, design};
 
@@ -423,7 +432,7 @@ mod tests {
 
     fn has_every_pair<Q: Clone, L>(topic: &Topic<Q, L>, limits: &L) {
         for seed in 1..=3 {
-            let mut table = Table::new(topic.count());
+            let mut table = Table::new(topic.count(), 3);
             note(&mut table, topic, limits, &block(topic, seed, 0, limits));
             let forgotten = without(&missing(topic, &table), &impossible(topic));
             let words = |[first, second]: &[u16; 2]| {
@@ -441,9 +450,27 @@ mod tests {
         has_every_pair(&design::TOPIC, &Coordinates::F64);
     }
 
+    /// The quadruples of a block.
+    fn quadruples<Q: Clone, L>(topic: &Topic<Q, L>, number: u64, limits: &L) -> usize {
+        let mut table = Table::new(topic.count(), 4);
+        note(&mut table, topic, limits, &block(topic, 1, number, limits));
+        table.count(4)
+    }
+
+    /// The first block that is chosen by quadruples has more of them than the one before.
+    #[test]
+    fn later_blocks_have_more_quadruples() {
+        for topic in [triangles::TOPIC, lines::TOPIC, near::TOPIC] {
+            let limits = Limits::default();
+            let [before, after] =
+                [BY_TRIPLES - 1, BY_TRIPLES].map(|number| quadruples(&topic, number, &limits));
+            assert!(after > before, "{}: {before} quadruples, then {after}", topic.name);
+        }
+    }
+
     #[allow(clippy::disallowed_methods, reason = "it renews the data of this crate")]
     fn search_long<Q: Clone, L>(topic: &Topic<Q, L>, limits: &L) {
-        let mut table = Table::new(topic.count());
+        let mut table = Table::new(topic.count(), 3);
         for seed in 100..140 {
             note(&mut table, topic, limits, &block_without(&[], topic, [seed, 0], limits));
         }

@@ -253,10 +253,11 @@ impl<Q, L> Topic<Q, L> {
         self.facts.iter().map(|fact| fact.test.count()).sum()
     }
 
-    /// How many blocks of cases have nearly all triples of classes: two where there are many classes.
+    /// How many cases a program is asked for each one of a family without a design: so many that nearly all triples of classes are
+    /// among them, which takes more where there are many classes.
     #[must_use]
-    pub fn blocks(&self) -> u64 {
-        if self.count() > 100 { 2 } else { 1 }
+    pub fn times(&self) -> u64 {
+        if self.count() > 100 { 4 } else { 2 }
     }
 
     /// The number of each fact of a question, within limits; nothing where the question is of another kind.

@@ -1,19 +1,20 @@
-//! Which classes occurred together: the pairs and the triples.
+//! Which classes occurred together: pairs, triples and larger combinations.
 
 /// Words of 64 bits for the classes of a topic: at most 192.
 const WORDS: usize = 3;
 /// Some classes, one bit each.
 type Bits = [u64; WORDS];
+/// The classes of the largest combinations.
+const LARGEST: usize = 4;
 
-/// The pairs and the triples of classes that some questions had. Classes of all facts are numbered one after the other, and of a
-/// question they are given in ascending order.
+/// The combinations of classes that some questions had, of two classes and of more. Classes of all facts are numbered one after the
+/// other, and of a question they are given in ascending order.
 pub(super) struct Table {
-    /// How many classes there are.
-    all: usize,
-    /// Of each class the smaller ones that it occurred with.
-    pairs: Vec<Bits>,
-    /// Likewise of each pair of classes; see [`Self::pair`].
-    triples: Vec<Bits>,
+    /// For each class c the number of ways to choose 1, 2 and 3 of the classes below c, by which rows are numbered.
+    ways: Vec<[usize; LARGEST]>,
+    /// The combinations of two classes, of three, and so on. A row belongs to all classes of a combination but the smallest one, and
+    /// has the smallest ones that these occurred with.
+    rows: Vec<Vec<Bits>>,
 }
 
 /// The bit of a class.
@@ -34,73 +35,90 @@ fn insert(new: &Bits, known: &mut Bits) {
     }
 }
 
+/// For each class of a question the classes before it.
+fn smaller(classes: &[u16]) -> Vec<Bits> {
+    let mut before = [0; WORDS];
+    let mut all = Vec::with_capacity(classes.len());
+    for &class in classes {
+        all.push(before);
+        let (word, bit) = bit(class);
+        before[word] |= bit;
+    }
+    all
+}
+
 impl Table {
-    pub(super) fn new(all: usize) -> Self {
+    /// A table of combinations of up to so many classes, of a topic that has `all`.
+    pub(super) fn new(all: usize, largest: usize) -> Self {
         assert!(all <= 64 * WORDS, "{all} classes are more than the words hold");
-        let none = [0; WORDS];
-        Self { all, pairs: vec![none; all], triples: vec![none; all * all] }
+        let mut ways = vec![[1, 0, 0, 0]];
+        for class in 0..all {
+            // Pascal's triangle: the new class is chosen, or it is not.
+            let below = ways[class];
+            let mut next = below;
+            for chosen in 1..LARGEST {
+                next[chosen] += below[chosen - 1];
+            }
+            ways.push(next);
+        }
+        let rows = (1..largest).map(|chosen| vec![[0; WORDS]; ways[all][chosen]]).collect();
+        Self { ways, rows }
     }
 
-    /// The number of a pair of classes.
-    fn pair(&self, first: u16, second: u16) -> usize {
-        usize::from(second) * self.all + usize::from(first)
+    /// Visits the row of each choice of `left` of some classes, with the classes of the question below these.
+    fn each_row(
+        &self,
+        classes: &[u16],
+        smaller: &[Bits],
+        (left, row): (usize, usize),
+        visit: &mut impl FnMut(usize, &Bits),
+    ) {
+        // The largest class first; the others are below it, and so is the smallest of the combination.
+        for at in left..classes.len() {
+            let row = row + self.ways[usize::from(classes[at])][left];
+            if left == 1 {
+                visit(row, &smaller[at]);
+            } else {
+                self.each_row(&classes[..at], smaller, (left - 1, row), visit);
+            }
+        }
     }
 
-    /// Whether two classes occurred together, or three, in ascending order.
+    /// Whether some classes occurred together, in ascending order.
     pub(super) fn has(&self, classes: &[u16]) -> bool {
-        let (row, first) = match *classes {
-            [first, second] => (&self.pairs[usize::from(second)], first),
-            [first, second, third] => (&self.triples[self.pair(second, third)], first),
-            _ => return false,
-        };
-        let (word, bit) = bit(first);
-        row[word] & bit != 0
+        let Some((&smallest, others)) = classes.split_first() else { return false };
+        let Some(chosen) = others.len().checked_sub(1) else { return false };
+        let of_class = |(at, class): (usize, &u16)| self.ways[usize::from(*class)][at + 1];
+        let row: usize = others.iter().enumerate().map(of_class).sum();
+        let (word, bit) = bit(smallest);
+        self.rows[chosen][row][word] & bit != 0
     }
 
-    /// How many pairs a question has that are missing.
-    pub(super) fn missing_pairs(&self, classes: &[u16]) -> usize {
+    /// How many combinations of so many classes a question has that are missing.
+    pub(super) fn missing(&self, together: usize, classes: &[u16]) -> usize {
+        let rows = &self.rows[together - 2];
         let mut count = 0;
-        let mut smaller = [0; WORDS];
-        for &class in classes {
-            count += missing(&smaller, &self.pairs[usize::from(class)]);
-            let (word, bit) = bit(class);
-            smaller[word] |= bit;
-        }
+        self.each_row(classes, &smaller(classes), (together - 1, 0), &mut |row, smaller| {
+            count += missing(smaller, &rows[row]);
+        });
         count
     }
 
-    /// How many triples a question has that are missing.
-    pub(super) fn missing_triples(&self, classes: &[u16]) -> usize {
-        let mut count = 0;
-        for (at, &third) in classes.iter().enumerate() {
-            let mut smaller = [0; WORDS];
-            for &second in &classes[..at] {
-                count += missing(&smaller, &self.triples[self.pair(second, third)]);
-                let (word, bit) = bit(second);
-                smaller[word] |= bit;
-            }
-        }
-        count
-    }
-
-    /// Notes the pairs and the triples of a question.
+    /// Notes the combinations of a question.
     pub(super) fn note(&mut self, classes: &[u16]) {
-        for (at, &third) in classes.iter().enumerate() {
-            let mut smaller = [0; WORDS];
-            for &second in &classes[..at] {
-                let pair = self.pair(second, third);
-                insert(&smaller, &mut self.triples[pair]);
-                let (word, bit) = bit(second);
-                smaller[word] |= bit;
-            }
-            insert(&smaller, &mut self.pairs[usize::from(third)]);
+        let smaller = smaller(classes);
+        let mut all = std::mem::take(&mut self.rows);
+        for (rows, chosen) in all.iter_mut().zip(1..) {
+            self.each_row(classes, &smaller, (chosen, 0), &mut |row, smaller| {
+                insert(smaller, &mut rows[row]);
+            });
         }
+        self.rows = all;
     }
 
-    /// How many pairs occurred, and how many triples.
-    pub(super) fn counts(&self) -> [usize; 2] {
-        [&self.pairs, &self.triples]
-            .map(|rows| rows.iter().flatten().map(|bits| bits.count_ones() as usize).sum())
+    /// How many combinations of so many classes occurred.
+    pub(super) fn count(&self, together: usize) -> usize {
+        self.rows[together - 2].iter().flatten().map(|bits| bits.count_ones() as usize).sum()
     }
 }
 
@@ -109,22 +127,44 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pairs_and_triples_of_two_questions() {
-        let mut table = Table::new(6);
-        let missing =
-            |table: &Table, of: &[u16]| [table.missing_pairs(of), table.missing_triples(of)];
-        assert_eq!(missing(&table, &[0, 2, 4]), [3, 1]);
-        table.note(&[0, 2, 4]);
-        // One fact differs: two pairs are new, and the triple.
-        assert_eq!(missing(&table, &[0, 2, 5]), [2, 1]);
-        table.note(&[0, 2, 5]);
-        assert_eq!(table.counts(), [5, 2]);
-        assert!(
-            table.has(&[0, 2])
-                && table.has(&[0, 2, 5])
-                && !table.has(&[0, 3])
-                && !table.has(&[0, 3, 5])
-        );
-        assert_eq!(missing(&table, &[0, 2, 4]), [0, 0]);
+    fn combinations_of_two_questions() {
+        let mut table = Table::new(8, 4);
+        let missing = |table: &Table, of: &[u16]| [2, 3, 4].map(|n| table.missing(n, of));
+        assert_eq!(missing(&table, &[0, 2, 4, 6]), [6, 4, 1]);
+        table.note(&[0, 2, 4, 6]);
+        // One fact differs: three pairs are new, three triples, and the quadruple.
+        assert_eq!(missing(&table, &[0, 2, 5, 6]), [3, 3, 1]);
+        table.note(&[0, 2, 5, 6]);
+        assert_eq!([2, 3, 4].map(|n| table.count(n)), [9, 7, 2]);
+        for known in [&[0, 2][..], &[0, 2, 5], &[2, 5, 6], &[0, 2, 4, 6], &[0, 2, 5, 6]] {
+            assert!(table.has(known), "{known:?}");
+        }
+        for unknown in [&[0, 3][..], &[0, 3, 5], &[0, 4, 5], &[0, 2, 4, 5], &[0, 2, 4, 7]] {
+            assert!(!table.has(unknown), "{unknown:?}");
+        }
+        assert_eq!(missing(&table, &[0, 2, 4, 6]), [0, 0, 0]);
+    }
+
+    /// A row for each choice of classes, and no two choices in one.
+    #[test]
+    fn every_combination_has_its_own_place() {
+        let classes: Vec<u16> = (0..10).collect();
+        let mut table = Table::new(10, 4);
+        for a in 0..7 {
+            table.note(&[a, a + 1, a + 2, a + 3]);
+        }
+        let known = |of: &[u16]| of[of.len() - 1] - of[0] <= 3;
+        for d in 0..classes.len() {
+            for c in 0..d {
+                for b in 0..c {
+                    for a in 0..b {
+                        let all = [classes[a], classes[b], classes[c], classes[d]];
+                        for of in [&all[..2], &all[..3], &all[..]] {
+                            assert_eq!(table.has(of), known(of), "{of:?}");
+                        }
+                    }
+                }
+            }
+        }
     }
 }
