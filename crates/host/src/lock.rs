@@ -3,15 +3,11 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use crate::error::{FileError, refused};
 use crate::identity::{number, place};
 use crate::output::{create_folder, remove};
 use crate::text::printable_path;
-
-/// How often a lock is opened again, each 5 ms, whose holder has not written its number yet.
-const TRIES: u32 = 200;
 
 /// The right to replace a file, held until it goes out of scope. The lock is a file beside the one
 /// it protects, with `.lock` added to the name; it is removed at the end. Two links to one file have
@@ -42,7 +38,6 @@ impl Lock {
         let failed = |error: std::io::Error| refused(format!("cannot be locked: {error}"));
         let lock = Self::file_of(path);
         create_folder(&lock)?;
-        let mut tries = 0;
         loop {
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
@@ -56,13 +51,8 @@ impl Lock {
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
-                    let holder = holder(&mut file).flatten();
                     // A process that has just locked the file writes its number next.
-                    if holder.is_none() && tries < TRIES {
-                        tries += 1;
-                        std::thread::sleep(Duration::from_millis(5));
-                        continue;
-                    }
+                    let holder = holder(&mut file).flatten();
                     let holder = holder.map_or(String::new(), |number| format!(" {number}"));
                     return Err(refused(format!(
                         "is in use by another process{holder}; wait for its end, or name another file"
@@ -132,21 +122,6 @@ mod tests {
         drop(first);
         assert!(!folder.path("c.json.lock").exists());
         Lock::acquire(&file).unwrap();
-    }
-
-    /// The number may be written a moment after the file is locked.
-    #[test]
-    #[allow(clippy::disallowed_methods, reason = "the test holds the lock itself")]
-    fn the_holder_is_named_from_the_beginning() {
-        let folder = Folder::new("lock-begun");
-        let mut begun = File::create(folder.path("c.json.lock")).unwrap();
-        begun.lock().unwrap();
-        let path = folder.path("c.json");
-        let second = std::thread::spawn(move || Lock::acquire(&path).unwrap_err());
-        std::thread::sleep(Duration::from_millis(20));
-        writeln!(begun, "77").unwrap();
-        let error = second.join().unwrap();
-        assert!(error.cause.starts_with("is in use by another process 77;"), "{error}");
     }
 
     #[test]
