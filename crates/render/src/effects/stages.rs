@@ -572,13 +572,15 @@ impl<'a> Program<'a> {
     fn draw_flat(&self, engine: &impl Interpolate, piece: &Piece, colour: Colour, to: To<'_>) {
         let To { target, bounds, samples, counters, .. } = to;
         let shaded = counters.shaded;
+        let (way, bare) = (Way { affine: true, ..self.way() }, bare(piece));
+        let stage = &mut each(|_, _| colour);
         if let Some(on_demand) = samples {
-            on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
+            let piece = (piece, &bare, self.plan);
+            on_demand.draw(engine, piece, (Some(colour), stage), way, target, counters);
         } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
             fill_flat(engine, piece.corners(), target, bounds, colour, counters);
         } else {
-            let way = Way { affine: true, ..self.way() };
-            fill(engine, &bare(piece), target, bounds, way, &mut each(|_, _| colour), counters);
+            fill(engine, &bare, target, bounds, way, stage, counters);
         }
         // A constant is no run of the fragment stage.
         counters.shaded = shaded;
@@ -592,7 +594,7 @@ impl<'a> Program<'a> {
         let visible = match samples {
             Some(on_demand) => {
                 let piece = (piece, &packed, self.plan);
-                on_demand.draw_varying(engine, piece, target, way, &mut shader, counters)
+                on_demand.draw(engine, piece, (None, &mut shader), way, target, counters)
             }
             None => fill(engine, &packed, target, bounds, way, &mut shader, counters),
         };
