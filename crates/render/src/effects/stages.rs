@@ -9,7 +9,6 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::conditions::mip_maps::{footprint, is_affine};
-use super::parts::Constants;
 use super::plan::{Attributes, PiecePlan};
 use super::primitive::{Piece, Prepared, WHITE, bare, pack, surfaces};
 use super::samples::OnDemand;
@@ -238,7 +237,8 @@ struct Builder<'a, 'b> {
     piece: &'b Piece,
     /// The first corner, which has what does not vary.
     first: Surface,
-    constants: &'b Constants,
+    /// What all fragments read of the texture, where they are known to read the same.
+    texel: Option<DVec3>,
     registers: &'b mut Registers,
     counters: &'b mut Counters,
     program: Program<'a>,
@@ -316,7 +316,7 @@ impl<'a> Builder<'a, '_> {
             return None;
         }
         self.counters.texels += 1;
-        self.multiply(product, self.constants.texel.unwrap_or_else(|| texture.at(self.first.uv)))
+        self.multiply(product, self.texel.unwrap_or_else(|| texture.at(self.first.uv)))
     }
 
     /// Multiplies the product so far by what all fragments have.
@@ -329,7 +329,7 @@ impl<'a> Builder<'a, '_> {
 
     /// Of nine, the parts of the light that arrive; nothing where that varies.
     fn shadow(&mut self, map: Option<&'a ShadowMap>) -> Option<u32> {
-        let mut lit = self.constants.lit.unwrap_or(TAPS);
+        let mut lit = TAPS;
         if let (Some(view), Some(map)) = (&self.item.light_view, map) {
             let receiver = view.receiver(map, surfaces(self.piece).map_array(|of| of.place));
             if self.varies(Attributes::PLACE) {
@@ -435,14 +435,14 @@ impl<'a> Builder<'a, '_> {
 }
 
 impl<'a> Program<'a> {
-    /// The list of a piece, of which `constants` says what all of its fragments have in a part of it.
+    /// The list of a piece, or of a part of it in which all fragments read one texel.
     #[inline]
     pub fn new(
         item: &'a Prepared<'a>,
         piece: &Piece,
         plan: PiecePlan,
         map: Option<&'a ShadowMap>,
-        constants: &Constants,
+        texel: Option<DVec3>,
         registers: &mut Registers,
         counters: &mut Counters,
     ) -> Self {
@@ -450,7 +450,7 @@ impl<'a> Program<'a> {
         let opacity = item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all());
         let of_all = |opacity: &Opacity| {
             let varies = plan.interpolates.has(Attributes::UV);
-            (!varies).then(|| constants.opacity.unwrap_or_else(|| opacity.of(first.uv)))
+            (!varies).then(|| opacity.of(first.uv))
         };
         let program = Self {
             plan,
@@ -459,7 +459,7 @@ impl<'a> Program<'a> {
             readings: [None; 2],
             opacity: opacity.map(|opacity| (opacity, of_all(opacity))),
         };
-        let mut builder = Builder { item, piece, first, constants, registers, counters, program };
+        let mut builder = Builder { item, piece, first, texel, registers, counters, program };
         if plan.fog == Share::Whole && plan.is_one_colour() && opacity.is_none() {
             builder.push(Stage::Fill(item.veil.colour()));
             return builder.program;
