@@ -337,6 +337,7 @@ pub struct Lock {
 }
 
 impl Lock {
+    /// Where the lock of a file is: an output of the command may not have this name.
     #[must_use]
     pub fn file_of(path: &Path) -> PathBuf {
         let mut name = place(path).into_os_string();
@@ -356,8 +357,10 @@ impl Lock {
         let lock = Self::file_of(path);
         create_folder(&lock)?;
         loop {
+            // Whether the file is there or not, it is opened, and whoever locks it first has the lock.
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
+            // A link could name a file of somebody else, and a pipe would be waited for.
             #[cfg(unix)]
             {
                 use std::os::unix::fs::OpenOptionsExt as _;
@@ -388,6 +391,7 @@ impl Lock {
                     "cannot be locked: {lock} exists and is not a lock; name another file"
                 )));
             }
+            // The lock is ours; who is refused reads here by whom.
             let number = std::process::id();
             file.set_len(0)
                 .and_then(|()| file.rewind())

@@ -18,6 +18,7 @@ pub fn quote(word: &(impl AsRef<OsStr> + ?Sized)) -> Cow<'_, str> {
         }
         return Cow::Owned(format!("'{}'", text.replace('\'', r"'\''")));
     }
+    // Text as it is, but for what has to be escaped; of bytes that are no text each in digits.
     let mut shown = String::new();
     for chunk in word.as_encoded_bytes().utf8_chunks() {
         let text = chunk.valid().replace('\\', r"\\").replace('\'', r"\'");
