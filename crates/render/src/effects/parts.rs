@@ -28,7 +28,6 @@ use super::plan::{Attributes, Parts, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w, pixel_box, uvs};
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
 use crate::scene::Item;
 use rasterproof_core::arrays::MapArray as _;
@@ -37,20 +36,16 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 /// Samples along the side of a square.
 const SIDE: u32 = 16;
 
-/// The same where each of four planes of samples is drawn by itself.
-const LARGE_SIDE: u32 = 32;
-
 /// The absolute weights of a corner's attributes add up to at most this.
 const MOST_WEIGHT: f64 = 8.0;
 
 impl Parts {
     /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
-    pub(super) fn of(rule: &Rule, item: &Item, antialias: Antialias) -> Option<Self> {
-        let side = if antialias.planes() > 1 { LARGE_SIDE } else { SIDE };
+    pub(super) fn of(rule: &Rule, item: &Item) -> Option<Self> {
         // Squares of physical surfaces are not checked.
         let is_checked = rule.where_it_varies && item.material.physical.is_none();
         let varies = rule.interpolates.has(Attributes::UV);
-        (is_checked && varies).then_some(Self { side, rule: *rule })
+        (is_checked && varies).then_some(Self { side: SIDE, rule: *rule })
     }
 
     /// No more than fits whatever is computed of it.
@@ -139,11 +134,9 @@ impl<'a> Whole<'a> {
             return;
         }
         let side = self.side;
-        let mut row: Vec<Part> = Vec::new();
         let mut y0 = bounds.y0;
         while y0 < bounds.y1 {
             let y1 = bounds.y1.min((y0.div_euclid(side) + 1) * side);
-            row.clear();
             let mut x0 = bounds.x0;
             while x0 < bounds.x1 {
                 let x1 = bounds.x1.min((x0.div_euclid(side) + 1) * side);
@@ -152,18 +145,8 @@ impl<'a> Whole<'a> {
                 let Some(shares) = self.shares(rect) else { continue };
                 let own = self.square(shares).map(|square| self.plan(&square));
                 let (plan, texel) = own.unwrap_or((self.plan, None));
-                match row.last_mut() {
-                    Some(last) if (last.plan, last.texel) == (plan, texel) => {
-                        last.bounds.x1 = x1;
-                    }
-                    _ => row.push(Part { bounds: rect, plan, texel }),
-                }
+                draw(&Part { bounds: rect, plan, texel });
             }
-            if let [alone] = &mut row[..] {
-                // What lies beyond it is not covered.
-                (alone.bounds.x0, alone.bounds.x1) = (bounds.x0, bounds.x1);
-            }
-            row.iter().for_each(&mut *draw);
             y0 = y1;
         }
     }
@@ -287,6 +270,7 @@ mod tests {
     use crate::effects::{Effects, planner};
     use crate::pipeline::depth::DepthFormat;
     use crate::pipeline::shade::{Attributes as PackedAttributes, PLACED, Surface};
+    use crate::pipeline::target::Antialias;
     use crate::scene::{Scene, random};
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::grid::SubpixelPoint;
@@ -358,7 +342,7 @@ mod tests {
         let scenes = (0..60).map(|index| random::with_effects(6, index));
         let parts = |scene: Scene| {
             let rule = rule(&scene, &scene.items[0], &Effects::PLANNED).1;
-            Parts::of(&rule, &scene.items[0], Antialias::None)
+            Parts::of(&rule, &scene.items[0])
         };
         let parts = scenes.into_iter().find_map(parts).unwrap();
         let piece = |[x_px, y_px]: [i32; 2]| {

@@ -113,10 +113,8 @@ enum Stage<'a> {
     Map { map: Map, read: TextureRead<'a>, uv: usize },
     /// It is looked up which part of the light arrives.
     Shadow { receiver: Receiver<'a>, place: usize },
-    /// The product is multiplied by the light, and becomes a colour of 8 bits.
-    Light { from: usize, light: &'a Light, normal: usize },
-    /// The same with the part of the light that arrives.
-    PartOfLight { from: usize, light: &'a Light, normal: usize },
+    /// The product is multiplied by the light, all of it or the part that arrives, and becomes a colour of 8 bits.
+    Light { from: usize, light: &'a Light, normal: usize, is_part: bool },
     /// The colour of a physical surface, of 8 bits.
     Physical(PhysicalStage<'a>),
     /// The product becomes a colour of 8 bits.
@@ -183,8 +181,8 @@ impl Stage<'_> {
             Self::Map { map: Map::Occlusion, .. } => "occlusion map",
             Self::Map { map: Map::Normal, .. } => "normal map",
             Self::Shadow { .. } => "shadow",
-            Self::Light { .. } => "x light to 8 bits",
-            Self::PartOfLight { .. } => "x light that arrives to 8 bits",
+            Self::Light { is_part: false, .. } => "x light to 8 bits",
+            Self::Light { is_part: true, .. } => "x light that arrives to 8 bits",
             Self::Physical(_) => "metal and roughness",
             Self::Round => "to 8 bits",
             Self::Fill(_) => "one colour",
@@ -205,7 +203,6 @@ impl Stage<'_> {
             Self::Colour { .. }
             | Self::Factor { .. }
             | Self::Light { .. }
-            | Self::PartOfLight { .. }
             | Self::Round
             | Self::Fill(_)
             | Self::OneHighlight(_) => {}
@@ -349,10 +346,7 @@ impl<'a> Builder<'a, '_> {
         let light = &self.item.light;
         let Some(lit) = lit.filter(|_| !self.varies(Attributes::NORMAL)) else {
             let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
-            self.push(match lit {
-                Some(TAPS) => Stage::Light { from, light, normal },
-                _ => Stage::PartOfLight { from, light, normal },
-            });
+            self.push(Stage::Light { from, light, normal, is_part: lit != Some(TAPS) });
             return None;
         };
         let mut product = product;
@@ -705,13 +699,7 @@ impl Shader<'_, '_> {
                         registers.lit[i] = receiver.lit(registers.three(place, i));
                     }
                 }
-                Stage::Light { from, light, normal } => {
-                    for i in lanes(wanted, count) {
-                        let intensity = light.intensity(registers.three(normal, i));
-                        colours[i] = to_colour(registers.three(from, i) * intensity);
-                    }
-                }
-                Stage::PartOfLight { from, light, normal } => {
+                Stage::Light { from, light, normal, .. } => {
                     for i in lanes(wanted, count) {
                         let normal = registers.three(normal, i);
                         let intensity = light.intensity_in(normal, registers.lit[i]);
