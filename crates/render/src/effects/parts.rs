@@ -28,6 +28,7 @@ use super::plan::{Attributes, Parts, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w, pixel_box, uvs};
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::opacity::Drawn;
+use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
 use crate::scene::Item;
 use rasterproof_core::arrays::MapArray as _;
@@ -36,16 +37,31 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 /// Samples along the side of a square.
 const SIDE: u32 = 16;
 
+/// The same where each of four planes of samples is drawn by itself.
+const LARGE_SIDE: u32 = 32;
+
 /// The absolute weights of a corner's attributes add up to at most this.
 const MOST_WEIGHT: f64 = 8.0;
 
 impl Parts {
-    /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
-    pub(super) fn of(rule: &Rule, item: &Item) -> Option<Self> {
+    /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is. A plan has it also without a
+    /// texture, where no piece is cut: what a plan says is a part of the digest of frames.
+    pub(super) fn of(rule: &Rule, item: &Item, antialias: Antialias) -> Option<Self> {
+        let varies = !rule.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
+        let is_planned = [
+            rule.specular,
+            rule.shadows,
+            rule.mip_maps,
+            rule.anisotropy,
+            rule.fog,
+            rule.alpha_test,
+            rule.blending,
+        ]
+        .contains(&Mode::Planned);
+        let side = if antialias.planes() > 1 { LARGE_SIDE } else { SIDE };
         // Squares of physical surfaces are not checked.
         let is_checked = rule.where_it_varies && item.material.physical.is_none();
-        let varies = rule.interpolates.has(Attributes::UV);
-        (is_checked && varies).then_some(Self { side: SIDE, rule: *rule })
+        (is_checked && (is_planned || varies)).then_some(Self { side, rule: *rule })
     }
 
     /// No more than fits whatever is computed of it.
@@ -270,7 +286,6 @@ mod tests {
     use crate::effects::{Effects, planner};
     use crate::pipeline::depth::DepthFormat;
     use crate::pipeline::shade::{Attributes as PackedAttributes, PLACED, Surface};
-    use crate::pipeline::target::Antialias;
     use crate::scene::{Scene, random};
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::grid::SubpixelPoint;
@@ -342,7 +357,7 @@ mod tests {
         let scenes = (0..60).map(|index| random::with_effects(6, index));
         let parts = |scene: Scene| {
             let rule = rule(&scene, &scene.items[0], &Effects::PLANNED).1;
-            Parts::of(&rule, &scene.items[0])
+            Parts::of(&rule, &scene.items[0], Antialias::None)
         };
         let parts = scenes.into_iter().find_map(parts).unwrap();
         let piece = |[x_px, y_px]: [i32; 2]| {

@@ -92,7 +92,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> (Plan, Vec<Rule>
     let item = |item| {
         let (carries, rule) = conditions::rule(scene, item, effects);
         let (clip, cull) = (effects.mode(Effect::Clip), effects.mode(Effect::Cull));
-        let parts = Parts::of(&rule, item);
+        let parts = Parts::of(&rule, item, canvas.antialias);
         let pieces = Pieces::AsTheyCome(rule);
         (ItemPlan { clip, cull, carries, pieces, parts }, rule)
     };
