@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Subcommand;
-use rasterproof_host::lock::Lock;
-use rasterproof_host::output::{self, Output, Over, Use};
+use rasterproof_host::output::{self, Lock, Output, Over, Use};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 

@@ -1,7 +1,6 @@
 //! Where a command puts what it makes: a page of its own, pictures beside it, and an index of the
 //! pages in that folder.
 
-use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 
 use rasterproof_host::input;
@@ -135,7 +134,7 @@ pub(super) fn write_page(page: &Output, report: Report, streams: &mut Streams<'_
 /// The index of a folder, unless another file of that name is there.
 fn write_index(folder: &Path, streams: &mut Streams<'_>) -> std::io::Result<()> {
     let index = folder.join("index.html");
-    if index.exists() && !read_head(&index).is_some_and(|text| html::is_index(&text)) {
+    if index.exists() && !html::is_index(&read_head(&index)) {
         return Ok(());
     }
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -144,21 +143,17 @@ fn write_index(folder: &Path, streams: &mut Streams<'_>) -> std::io::Result<()> 
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.ends_with(".html") && name != "index.html" {
-            pages.extend(read_head(&path).map(|text| (name, text)));
+            pages.push((name, read_head(&path)));
         }
     }
     pages.sort();
-    // Its head was read, to see whose it is.
-    let index = Output { path: index, over: Over::Updated };
-    streams.save(&index, html::index(&pages).as_bytes());
+    streams.save(&Output::typed(&index), html::index(&pages).as_bytes());
     Ok(())
 }
 
-/// The first bytes of a file as text, or nothing.
-fn read_head(path: &Path) -> Option<String> {
-    let mut bytes = Vec::new();
-    input::open(path, u64::MAX).ok()?.take(HEAD_BYTES).read_to_end(&mut bytes).ok()?;
-    Some(String::from_utf8_lossy(&bytes).into_owned())
+/// The first bytes of a file as text.
+fn read_head(path: &Path) -> String {
+    String::from_utf8_lossy(&input::head(path, HEAD_BYTES)).into_owned()
 }
 
 /// The address of the docs from a page in a folder: where a checkout is at hand and the way is plain.

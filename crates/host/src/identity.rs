@@ -1,6 +1,5 @@
 //! Whether two names mean one file, and which files the command has read so far: no output of it may replace one.
 
-use std::collections::HashMap;
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -61,23 +60,26 @@ pub(crate) fn place(path: &Path) -> PathBuf {
     }
 }
 
-/// The files that this process has read, by their places. Threads of one command read files at the same time.
-static READ: Mutex<Option<HashMap<PathBuf, Identity>>> = Mutex::new(None);
+/// The files that this process has read. Threads of one command read files at the same time.
+static READ: Mutex<Vec<Identity>> = Mutex::new(Vec::new());
 
-fn list() -> MutexGuard<'static, Option<HashMap<PathBuf, Identity>>> {
+fn list() -> MutexGuard<'static, Vec<Identity>> {
     READ.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Begins a new command, which has read nothing. A test runs several commands in one process.
 pub fn forget_read_files() {
-    *list() = None;
+    list().clear();
 }
 
 /// Notes a file that is opened for reading.
 pub(crate) fn note(path: &Path) {
     // Those below `/proc` cannot be replaced, and a program that judges others reads many of them.
     if let Some(read) = Identity::of(path).filter(|read| !read.place.starts_with("/proc")) {
-        list().get_or_insert_default().insert(read.place.clone(), read);
+        let mut list = list();
+        if !list.contains(&read) {
+            list.push(read);
+        }
     }
 }
 
@@ -91,9 +93,7 @@ pub fn note_standard_input() {
 /// Whether a path names a file that was read, by whatever name.
 pub(crate) fn was_read(path: &Path) -> bool {
     let Some(target) = Identity::of(path) else { return false };
-    let list = list();
-    let mut read = list.iter().flat_map(HashMap::values);
-    read.any(|read| {
+    list().iter().any(|read| {
         // The number of a file that was removed may be given to a new one, so a file is recognised by its number
         // only while it is still where it was read.
         let is_still = || Identity::of(&read.place).is_some_and(|now| now.has_number_of(read));

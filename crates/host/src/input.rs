@@ -36,16 +36,31 @@ fn wrong_kind(kind: std::fs::FileType) -> Option<&'static str> {
     Some("is not a regular file")
 }
 
-/// Opens a regular file of at most `limit_bytes` for reading. Links are followed.
-///
-/// The kind is looked at before the file is opened, since to open a device can have an effect, and
-/// again afterwards, since the name may mean another file by then. From now on no output of the command
+/// Opens a regular file of at most `limit_bytes` for reading. Links are followed. From now on no output of the command
 /// replaces the file: see [`crate::output::Over`].
 ///
 /// # Errors
 /// [`FileError`] where the file is missing, is not a regular file, is too large, or may not be read.
-#[allow(clippy::disallowed_methods, reason = "this is the one function that opens an input file")]
 pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
+    let file = regular(path, limit_bytes)?;
+    identity::note(path);
+    Ok(file)
+}
+
+/// The first bytes of a regular file, which tell what it is; it may still be replaced. None of one that cannot be read.
+#[must_use]
+pub fn head(path: &Path, most_bytes: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    match regular(path, u64::MAX).map(|file| file.take(most_bytes).read_to_end(&mut bytes)) {
+        Ok(Ok(_)) => bytes,
+        _ => Vec::new(),
+    }
+}
+
+/// The kind is looked at before the file is opened, since to open a device can have an effect, and
+/// again afterwards, since the name may mean another file by then.
+#[allow(clippy::disallowed_methods, reason = "this is the one function that opens an input file")]
+fn regular(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     let before = std::fs::metadata(path).map_err(|error| failed(path, &error))?;
     if let Some(cause) = wrong_kind(before.file_type()) {
         return Err(refused(path, cause));
@@ -61,7 +76,6 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     if data.len() > limit_bytes {
         return Err(too_large(path, limit_bytes));
     }
-    identity::note(path);
     Ok(file)
 }
 

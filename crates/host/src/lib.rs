@@ -11,7 +11,6 @@ pub mod error;
 pub mod identity;
 pub mod input;
 pub mod limits;
-pub mod lock;
 mod mark;
 pub mod output;
 pub mod shell;

@@ -9,15 +9,15 @@
 //! that was killed, and the next write in its folder removes it.
 
 use std::ffi::OsStr;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::io::{self, Read as _, Write};
+use std::io::{self, Read as _, Seek as _, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::{FileError, refused};
-use crate::identity::{self, Identity};
-use crate::input::without_waiting;
+use crate::identity::{self, Identity, number, place};
+use crate::input::{self, without_waiting};
 use crate::limits::STALLED_WRITE_SECONDS;
 use crate::mark;
 use crate::text::printable_path;
@@ -123,24 +123,13 @@ pub fn check(path: &Path, over: Over) -> Result<(), FileError> {
             "exists, and may be edited by hand: give another name, or remove it",
         ));
     }
-    if over == Over::Marked && is_file() && !mark::is_marked(&head(path)) {
+    if over == Over::Marked && is_file() && !mark::is_marked(&input::head(path, mark::HEAD_BYTES)) {
         return Err(refused(
             path,
             "exists, and rasterproof did not make it: name another folder, move the file, or replace it with --force",
         ));
     }
     Ok(())
-}
-
-/// The first bytes of a file; none of one that cannot be read.
-#[allow(clippy::disallowed_methods, reason = "to read a mark is not to read an input")]
-fn head(path: &Path) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let file = File::open(path).map(|file| file.take(mark::HEAD_BYTES));
-    match file.and_then(|mut file| file.read_to_end(&mut bytes)) {
-        Ok(_) => bytes,
-        Err(_) => Vec::new(),
-    }
 }
 
 /// Writes `bytes` to `path` with the mark of this program, and makes the folder of `path` where it is missing.
@@ -178,7 +167,7 @@ pub fn write(path: &Path, bytes: &[u8], over: Over) -> Result<(), FileError> {
 }
 
 /// Makes the folder of a file where it is missing.
-pub(crate) fn create_folder(path: &Path) -> Result<(), FileError> {
+fn create_folder(path: &Path) -> Result<(), FileError> {
     let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
@@ -201,14 +190,15 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// A file that is being written under a random name, which is gone when this goes out of scope.
-struct Part {
-    /// Open, and so locked, until it has its name.
+/// A file of this program beside another one. It is locked as long as it is open, since the system ends a lock with its
+/// process, and removed when this goes out of scope.
+#[derive(Debug)]
+struct Own {
     file: File,
     path: PathBuf,
 }
 
-impl Drop for Part {
+impl Drop for Own {
     fn drop(&mut self) {
         let _ = remove(&self.path);
     }
@@ -279,7 +269,7 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
 /// A new file under a random name in the folder of `target`, locked where the file system has locks, until it has its name.
 /// `create_new` refuses whatever has its name already, links included, so that nothing of other people is written over.
 #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
-fn part_beside(target: &Path) -> io::Result<Part> {
+fn part_beside(target: &Path) -> io::Result<Own> {
     loop {
         // A number that cannot be foreseen: the standard library seeds its hash maps from the system.
         let number = RandomState::new().build_hasher().finish();
@@ -287,7 +277,7 @@ fn part_beside(target: &Path) -> io::Result<Part> {
         match OpenOptions::new().write(true).create_new(true).open(&path) {
             // Another process may have removed it before it was locked.
             Ok(file) if file.lock().is_ok() && !path.exists() => {}
-            Ok(file) => return Ok(Part { file, path }),
+            Ok(file) => return Ok(Own { file, path }),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
         }
@@ -336,6 +326,98 @@ fn is_unread_pipe(error: &io::Error) -> bool {
     {
         let _ = error;
         false
+    }
+}
+
+/// The right to replace a file, held until it goes out of scope: a file beside the one that it protects, with `.lock` added to the
+/// name. Two links to one file have one lock.
+#[derive(Debug)]
+pub struct Lock {
+    _file: Own,
+}
+
+impl Lock {
+    /// Where the lock of a file is: an output of the command may not have this name.
+    #[must_use]
+    pub fn file_of(path: &Path) -> PathBuf {
+        let mut name = place(path).into_os_string();
+        name.push(".lock");
+        PathBuf::from(name)
+    }
+
+    /// Locks `path`, or says which process has it. The folder of `path` is made where it is missing.
+    ///
+    /// # Errors
+    /// [`FileError`] where another process holds the lock, where the file of the lock cannot be
+    /// made, or where a file that is not a lock has its name.
+    #[allow(clippy::disallowed_methods, reason = "the lock has to be the file that was opened")]
+    pub fn acquire(path: &Path) -> Result<Self, FileError> {
+        let refused = |cause: String| refused(path, cause);
+        let failed = |error: std::io::Error| refused(format!("cannot be locked: {error}"));
+        let lock = Self::file_of(path);
+        create_folder(&lock)?;
+        loop {
+            // Whether the file is there or not, it is opened, and whoever locks it first has the lock.
+            let mut options = OpenOptions::new();
+            options.read(true).write(true).create(true).truncate(false);
+            // A link could name a file of somebody else, and a pipe would be waited for.
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::OpenOptionsExt as _;
+                let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOFOLLOW;
+                options.custom_flags(flags.bits() as i32);
+            }
+            let mut file = options.open(&lock).map_err(failed)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    // None where a process has just locked the file, and writes its number next.
+                    let holder = holder(&mut file).flatten();
+                    let holder = holder.map_or(String::new(), |number| format!(" {number}"));
+                    return Err(refused(format!(
+                        "is in use by another process{holder}; wait for its end, or name another file"
+                    )));
+                }
+                Err(TryLockError::Error(error)) => return Err(failed(error)),
+            }
+            // The last holder may have removed the file between our opening and our locking it.
+            if !is_at(&file, &lock) {
+                continue;
+            }
+            // Another program may use this name for a file with content, such as Cargo.lock.
+            if holder(&mut file).is_none() {
+                let lock = printable_path(&lock);
+                return Err(refused(format!(
+                    "cannot be locked: {lock} exists and is not a lock; name another file"
+                )));
+            }
+            // The lock is ours; who is refused reads here by whom.
+            let number = std::process::id();
+            file.set_len(0)
+                .and_then(|()| file.rewind())
+                .and_then(|()| writeln!(file, "{number}"))
+                .map_err(failed)?;
+            return Ok(Self { _file: Own { file, path: lock } });
+        }
+    }
+}
+
+/// The process whose number is in the file of a lock, or none where the file is empty. Nothing where
+/// the file holds anything else.
+fn holder(file: &mut File) -> Option<Option<u32>> {
+    let mut text = String::new();
+    file.take(20).read_to_string(&mut text).ok()?;
+    if text.is_empty() {
+        return Some(None);
+    }
+    text.strip_suffix('\n')?.parse().ok().map(Some)
+}
+
+/// Whether a path names an open file. Where files have no numbers, it is enough that it names one.
+fn is_at(file: &File, path: &Path) -> bool {
+    match (file.metadata(), std::fs::symlink_metadata(path)) {
+        (Ok(open), Ok(named)) => number(&open) == number(&named),
+        _ => false,
     }
 }
 
@@ -497,5 +579,45 @@ mod tests {
         let file = folder.0.join(std::ffi::OsStr::from_bytes(b"a\xffb"));
         write(&file, b"x", Over::Any).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"x");
+    }
+
+    #[test]
+    fn the_second_one_is_refused_until_the_first_has_ended() {
+        let folder = Folder::new("lock");
+        let file = folder.path("c.json");
+        let first = Lock::acquire(&file).unwrap();
+        let error = Lock::acquire(&file).unwrap_err();
+        assert!(error.cause.starts_with("is in use by another process "), "{error}");
+        assert!(error.cause.contains(&std::process::id().to_string()), "{error}");
+        drop(first);
+        assert!(!folder.path("c.json.lock").exists());
+        Lock::acquire(&file).unwrap();
+    }
+
+    #[test]
+    fn the_folder_is_made_and_links_share_a_lock() {
+        let folder = Folder::new("lock-folder");
+        let file = folder.path("a/b/c.json");
+        let lock = Lock::acquire(&file).unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("a", folder.path("link")).unwrap();
+            let error = Lock::acquire(&folder.path("link/b/c.json")).unwrap_err();
+            assert!(error.cause.starts_with("is in use by another process "), "{error}");
+        }
+        drop(lock);
+    }
+
+    /// What a killed process leaves is taken over; a file of another program is left alone.
+    #[test]
+
+    fn a_file_that_is_not_a_lock_is_left_alone() {
+        let folder = Folder::new("lock-other");
+        std::fs::write(folder.path("Cargo.lock"), "version = 4\n").unwrap();
+        let error = Lock::acquire(&folder.path("Cargo")).unwrap_err();
+        assert!(error.cause.contains("is not a lock"), "{error}");
+        assert_eq!(std::fs::read(folder.path("Cargo.lock")).unwrap(), b"version = 4\n");
+        std::fs::write(folder.path("c.json.lock"), "77\n").unwrap();
+        Lock::acquire(&folder.path("c.json")).unwrap();
     }
 }

@@ -11,34 +11,26 @@ use crate::text::{escaped, is_hidden};
 #[must_use]
 pub fn quote(word: &(impl AsRef<OsStr> + ?Sized)) -> Cow<'_, str> {
     let word = word.as_ref();
-    let Some(word) = word.to_str() else {
-        return Cow::Owned(quote_bytes(word.as_encoded_bytes()));
-    };
-    let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%^".contains(c);
-    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
-        return Cow::Borrowed(word);
+    if let Some(text) = word.to_str().filter(|text| !text.contains(is_hidden)) {
+        let is_plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%^".contains(c);
+        if !text.is_empty() && !text.starts_with('=') && text.chars().all(is_plain) {
+            return Cow::Borrowed(text);
+        }
+        return Cow::Owned(format!("'{}'", text.replace('\'', r"'\''")));
     }
-    if !word.chars().any(is_hidden) {
-        return Cow::Owned(format!("'{}'", word.replace('\'', r"'\''")));
+    // Text as it is, but for what has to be escaped; of bytes that are no text each in digits.
+    let mut shown = String::new();
+    for chunk in word.as_encoded_bytes().utf8_chunks() {
+        let text = chunk.valid().replace('\\', r"\\").replace('\'', r"\'");
+        shown += &escaped(&text, "", |hidden| octal(hidden.encode_utf8(&mut [0; 4]).as_bytes()));
+        shown += &octal(chunk.invalid());
     }
-    let word = word.replace('\\', r"\\").replace('\'', r"\'");
-    let shown = escaped(&word, "", |hidden| octal(hidden.encode_utf8(&mut [0; 4]).as_bytes()));
     Cow::Owned(format!("$'{shown}'"))
 }
 
 /// Three octal digits for each byte, so that a digit that follows cannot be taken for a fourth.
 fn octal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("\\{byte:03o}")).collect()
-}
-
-/// A word that is not UTF-8: every byte that is no plain ASCII in octal digits.
-fn quote_bytes(word: &[u8]) -> String {
-    let one = |byte: &u8| match byte {
-        b'\'' | b'\\' => format!("\\{}", char::from(*byte)),
-        b' '..=b'~' => char::from(*byte).to_string(),
-        _ => octal(&[*byte]),
-    };
-    format!("$'{}'", word.iter().map(one).collect::<String>())
 }
 
 /// A command line whose words are read back as they are.

@@ -39,9 +39,6 @@ pub(crate) use materials::encoded;
 use materials::{Described, Images};
 use rasterproof_core::arrays::MapArray as _;
 
-/// Corners of all parts together, where Draco has more of them than the document says.
-const MOST_CORNERS: usize = 1 << 25;
-
 /// What a corner of a triangle takes, as a number of a position and as a third of a piece that is drawn.
 const CORNER_BYTES: u64 = 32;
 
@@ -84,8 +81,8 @@ const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 /// The extension of nodes that are lights.
 const LIGHTS: &str = "KHR_lights_punctual";
 
-/// Extensions that hide where the triangles are, and are not read.
-const COMPRESSED: [&str; 1] = ["KHR_meshopt_compression"];
+/// An extension that hides where the triangles are, and is not read.
+const COMPRESSED: &str = "KHR_meshopt_compression";
 
 /// Whether these bytes begin as a GLB.
 pub(crate) fn is_glb(bytes: &[u8]) -> bool {
@@ -115,11 +112,10 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
     };
     // Both versions are one from here on.
     let root = document::read(&json).map_err(no_gltf)?;
-    let compressed = root.extensions_required.iter().find(|name| COMPRESSED.contains(&&***name));
-    if let Some(name) = compressed {
+    if root.extensions_required.iter().any(|name| name == COMPRESSED) {
         let remedy = "export the model without compression";
         let cause = "its triangles are compressed by";
-        return Err(format!("{cause} {name}, which is not read: {remedy}").into());
+        return Err(format!("{cause} {COMPRESSED}, which is not read: {remedy}").into());
     }
     // A pose is a change of the nodes, made before anything is read of them.
     let mut data = Data::new(root, contents.folder(), bin)?;
@@ -138,7 +134,6 @@ pub(crate) fn read(bytes: &[u8], pose: Option<Pose>, contents: &mut Contents) ->
         see_through: HashMap::new(),
         opacities: None,
         json_bytes: json.len() as u64,
-        corners: 0,
         left_bytes: 0,
     };
     if let Some(odd) = odd {
@@ -233,8 +228,6 @@ struct Reader<'a> {
     opacities: Option<Arc<OpacityMap>>,
     /// For the limit of what a file of this length may contain.
     json_bytes: u64,
-    /// The number of corners so far, of all parts together, for the limit.
-    corners: usize,
     /// What the triangles that are compressed may take in all.
     left_bytes: u64,
 }
@@ -550,10 +543,6 @@ impl Reader<'_> {
         }
         // Every kind of triangles becomes a list of three corners each.
         let triangles = self.triangles(mode, indices, count, place);
-        self.corners += triangles.len();
-        if self.corners > MOST_CORNERS {
-            return Err(format!("shows more than {MOST_CORNERS} corners of triangles"));
-        }
         // Positions and normals, as shapes and joints move them.
         let mut normals = match vertices.read("NORMAL") {
             Some(read) => self.optional(read.map(vectors3), count, "normals", place),

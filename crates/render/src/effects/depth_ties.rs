@@ -6,7 +6,6 @@
 
 use super::assembled::Assembled;
 use super::conditions::{self, EVERY_FRAGMENT};
-use super::parts::Constants;
 use super::plan::Canvas;
 use super::planner;
 use super::primitive::{BadScene, Piece, Prepared, bare, pack, surfaces, touched};
@@ -189,8 +188,8 @@ impl<'a> TiedPieces<'a> {
         let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let counters = &mut Counters::default();
-        let (registers, constants) = (&mut Registers::new(), &Constants::default());
-        let program = Program::new(item, piece, plan, map, constants, registers, counters);
+        let registers = &mut Registers::new();
+        let program = Program::new(item, piece, plan, map, None, registers, counters);
         let packed = pack::<PLACED>(&moved, plan.interpolates);
         let mut shader = program.on(registers);
         let emit = |f: Fragment<Attributes<PLACED>>| {
@@ -307,8 +306,8 @@ impl<'a> TiedPieces<'a> {
         }
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let counters = &mut Counters::default();
-        let (registers, constants) = (&mut Registers::new(), &Constants::default());
-        let program = Program::new(item, piece, plan, map, constants, registers, counters);
+        let registers = &mut Registers::new();
+        let program = Program::new(item, piece, plan, map, None, registers, counters);
         let Some(texture) = program.texture() else { return };
         let uv = surfaces(&moved).map_array(|of| of.uv);
         let bounds_of_uv =

@@ -6,7 +6,7 @@ use std::num::NonZeroU32;
 use super::Effect;
 use super::assembled::Assembled;
 use super::conditions::{self, Facts, shadows};
-use super::parts::{Constants, Part, Whole};
+use super::parts::{Part, Whole};
 use super::plan::{
     Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples, SceneDigest, VERSION,
 };
@@ -362,17 +362,16 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
                     }
                 });
             }
-            let map = map.filter(|_| part.plan.shadows);
-            let Part { bounds, plan, constants } = part;
-            let program = Program::new(item, piece, *plan, map, constants, registers, counters);
+            let Part { bounds, plan, texel } = part;
+            let program = Program::new(item, piece, *plan, map, *texel, registers, counters);
             let samples = samples.as_deref_mut();
             let to = To { target, bounds: *bounds, samples, registers, counters };
             program.draw(engine, piece, to);
         };
         match checked {
-            None => draw(&Part { bounds, plan, constants: Constants::default() }),
+            None => draw(&Part { bounds, plan, texel: None }),
             Some(parts) => {
-                let whole = Whole::new(parts, item, piece, plan, map);
+                let whole = Whole::new(parts, item, piece, plan);
                 whole.each(bounds, i32::from(planes > 1), &mut draw);
             }
         }

@@ -7,7 +7,6 @@ use super::primitive::pack;
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
 use super::execute::{Observer, draw, fit, plans};
-use super::parts::Constants;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use super::stages::{Program, Registers};
@@ -157,8 +156,7 @@ pub fn stages(
         let item = &assembled.items[*index];
         let view = item.light_view.as_ref().filter(|_| plan.shadows);
         let map = view.map(|view| view.map(scene, engine));
-        let constants = Constants::default();
-        let program = Program::new(item, piece, *plan, map, &constants, registers, counters);
+        let program = Program::new(item, piece, *plan, map, None, registers, counters);
         let stages = program.names();
         match all.iter_mut().find(|known| known.item == *index && known.stages == stages) {
             Some(known) => known.pieces += 1,
@@ -192,8 +190,7 @@ pub fn render_wireframe(
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
-            let constants = Constants::default();
-            let program = Program::new(item, piece, plan, None, &constants, registers, fills);
+            let program = Program::new(item, piece, plan, None, None, registers, fills);
             let mut shader = program.on(registers);
             draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;

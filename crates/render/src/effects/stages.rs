@@ -9,7 +9,6 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::conditions::mip_maps::{footprint, is_affine};
-use super::parts::Constants;
 use super::plan::{Attributes, PiecePlan};
 use super::primitive::{Piece, Prepared, WHITE, bare, pack, surfaces};
 use super::samples::OnDemand;
@@ -114,10 +113,8 @@ enum Stage<'a> {
     Map { map: Map, read: TextureRead<'a>, uv: usize },
     /// It is looked up which part of the light arrives.
     Shadow { receiver: Receiver<'a>, place: usize },
-    /// The product is multiplied by the light, and becomes a colour of 8 bits.
-    Light { from: usize, light: &'a Light, normal: usize },
-    /// The same with the part of the light that arrives.
-    PartOfLight { from: usize, light: &'a Light, normal: usize },
+    /// The product is multiplied by the light, all of it or the part that arrives, and becomes a colour of 8 bits.
+    Light { from: usize, light: &'a Light, normal: usize, is_part: bool },
     /// The colour of a physical surface, of 8 bits.
     Physical(PhysicalStage<'a>),
     /// The product becomes a colour of 8 bits.
@@ -184,8 +181,8 @@ impl Stage<'_> {
             Self::Map { map: Map::Occlusion, .. } => "occlusion map",
             Self::Map { map: Map::Normal, .. } => "normal map",
             Self::Shadow { .. } => "shadow",
-            Self::Light { .. } => "x light to 8 bits",
-            Self::PartOfLight { .. } => "x light that arrives to 8 bits",
+            Self::Light { is_part: false, .. } => "x light to 8 bits",
+            Self::Light { is_part: true, .. } => "x light that arrives to 8 bits",
             Self::Physical(_) => "metal and roughness",
             Self::Round => "to 8 bits",
             Self::Fill(_) => "one colour",
@@ -206,7 +203,6 @@ impl Stage<'_> {
             Self::Colour { .. }
             | Self::Factor { .. }
             | Self::Light { .. }
-            | Self::PartOfLight { .. }
             | Self::Round
             | Self::Fill(_)
             | Self::OneHighlight(_) => {}
@@ -238,7 +234,8 @@ struct Builder<'a, 'b> {
     piece: &'b Piece,
     /// The first corner, which has what does not vary.
     first: Surface,
-    constants: &'b Constants,
+    /// What all fragments read of the texture, where they are known to read the same.
+    texel: Option<DVec3>,
     registers: &'b mut Registers,
     counters: &'b mut Counters,
     program: Program<'a>,
@@ -316,7 +313,7 @@ impl<'a> Builder<'a, '_> {
             return None;
         }
         self.counters.texels += 1;
-        self.multiply(product, self.constants.texel.unwrap_or_else(|| texture.at(self.first.uv)))
+        self.multiply(product, self.texel.unwrap_or_else(|| texture.at(self.first.uv)))
     }
 
     /// Multiplies the product so far by what all fragments have.
@@ -329,7 +326,7 @@ impl<'a> Builder<'a, '_> {
 
     /// Of nine, the parts of the light that arrive; nothing where that varies.
     fn shadow(&mut self, map: Option<&'a ShadowMap>) -> Option<u32> {
-        let mut lit = self.constants.lit.unwrap_or(TAPS);
+        let mut lit = TAPS;
         if let (Some(view), Some(map)) = (&self.item.light_view, map) {
             let receiver = view.receiver(map, surfaces(self.piece).map_array(|of| of.place));
             if self.varies(Attributes::PLACE) {
@@ -349,10 +346,7 @@ impl<'a> Builder<'a, '_> {
         let light = &self.item.light;
         let Some(lit) = lit.filter(|_| !self.varies(Attributes::NORMAL)) else {
             let (from, normal) = (self.product(product), self.register(Attributes::NORMAL));
-            self.push(match lit {
-                Some(TAPS) => Stage::Light { from, light, normal },
-                _ => Stage::PartOfLight { from, light, normal },
-            });
+            self.push(Stage::Light { from, light, normal, is_part: lit != Some(TAPS) });
             return None;
         };
         let mut product = product;
@@ -435,14 +429,14 @@ impl<'a> Builder<'a, '_> {
 }
 
 impl<'a> Program<'a> {
-    /// The list of a piece, of which `constants` says what all of its fragments have in a part of it.
+    /// The list of a piece, or of a part of it in which all fragments read one texel.
     #[inline]
     pub fn new(
         item: &'a Prepared<'a>,
         piece: &Piece,
         plan: PiecePlan,
         map: Option<&'a ShadowMap>,
-        constants: &Constants,
+        texel: Option<DVec3>,
         registers: &mut Registers,
         counters: &mut Counters,
     ) -> Self {
@@ -450,7 +444,7 @@ impl<'a> Program<'a> {
         let opacity = item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all());
         let of_all = |opacity: &Opacity| {
             let varies = plan.interpolates.has(Attributes::UV);
-            (!varies).then(|| constants.opacity.unwrap_or_else(|| opacity.of(first.uv)))
+            (!varies).then(|| opacity.of(first.uv))
         };
         let program = Self {
             plan,
@@ -459,7 +453,7 @@ impl<'a> Program<'a> {
             readings: [None; 2],
             opacity: opacity.map(|opacity| (opacity, of_all(opacity))),
         };
-        let mut builder = Builder { item, piece, first, constants, registers, counters, program };
+        let mut builder = Builder { item, piece, first, texel, registers, counters, program };
         if plan.fog == Share::Whole && plan.is_one_colour() && opacity.is_none() {
             builder.push(Stage::Fill(item.veil.colour()));
             return builder.program;
@@ -572,13 +566,15 @@ impl<'a> Program<'a> {
     fn draw_flat(&self, engine: &impl Interpolate, piece: &Piece, colour: Colour, to: To<'_>) {
         let To { target, bounds, samples, counters, .. } = to;
         let shaded = counters.shaded;
+        let (way, bare) = (Way { affine: true, ..self.way() }, bare(piece));
+        let stage = &mut each(|_, _| colour);
         if let Some(on_demand) = samples {
-            on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
+            let piece = (piece, &bare, self.plan);
+            on_demand.draw(engine, piece, (Some(colour), stage), way, target, counters);
         } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
             fill_flat(engine, piece.corners(), target, bounds, colour, counters);
         } else {
-            let way = Way { affine: true, ..self.way() };
-            fill(engine, &bare(piece), target, bounds, way, &mut each(|_, _| colour), counters);
+            fill(engine, &bare, target, bounds, way, stage, counters);
         }
         // A constant is no run of the fragment stage.
         counters.shaded = shaded;
@@ -592,7 +588,7 @@ impl<'a> Program<'a> {
         let visible = match samples {
             Some(on_demand) => {
                 let piece = (piece, &packed, self.plan);
-                on_demand.draw_varying(engine, piece, target, way, &mut shader, counters)
+                on_demand.draw(engine, piece, (None, &mut shader), way, target, counters)
             }
             None => fill(engine, &packed, target, bounds, way, &mut shader, counters),
         };
@@ -703,13 +699,7 @@ impl Shader<'_, '_> {
                         registers.lit[i] = receiver.lit(registers.three(place, i));
                     }
                 }
-                Stage::Light { from, light, normal } => {
-                    for i in lanes(wanted, count) {
-                        let intensity = light.intensity(registers.three(normal, i));
-                        colours[i] = to_colour(registers.three(from, i) * intensity);
-                    }
-                }
-                Stage::PartOfLight { from, light, normal } => {
+                Stage::Light { from, light, normal, .. } => {
                     for i in lanes(wanted, count) {
                         let normal = registers.three(normal, i);
                         let intensity = light.intensity_in(normal, registers.lit[i]);

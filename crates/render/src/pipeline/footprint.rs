@@ -168,22 +168,11 @@ impl Footprint {
     #[must_use]
     pub fn is_round(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> bool {
         let farthest = uv[0].abs().max(uv[1].abs()).max(uv[2].abs());
-        self.is_round_between(inv_w, uv, farthest)
-    }
-
-    /// The same between points of the triangle's plane, where `farthest` is that of its corners.
-    #[must_use]
-    pub fn is_round_between<const N: usize>(
-        &self,
-        inv_w: [f64; N],
-        uv: [DVec2; N],
-        farthest: DVec2,
-    ) -> bool {
         let [least, most] = ends(&inv_w);
         let [[long_x, short_x], [long_y, short_y]] = [0, 1].map_array(|i: usize| {
             let (over_w, slope) = (self.over_w[i], self.inv_w[i]);
             let numerator = |i: usize| (over_w * inv_w[i] - uv[i] * inv_w[i] * slope) * self.size;
-            let numerators: [DVec2; N] = std::array::from_fn(numerator);
+            let numerators = [0, 1, 2].map_array(numerator);
             let rounding = (over_w.abs() + farthest * slope.abs()) * self.size * most;
             let rounding = rounding.length() * 0.5f64.powi(40);
             let direction = numerators.iter().sum::<DVec2>().normalize_or_zero();
@@ -520,10 +509,10 @@ mod tests {
     #[test]
     fn a_part_is_magnified_or_round_everywhere() {
         let right: OfPart = |footprint, inv_w, uv, farthest| {
-            [
-                footprint.longest_in(inv_w, uv, farthest) <= 1.0,
-                footprint.is_round_between(inv_w, uv, farthest),
-            ]
+            let ([p, q, r, s], [a, b, c, d]) = (inv_w, uv);
+            let is_round = footprint.is_round([p, q, r], [a, b, c])
+                && footprint.is_round([q, r, s], [b, c, d]);
+            [footprint.longest_in(inv_w, uv, farthest) <= 1.0, is_round]
         };
         let [magnified, round, wrong, wrongly_round] = of_parts(right);
         assert_eq!([wrong, wrongly_round], [0; 2]);
@@ -532,7 +521,7 @@ mod tests {
         let two: OfPart = |footprint, [p, q, ..], [a, b, ..], farthest| {
             [
                 footprint.longest_in([p, q, p, q], [a, b, a, b], farthest) <= 1.0,
-                footprint.is_round_between([p, q], [a, b], farthest),
+                footprint.is_round([p, q, p], [a, b, a]),
             ]
         };
         let one: OfPart = |footprint, [q, ..], [uv, ..], _| {

@@ -120,16 +120,6 @@ impl Opacity {
         let of_map = |map: &Arc<OpacityMap>| map.between(uv, around, &is_mixed);
         drawn(self.map.as_ref().map_or([u8::MAX; 2], of_map))
     }
-
-    /// Whether every fragment of such a triangle is as opaque as any other: all texels that it may read are equal, and each mean of
-    /// equal texels is equal to them, to the bit.
-    #[must_use]
-    pub fn is_one_between(&self, uv: [DVec2; 3]) -> bool {
-        self.map.as_ref().is_none_or(|map| {
-            let [least, most] = map.between(uv, self.farthest(), &|_| false);
-            least == most
-        })
-    }
 }
 
 impl AlphaMode {
@@ -432,39 +422,5 @@ mod tests {
         assert_eq!(opacity(0.5).between([left, right, far], [0.0; 2]), Drawn::Mixed);
         let half = Opacity { factor: 0.5, map: None, ..opacity(0.5) };
         assert_eq!((half.read(left), half.of(left)), (128, OPAQUE));
-    }
-
-    /// How many random triangles have one opacity by a condition, and how many of these have several.
-    fn of_one(condition: fn(&Opacity, [DVec2; 3]) -> bool) -> [u32; 2] {
-        let mut counts = [0; 2];
-        for index in 0..3000 {
-            let (opacity, uv, around) = case(index, true);
-            let around = if opacity.levels().is_some() { around } else { [0.0; 2] };
-            if condition(&opacity, uv) {
-                let is_other =
-                    fragments(&opacity, uv, around, &mut |_, found| found != opacity.of(uv[0]));
-                counts[0] += 1;
-                counts[1] += u32::from(is_other);
-            }
-        }
-        counts
-    }
-
-    #[test]
-    fn a_triangle_of_one_opacity_has_it_everywhere() {
-        let [known, wrong] = of_one(Opacity::is_one_between);
-        assert!(known > 700 && wrong == 0, "{known}, {wrong}");
-        let corners = |opacity: &Opacity, [a, b, c]: [DVec2; 3]| {
-            opacity.of(a) == opacity.of(b) && opacity.of(b) == opacity.of(c)
-        };
-        let one_end = |opacity: &Opacity, uv: [DVec2; 3]| {
-            opacity
-                .map
-                .as_ref()
-                .is_some_and(|map| map.between(uv, opacity.farthest(), &|_| false)[1] == u8::MAX)
-        };
-        for (number, condition) in [corners, one_end].into_iter().enumerate() {
-            assert!(of_one(condition)[1] > 0, "wrong condition {number} survives");
-        }
     }
 }

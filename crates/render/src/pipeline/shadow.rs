@@ -277,14 +277,6 @@ impl LightView {
         Some(Slope { by: DVec2::new(x, y), error: DVec2::new(of_x, of_y) })
     }
 
-    /// The plane of a triangle, by which parts of it are checked; nothing where the light sees it from the side.
-    #[must_use]
-    pub fn plane(&self, places: [DVec3; 3]) -> Option<LitPlane> {
-        let slope = self.slope(places)?;
-        let [a, _, _] = places;
-        Some(LitPlane { a, slope, error: self.error, bias: self.bias(places) })
-    }
-
     /// Whether a texel that a fragment between these corners reads may be nearer to the light than the fragment less its
     /// bias. It is not where each triangle that the box of the corners meets, larger by what a fragment reads,
     ///
@@ -409,73 +401,6 @@ impl Receiver<'_> {
         let row = |y: i32| keys.row(y)[(x - 1) as usize..].iter().take(3);
         let is_lit = |stored: &&u64| key <= **stored;
         (y - 1..=y + 1).map(|y| row(y).filter(is_lit).count() as u32).sum()
-    }
-}
-
-/// Of a part that reads more texels nothing is known.
-const MOST_TEXELS: i64 = 400;
-
-/// The plane of a triangle as the light sees it.
-#[derive(Clone, Copy, Debug)]
-pub struct LitPlane {
-    a: DVec3,
-    slope: Slope,
-    error: DVec3,
-    bias: f64,
-}
-
-impl LitPlane {
-    /// Of [`TAPS`], the part of the light that reaches every fragment of the triangle whose place lies between four others
-    /// along both axes: all or none; nothing where that is not known.
-    ///
-    /// A texel that a fragment reads has its centre at most 3/2 + 1/512 texels away along each axis (the module says why). With
-    /// g the slope of the plane and z its depth at the centre, the fragment's depth is therefore at most
-    /// z + (|g.x| + |g.y|)(3/2 + 1/512), and what is compared, which is less by the bias, at most z - (|g.x| + |g.y|)/512. So
-    /// the light arrives where no texel is nearer than that. Nor is the fragment's depth less than z - (|g.x| + |g.y|)(3/2 +
-    /// 1/512), and what is compared is not less than z less twice the bias. So no light arrives where every texel is nearer than
-    /// that. Keys are rounded depths and keep their order. Half of the margin in the bias, more than the errors of z and of the
-    /// depths, is on the safe side in both.
-    ///
-    /// The four places may be off by 2^-10 texel: a fragment's place is rounded by half of that, and the texels are those
-    /// of a range that is wider by 1/256 on each side.
-    #[must_use]
-    pub fn lit(&self, map: &ShadowMap, places: [DVec3; 4]) -> Option<u32> {
-        let Self { a, slope, error, bias } = *self;
-        let [p, q, r, s] = places;
-        let (min, max) = (p.min(q).min(r.min(s)), p.max(q).max(r.max(s)));
-        let side = map.keys.bounds().x1;
-        // `as` takes NaN to 0, where nothing is known.
-        if !(min.is_finite() && max.is_finite() && bias.is_finite()) {
-            return None;
-        }
-        let texels = |min: f64, max: f64| {
-            let [first, last] = [min - 1.0 / 256.0, max + 1.0 / 256.0]
-                .map_array(|at| (at.floor() as i32).clamp(1, side - 2));
-            first - 1..=last + 1
-        };
-        let (columns, rows) = (texels(min.x, max.x), texels(min.y, max.y));
-        let length = |of: &std::ops::RangeInclusive<i32>| i64::from(of.end() - of.start() + 1);
-        if length(&columns) * length(&rows) > MOST_TEXELS {
-            return None;
-        }
-        let steep = slope.by.abs().element_sum();
-        let (mut is_lit, mut is_dark) = (true, true);
-        for y in rows {
-            let keys = &map.keys.row(y)[*columns.start() as usize..=*columns.end() as usize];
-            for (x, stored) in (*columns.start()..).zip(keys) {
-                let from = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - a.truncate();
-                let off = slope.error.dot(from.abs())
-                    + 4.0 * f64::EPSILON * slope.by.abs().dot(from.abs())
-                    + error.z;
-                let depth = a.z + slope.by.dot(from);
-                is_lit &= map.key(depth + off - steep / 512.0 - MARGIN / 2.0) <= *stored;
-                is_dark &= map.key(depth - off - 2.0 * bias - MARGIN) > *stored;
-            }
-            if !is_lit && !is_dark {
-                return None;
-            }
-        }
-        Some(if is_lit { TAPS } else { 0 })
     }
 }
 
@@ -711,58 +636,6 @@ mod tests {
         };
         for (number, condition) in [narrow, nearest, middle, one].into_iter().enumerate() {
             assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
-        }
-    }
-
-    type OfPart = fn(&LitPlane, &Receiver<'_>, [DVec3; 4]) -> Option<u32>;
-
-    /// Of how many parts of triangles of random scenes a condition says how much light arrives: all of it, and none; and how often
-    /// a place in the part has another share.
-    fn of_parts(condition: OfPart) -> [u32; 3] {
-        let mut counts = [0; 3];
-        for index in 0..250 {
-            let mut rng = Rng::new("lit parts", 1, index);
-            let items = random::scene(9, index).items;
-            let shadows = Shadows { size: [16, 48, 160][rng.int(0, 2) as usize], bits: 32 };
-            let scene = lit_scene(items, shadows, direction(&mut rng));
-            let view = LightView::new(&scene).unwrap();
-            let map = view.map(&scene, &EdgeFunction);
-            for [a, b, c] in triangles(&scene, &view) {
-                let Some(plane) = view.plane([a, b, c]) else { continue };
-                let receiver = view.receiver(map, [a, b, c]);
-                let size = rng.unit().powi(2) * 0.5;
-                let (s, t) = (rng.unit() * (1.0 - size), rng.unit() * (1.0 - size));
-                let at = |s: f64, t: f64| a + (b - a) * s + (c - a) * t;
-                let square = [at(s, t), at(s + size, t), at(s, t + size), at(s + size, t + size)];
-                let Some(lit) = condition(&plane, &receiver, square) else { continue };
-                counts[usize::from(lit == 0)] += 1;
-                let steps = (0..=12).flat_map(|i| (0..=12).map(move |j| (i, j)));
-                let is_other = |(i, j): (i32, i32)| {
-                    let (i, j) = (f64::from(i) / 12.0, f64::from(j) / 12.0);
-                    let [s, t] = [s + size * i, t + size * j];
-                    s + t <= 1.0 && receiver.lit(at(s, t)) != lit
-                };
-                counts[2] += u32::from({ steps }.any(is_other));
-            }
-        }
-        counts
-    }
-
-    #[test]
-    fn a_part_is_lit_or_dark_as_a_whole() {
-        let right: OfPart = |plane, receiver, places| plane.lit(receiver.map, places);
-        let [lit, dark, wrong] = of_parts(right);
-        assert!(lit > 500 && dark > 100 && wrong == 0, "{lit}, {dark}, {wrong}");
-        // Wrong ones: by the corners, by the middle with all that it reads, by two corners of the four.
-        let corners: OfPart = |_, receiver, places| {
-            let [a, b, c, d] = places.map(|place| receiver.lit(place));
-            (a == b && b == c && c == d && a % TAPS == 0).then_some(a)
-        };
-        let middle: OfPart =
-            |plane, receiver, [a, b, c, d]| plane.lit(receiver.map, [(a + b + c + d) / 4.0; 4]);
-        let side: OfPart = |plane, receiver, [a, b, _, _]| plane.lit(receiver.map, [a, b, a, b]);
-        for (number, condition) in [corners, middle, side].into_iter().enumerate() {
-            assert!(of_parts(condition)[2] > 0, "wrong condition {number} survives");
         }
     }
 }

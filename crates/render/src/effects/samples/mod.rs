@@ -26,7 +26,7 @@ use self::sample_masks::SampleMask;
 use super::plan::{PiecePlan, Samples};
 use super::primitive::{Piece, bare, touched};
 use crate::pipeline::Counters;
-use crate::pipeline::fill::{FragmentStage, Way, each, fill, shade};
+use crate::pipeline::fill::{FragmentStage, Way, fill, shade};
 use crate::pipeline::shade::Attributes;
 use crate::pipeline::target::{Colour, Target};
 use rasterproof_core::contract::{Interpolate, RUN};
@@ -85,64 +85,37 @@ impl OnDemand {
         }
     }
 
-    /// Draws a piece of one colour.
-    pub(super) fn draw_flat(
-        &mut self,
-        engine: &impl Interpolate,
-        piece: &Piece,
-        plan: PiecePlan,
-        colour: Colour,
-        target: &mut Target,
-        counters: &mut Counters,
-    ) {
-        let (depth, bare, stage) = (plan.depth, bare(piece), &mut each(|_, _| colour));
-        let way = Way { affine: true, depth_test: depth, ..Way::default() };
-        let rect = touched(&piece.corners(), target.antialias());
-        if self.policy.tells_apart(rect, plan, self.pattern.planes) {
-            if self.tell_box_apart(engine, piece, depth, target, counters) {
-                fill(engine, &bare, target, target.bounds(), way, stage, counters);
-            }
-            return;
-        }
-        let plane = depth.then(|| DepthPlane::new(piece, self.pattern));
-        self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
-        let runs = std::mem::take(&mut self.runs);
-        self.tell_apart(engine, &runs, target, counters);
-        for run in &runs {
-            let block = scaled(run.rect(), self.pattern.scale);
-            fill(engine, &bare, target, block, way, stage, counters);
-        }
-        self.runs = runs;
-    }
-
-    /// Draws a piece whose attributes vary, which is there with those it reads, too; how many fragments are visible.
-    pub(super) fn draw_varying<V: Varying>(
+    /// Draws a piece, which is there with the attributes that it reads, too; how many fragments are visible. A piece of one colour
+    /// gives it to pixels that are whole; else each of them is shaded.
+    pub(super) fn draw<V: Varying>(
         &mut self,
         engine: &impl Interpolate,
         (piece, packed, plan): (&Piece, &ScreenTriangle<V>, PiecePlan),
-        target: &mut Target,
+        (colour, stage): (Option<Colour>, &mut dyn FragmentStage<V>),
         way: Way,
-        stage: &mut dyn FragmentStage<V>,
+        target: &mut Target,
         counters: &mut Counters,
     ) -> u64 {
         let rect = touched(&piece.corners(), target.antialias());
         // Supersampled attributes that vary leave no pixel whole, whatever an edited plan says.
-        if self.pattern.planes == 1 || self.policy.tells_apart(rect, plan, self.pattern.planes) {
+        let is_apart = colour.is_none() && self.pattern.planes == 1;
+        if is_apart || self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if !self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
                 return 0;
             }
             return fill(engine, packed, target, target.bounds(), way, stage, counters);
         }
         let plane = way.depth_test.then(|| DepthPlane::new(piece, self.pattern));
-        let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
+        let met = self.meet(engine, piece, plane.as_ref(), colour, target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
         let mut visible = 0;
         for run in &runs {
-            visible += fill(engine, packed, target, run.rect(), way, stage, counters);
+            let block = scaled(run.rect(), self.pattern.scale);
+            visible += fill(engine, packed, target, block, way, stage, counters);
         }
         self.runs = runs;
-        let Some(state) = met else { return visible };
+        let Some(state) = met.filter(|_| colour.is_none()) else { return visible };
         let (Self { states, colours, .. }, mut shaded) = (self, 0);
         engine.runs(packed, target.bounds(), way.affine, &mut |run| {
             let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
