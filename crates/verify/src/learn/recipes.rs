@@ -220,7 +220,8 @@ fn explained(
 }
 
 /// Of four recipes of each field eight of ten explain themselves. What does not is printed: RECIPES=20 takes more of each, PAIRS=1
-/// two changes at once, of which the shares are printed and not held to anything yet.
+/// two changes at once, of which the shares are printed and not held to anything yet, SEED=2 takes others, and ONLY=5 asks for the one
+/// that is printed with this number.
 #[test]
 #[ignore = "takes minutes; .ci/run --all runs it"]
 fn recipes_explain_themselves() {
@@ -229,6 +230,8 @@ fn recipes_explain_themselves() {
     };
     let (count, seed) = (number("RECIPES", 4), number("SEED", 1) as u64);
     let is_pair = number("PAIRS", 0) > 0;
+    let only = number("ONLY", usize::MAX);
+    let mut served = 0;
     let known = Declarations::default();
     let mut all = [0, 0];
     for is_line in [false, true] {
@@ -249,12 +252,16 @@ fn recipes_explain_themselves() {
                     changed.push(kitchen.one_of(&fields));
                 }
                 let model = kitchen.served(&changed);
+                served += 1;
+                if only != usize::MAX && served != only {
+                    continue;
+                }
                 let (learned, words) = explained(&model, kitchen.drawer, &kitchen.vocabulary);
                 if learned.as_ref().is_some_and(|learned| learned.is_certain) {
                     certain += 1;
                     continue;
                 }
-                println!("{changed:?} {:.2}: {words}", kitchen.wrong_part(&model));
+                println!("{served} {changed:?} {:.2}: {words}", kitchen.wrong_part(&model));
                 let said = learned.map_or(String::from("nothing"), |l| l.sentences().join(" "));
                 println!("    {said}\n");
             }
