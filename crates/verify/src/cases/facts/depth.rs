@@ -30,7 +30,7 @@ const EXTENT: Test = Test::Steps(&[2 * PX, 8 * PX, 24 * PX]);
 const SOME: Test = Test::Choice(&["none", "some", "all"]);
 
 /// The facts that the design covers.
-const FACTS: [Read<PileFacts>; 18] = [
+const FACTS: [Read<PileFacts>; 19] = [
     fact("triangles", Unit::Count, |m| m.count, Test::Steps(&[2, 3, 5, 9, 17, 33, 64])),
     fact("triangles that cover one of 16 pixels", Unit::Count, |m| m.piled, PILED),
     fact("triangles whose boxes meet one block of 8 x 8 px", Unit::Count, |m| m.in_block, PILED),
@@ -58,10 +58,16 @@ const FACTS: [Read<PileFacts>; 18] = [
     ),
     fact("depths 0 and 1", Unit::Count, |m| m.ends, Test::Choice(&["neither", "0", "1", "both"])),
     fact(
-        "a triangle whose box has all samples of the window but one row or column at its border",
+        "a triangle that covers all samples of the window but one row or column at its border",
         Unit::Count,
         |m| m.leaves_open,
         Test::Choice(&["none", "all but the first", "all but the last"]),
+    ),
+    fact(
+        "a triangle behind one that leaves a row or column at the border open, and reaches into it",
+        Unit::Count,
+        |m| m.reaches_beyond,
+        Test::Choice(&["none", "drawn before it", "drawn after it"]),
     ),
     fact(
         "a triangle that is drawn last and seen",
@@ -101,8 +107,10 @@ pub struct PileFacts {
     pub ends: i64,
     /// Whether no triangle has a smaller mean than the last one.
     pub last_is_nearest: i64,
-    /// Whether the box of a triangle leaves open the last row or column (2) and nothing else, or one leaves open the first (1).
+    /// Whether a triangle covers all samples but those of the last row or column (2), or one all but those of the first (1).
     pub leaves_open: i64,
+    /// Whether one that is farther than such a triangle reaches into what it leaves open, and is drawn after it (2) or before it (1).
+    pub reaches_beyond: i64,
 }
 
 impl PileFacts {
@@ -131,6 +139,7 @@ impl PileFacts {
         };
         let has = |depth: f64| depths.iter().flatten().any(|d| *d == depth);
         let last = means[means.len() - 1];
+        let open: Vec<Option<Open>> = list.iter().map(|t| Open::left_by(t, window)).collect();
         Some(Self {
             count: list.len() as i64,
             piled: piled(list, &boxes, case.window),
@@ -145,7 +154,13 @@ impl PileFacts {
             smallest: extents.min().unwrap_or(0),
             closest: gaps.map(|gap| i64::from(exponent(gap))).min().unwrap_or(0),
             ends: i64::from(has(0.0)) + 2 * i64::from(has(1.0)),
-            leaves_open: boxes.iter().map(|of| leaves_open(of, window)).max().unwrap_or(0),
+            leaves_open: open
+                .iter()
+                .flatten()
+                .map(|open| 1 + i64::from(open.is_last))
+                .max()
+                .unwrap_or(0),
+            reaches_beyond: reaches_beyond(list, &boxes, &open, window),
             last_is_nearest: i64::from(list.len() > 1 && means.iter().all(|mean| *mean >= last)),
         })
     }
@@ -160,21 +175,64 @@ fn box_of(triangle: &Triangle) -> [[i64; 2]; 2] {
     ]
 }
 
-/// Whether a box has all samples of the window but those of the first (1) or the last (2) row or column.
-fn leaves_open([low, high]: &[[i64; 2]; 2], window: [i64; 2]) -> i64 {
-    let half = PX / 2;
-    // Of each axis the first and the last row or column of samples in the box.
-    let first = low.map(|v| (v - half + PX - 1).div_euclid(PX).max(0));
-    let last = [0, 1].map(|axis| (high[axis] - half).div_euclid(PX).min(window[axis] - 1));
-    for axis in 0..2 {
-        let is_whole = first[1 - axis] == 0 && last[1 - axis] == window[1 - axis] - 1;
-        match [first[axis], window[axis] - 1 - last[axis]] {
-            [1, 0] if is_whole && window[axis] > 1 => return 1,
-            [0, 1] if is_whole && window[axis] > 1 => return 2,
-            _ => {}
+/// The row or column at the border of the window that a triangle leaves open.
+#[derive(Clone, Copy)]
+struct Open {
+    /// A column is open along x (0), a row along y (1).
+    axis: usize,
+    is_last: bool,
+}
+
+impl Open {
+    /// Of a triangle that covers all samples but these.
+    fn left_by(triangle: &Triangle, window: [i64; 2]) -> Option<Self> {
+        let sample = |at: i64| at * PX + PX / 2;
+        for axis in (0..2).filter(|axis| window[*axis] > 1) {
+            let across = [0, window[1 - axis] - 1].map(sample);
+            // A triangle is convex: it covers all samples between two lines if it covers those at their ends.
+            let covers_line = |at: i64| {
+                let ends = across.map(|across| match axis {
+                    0 => [sample(at), across],
+                    _ => [across, sample(at)],
+                });
+                ends.map(|end| covers(triangle, end))
+            };
+            let last = window[axis] - 1;
+            for (is_last, open, near, far) in [(false, 0, 1, last), (true, last, last - 1, 0)] {
+                let is_covered = [near, far].map(covers_line) == [[true; 2]; 2];
+                if is_covered && covers_line(open) == [false; 2] {
+                    return Some(Self { axis, is_last });
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Whether a triangle that is farther than all of one with an open border reaches into that, and is drawn before (1) or after (2).
+fn reaches_beyond(
+    list: &[Triangle],
+    boxes: &[[[i64; 2]; 2]],
+    open: &[Option<Open>],
+    window: [i64; 2],
+) -> i64 {
+    let depths = |i: usize| list[i].vertices.each_ref().map(|v| v.depth);
+    let mut found = 0;
+    for (front, open) in open.iter().enumerate() {
+        let Some(Open { axis, is_last }) = *open else { continue };
+        let farthest = depths(front).into_iter().fold(0.0, f64::max);
+        // The samples that are open, and their neighbours, which are covered.
+        let (last, sample) = (window[axis] - 1, |at: i64| at * PX + PX / 2);
+        let [from, to] = if is_last { [last - 1, last] } else { [0, 1] }.map(sample);
+        for (i, [low, high]) in boxes.iter().enumerate() {
+            let is_behind = depths(i).iter().all(|depth| *depth > farthest);
+            let is_in = low[1 - axis] < window[1 - axis] * PX && high[1 - axis] > 0;
+            if is_behind && is_in && low[axis] <= from && high[axis] >= to {
+                found = found.max(if i > front { 2 } else { 1 });
+            }
         }
     }
-    0
+    found
 }
 
 fn order(means: &[f64]) -> i64 {
@@ -305,6 +363,9 @@ fn draw(rng: &mut Rng) -> Case {
     let mut list: Vec<Triangle> = list;
     if rng.chance(2) {
         list[0] = background(rng, window);
+        if rng.chance(2) {
+            bring_to_front(&mut list, 0);
+        }
     }
     arrange(rng, &mut list);
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
@@ -332,6 +393,15 @@ fn background(rng: &mut Rng, window: PixelRect) -> Triangle {
         ScreenVertex { position, depth, inv_w: 1.0, varying: DVec2::ZERO }
     });
     ScreenTriangle { vertices }
+}
+
+/// Puts a triangle before all others, whose depths keep their order.
+fn bring_to_front(list: &mut [Triangle], front: usize) {
+    for (i, triangle) in list.iter_mut().enumerate() {
+        for vertex in &mut triangle.vertices {
+            vertex.depth = if i == front { vertex.depth / 4.0 } else { (1.0 + vertex.depth) / 2.0 };
+        }
+    }
 }
 
 fn mean(triangle: &Triangle) -> f64 {
@@ -371,7 +441,7 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
     for _ in 0..rng.int(1, 3) {
         let depths = draw_depths(rng);
         let at = rng.int(0, list.len() as i64 - 1) as usize;
-        match rng.int(0, 14) {
+        match rng.int(0, 16) {
             0 => window = PixelRect::window(draw_side(rng) as u32, window.height()),
             1 => window = PixelRect::window(window.width(), draw_side(rng) as u32),
             2 => window.x1 = other.window.x1,
@@ -410,6 +480,11 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
                 list.swap(at, last);
             }
             12 => list[at] = background(rng, window),
+            14 => {
+                list[at] = background(rng, window);
+                bring_to_front(&mut list, at);
+            }
+            15 => window = two_samples(rng, &mut list, at),
             // One or all from border to border of a wide or a high window, and within it.
             13 => {
                 window = if rng.chance(2) {
@@ -426,6 +501,26 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
         }
     }
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// A window of two samples, the first or the last of which a small triangle covers, and a small one behind it reaches both.
+fn two_samples(rng: &mut Rng, list: &mut [Triangle], front: usize) -> PixelRect {
+    let axis = rng.int(0, 1) as usize;
+    let window = if axis == 0 { PixelRect::window(2, 1) } else { PixelRect::window(1, 2) };
+    scale(list, window, -3);
+    let quarter = SUBPIXELS / 4;
+    let behind = (front + 1) % list.len();
+    let covered = 4 * rng.coordinate(0, 1);
+    // Corners in quarters of a pixel from the first sample, along the two samples and across.
+    let small = [[covered - 1, -1], [covered + 2, -1], [covered - 1, 2]];
+    for (triangle, corners) in [(behind, [[-1, -1], [5, -1], [-1, 1]]), (front, small)] {
+        for (vertex, [along, across]) in list[triangle].vertices.iter_mut().zip(corners) {
+            let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
+            vertex.position = SubpixelPoint::new((x + 2) * quarter, (y + 2) * quarter);
+        }
+    }
+    bring_to_front(list, front);
+    window
 }
 
 /// Moves the corners of a triangle onto the border of a window, of which it may leave the first or the last row or column.
