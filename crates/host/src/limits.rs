@@ -47,8 +47,9 @@ pub const SOURCE_BYTES: u64 = 1 << 25;
 /// Seconds that a write may wait for the reader of a pipe or a device.
 pub const STALLED_WRITE_SECONDS: u64 = 10;
 
-/// One line of a judged program: a longer one is no answer, since the windows of cases are small.
-pub const PROGRAM_LINE_BYTES: usize = 1 << 20;
+/// One line of a judged program: a longer one is no answer. The largest windows of cases have about 100,000 pixels, and a program may
+/// give each as a run of its own, in a dozen bytes.
+pub const PROGRAM_LINE_BYTES: usize = 1 << 22;
 
 /// Answers of a judged program to the questions that are asked at once, which are kept together. The cases of
 /// a block need less than a tenth.
