@@ -624,7 +624,7 @@ impl PlaceTable {
             // Its name is that of pixels that are missing and of those that are too many: of a line whose right pixel lies outside of the
             // window the wrong one alone is seen.
             let half = self.names.len() / 2;
-            let of_name = 1 << place | 1 << (place + half) % self.names.len();
+            let of_name = 1 << place | 1 << ((place + half) % self.names.len());
             self.wrong_pixels.retain(|pixel| pixel & of_name == 0);
             if !named.iter().any(|name| name == self.names[place]) {
                 named.push(self.names[place].to_owned());
