@@ -402,8 +402,8 @@ impl Lock {
     }
 }
 
-/// The process whose number is in the file of a lock, or none where the file is empty. Nothing where
-/// the file holds anything else.
+/// The process whose number is in the file of a lock. The inner value is missing in an empty file, the outer one in a file that is no
+/// lock.
 fn holder(file: &mut File) -> Option<Option<u32>> {
     let mut text = String::new();
     file.take(20).read_to_string(&mut text).ok()?;
@@ -610,7 +610,6 @@ mod tests {
 
     /// What a killed process leaves is taken over; a file of another program is left alone.
     #[test]
-
     fn a_file_that_is_not_a_lock_is_left_alone() {
         let folder = Folder::new("lock-other");
         std::fs::write(folder.path("Cargo.lock"), "version = 4\n").unwrap();

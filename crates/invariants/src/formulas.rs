@@ -17,7 +17,7 @@ use rasterproof_render::pipeline::target::Colour;
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Item, Material, Scene, shapes};
 
-/// An opaque colour.
+/// Any colour that hides all that is behind it.
 fn colour(rng: &mut Rng) -> Colour {
     let mut channel = || rng.int(0, 255) as u8;
     [channel(), channel(), channel(), u8::MAX]

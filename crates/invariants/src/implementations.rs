@@ -117,7 +117,7 @@ pub fn hits(
     hits
 }
 
-/// A drawer of lines with its name.
+/// Who draws lines, under the name by which a failure says whose it is.
 pub struct Drawer {
     pub name: &'static str,
     pub stroke: Box<dyn Stroke>,

@@ -50,9 +50,9 @@ pub enum Predicate {
 pub struct Invariant {
     /// Its number, which never changes.
     pub number: u32,
-    /// It is asked for and told by this name.
+    /// The name in tables and messages; a caller gives it to check this one alone.
     pub name: &'static str,
-    /// What must hold, in a sentence.
+    /// What holds for every input, as a sentence for the reader of a table.
     pub statement: &'static str,
     /// How much may be missing; derived where the check stands.
     pub tolerance: &'static str,
@@ -64,7 +64,7 @@ pub struct Invariant {
 /// What came of an invariant on the inputs of a seed.
 #[derive(Clone, Debug)]
 pub struct Trial {
-    /// Inputs that were checked.
+    /// How many inputs were checked, those that were left out not among them.
     pub cases: u64,
     /// Inputs that do not fit the property and were left out.
     pub skipped: u64,
@@ -88,7 +88,7 @@ pub enum Ruling {
 }
 
 impl Trial {
-    /// What the numbers come to.
+    /// Whether it holds, fails, or was never checked.
     #[must_use]
     pub fn ruling(&self) -> Ruling {
         match self.failure {
@@ -180,7 +180,7 @@ impl Invariant {
         let mut start = 0;
         while start < count && report.failure.is_none() {
             let end = count.min(start + 16 * BLOCK);
-            // Blocks are judged on all cores; of several failures the first by number is told.
+            // Blocks are judged on all cores; of several failures the one with the smallest number is kept.
             let outcomes = parallel::map((end - start) as usize, |number| {
                 self.judge(subject, &self.input(subject, seed, start + number as u64))
             });

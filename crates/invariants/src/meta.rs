@@ -151,7 +151,7 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     Ok(jobs.len() as u64)
 }
 
-/// The oracle with one wrong pixel.
+/// An engine that draws as the oracle does, except for one pixel.
 struct OneWrong {
     at: (i32, i32),
     /// How often that pixel is hit too often; -1 where it is not hit at all.

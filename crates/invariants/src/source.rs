@@ -123,7 +123,7 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
-/// What a check gets, by its kind.
+/// The input of one check: each kind of invariant takes one of these.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
@@ -201,7 +201,7 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
-/// A line of the families in turn.
+/// A line, of another family each time the index grows by one.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {

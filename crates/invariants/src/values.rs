@@ -151,7 +151,7 @@ fn bounds_of(triangle: &Triangle, bound: Bound) -> [f64; 2] {
     [bound.at(values_of(triangle, 0)), bound.at(values_of(triangle, 1))]
 }
 
-/// The depth of each vertex.
+/// Depths in the order of the vertices, for the bounds that depend on them.
 fn depths_of(triangle: &Triangle) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.depth)
 }
@@ -359,8 +359,8 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     })
 }
 
-/// The fragment of the one pixel of a window, of a triangle or of the same turned half round about the sample: that makes the other
-/// side of an edge the owner.
+/// The fragment of the one pixel of a window. If the triangle has none, it is turned half round about the sample, so that the edge
+/// through the sample becomes its own.
 fn owned_value(engine: &Engine, triangle: &Triangle, there: PixelRect) -> Option<Fragment<DVec2>> {
     if let Some(fragment) = engine.fragments(triangle, there).first() {
         return Some(*fragment);

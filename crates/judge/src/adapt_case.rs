@@ -44,7 +44,7 @@ pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
 
-/// The numbers of the cases of a family: a design has more of them, so that nearly all of its triples are asked.
+/// The numbers of the cases of a family: a design has more of them, so that nearly all triples of its facts occur.
 #[must_use]
 pub fn numbers(options: &Options, design: Option<&Topic>) -> Range<u64> {
     let Range { start, end } = options.numbers();

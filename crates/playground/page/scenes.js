@@ -62,7 +62,7 @@ const SCENES = {
       ...verdict(panel),
       pixel: (i) => (panel.hits ? judged(panel.hits[i], answer.truth[i]) : null),
     })), ...(state.difference ? [difference(answer)] : [])],
-    tools: () => [rules(), shapes(), make('span', { className: 'group boxes' }, check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), four('scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'), check(word('difference'), 'difference'))],
+    tools: () => [rules(), shapes(), make('span', { className: 'boxes' }, check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), four('scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'), check(word('difference'), 'difference'))],
     look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${word('ties')} ${answer.ties ?? 0}`)],
     breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },

@@ -55,6 +55,9 @@ export function renew(element, ...children) {
   become(element, next);
 }
 
+/** A text whose whole numbers have commas between groups of three digits; parts of fractions stay as they are. */
+export const inGroups = (text) => text.replace(/(?<![\d/.,])\d{4,}(?!\d|\.\d)/g, (digits) => BigInt(digits).toLocaleString('en'));
+
 /** A number with what it counts. */
 export const plural = (n, one, many = `${one}s`) => `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 

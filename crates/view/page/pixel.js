@@ -1,6 +1,6 @@
 // What is said of a pixel: why it belongs to each triangle or does not. A page gives triangles as {edges, i}, `edges` nothing where there is no
 // area, each {name, value, bound, sign, kind, isTopLeft, isByExact}: sign and value of its edge function at the sample, and which edge it is.
-import { make, pageLanguage, table } from './dom.js';
+import { inGroups, make, pageLanguage, table } from './dom.js';
 
 const PIXEL_WORDS = {
   en: {
@@ -53,14 +53,11 @@ function reasons(triangles, by) {
   return says.map((key) => pixelWords()[key]);
 }
 
-/** A whole number with commas. */
-const inGroups = (value) => (/^-?\d+$/.test(value) ? BigInt(value).toLocaleString('en') : value);
-
 function tableOfEdges({ edges }, bits) {
   const words = pixelWords();
   const hasBounds = edges.some(({ bound }) => bound);
   const rows = edges.map(({ name, value, bound, sign, kind, isTopLeft: keeps, isByExact }) => [
-    name, inGroups(value), ...(hasBounds ? [bound] : []),
+    name, inGroups(String(value)), ...(hasBounds ? [bound] : []),
     words[sign === 0 ? 'onEdge' : sign > 0 ? 'inside' : 'outside'] + (isByExact ? words.byExact : ''), words.isOf(words[kind], words[keeps ? 'keeps' : 'leaves']),
   ]);
   return table([words.edge, words.value, ...(hasBounds ? ['\u00b1'] : []), words.sample, words.ifOn], rows, { caption: words.unit(bits), className: 'edges' });

@@ -232,7 +232,7 @@ pub fn ssim_error(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]]) -> f64 {
     (0..3).map(|channel| ssim_error_of(width, right, drawn, channel)).fold(0.0, f64::max)
 }
 
-/// The same of one channel.
+/// The same of one channel alone, by its place in a colour.
 fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: usize) -> f64 {
     let height = (right.len() / width) as i64;
     // The pixels of a disc, by their ways from its centre.

@@ -16,7 +16,7 @@ use super::scenes::{Paint, Scene};
 pub struct View<'a> {
     pub scene: &'a Scene,
     pub seen: &'a RightPicture,
-    /// The picture of the reference.
+    /// What the scanline engine draws of the scene.
     pub right: &'a Rendering,
     /// The picture to be accepted or refused.
     pub drawn: &'a Rendering,

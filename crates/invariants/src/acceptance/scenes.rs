@@ -52,7 +52,7 @@ impl Scene {
 
 /// Side of the pictures of the suites, in pixels. A half of dEQP's 256, so that a run takes seconds.
 const SIDE: f64 = 128.0;
-/// Of each family.
+/// How many random scenes each family of triangles gives.
 const CASES: u64 = 2;
 
 /// The scenes of both sets; the random ones depend on the seed.
@@ -168,7 +168,7 @@ fn of_suites(seed: u64) -> Vec<Scene> {
     let corners = corners.map(|vertices| ScreenTriangle { vertices }).to_vec();
     let small = PixelRect::window(4, 4);
     list.push(Scene { window: small, ..scene("two corners", Paint::White, corners) });
-    // A floor in perspective, wider than the window at its near end.
+    // A level quadrilateral in perspective, wider than the window at its near end.
     let floor = quad([
         corner([20.0, 40.0], 0.9, 8.0, [0.0, 0.0]),
         corner([108.0, 40.0], 0.9, 8.0, [1.0, 0.0]),

@@ -138,7 +138,7 @@ fn explain_themselves(singles: u64, pairs: u64) {
     }
 }
 
-/// What is asked by the facts of a design is asked by those of the check that is explained, not of another one.
+/// The search for the cause of a check chooses its questions by the facts of that check, not by those of another one.
 #[test]
 fn questions_have_the_facts_of_their_check() {
     let all = "HELLO 2 x coverage attributes samples4 sample-values depth clip clip-attributes wide-line area";

@@ -28,9 +28,6 @@ function showCase(index, check) {
   finding.querySelector('h2').focus({ preventScroll: true });
 }
 
-/** Whole numbers of a text in groups of three digits; those of a fraction stay. */
-const withCommas = (text) => text.replace(/(?<![\d/.,])\d{4,}(?!\d|\.\d)/g, (digits) => Number(digits).toLocaleString('en'));
-
 function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
   const rule = ruleOf(result.name, check);
@@ -39,7 +36,7 @@ function row(result, index, check) {
   return make('tr', { 'data-check': check },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
-    make('td', {}, tally ? withCommas(word('details')[check](tally, facts)) : ''),
+    make('td', {}, tally ? inGroups(word('details')[check](tally, facts)) : ''),
     make('td', {}, make('details', {}, make('summary', {}, rule.section), make('p', {}, inWords(rule)), make('p', {}, `${word('open')}: ${rule.open}`))));
 }
 

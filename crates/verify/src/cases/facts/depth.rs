@@ -139,7 +139,7 @@ impl PileFacts {
         };
         let has = |depth: f64| depths.iter().flatten().any(|d| *d == depth);
         let last = means[means.len() - 1];
-        let open: Vec<Option<Open>> = list.iter().map(|t| Open::left_by(t, window)).collect();
+        let open: Vec<Option<Open>> = list.iter().map(|t| Open::left_by(t, case.window)).collect();
         Some(Self {
             count: list.len() as i64,
             piled: piled(list, &boxes, case.window),
@@ -160,7 +160,7 @@ impl PileFacts {
                 .map(|open| 1 + i64::from(open.is_last))
                 .max()
                 .unwrap_or(0),
-            reaches_beyond: reaches_beyond(list, &boxes, &open, window),
+            reaches_beyond: reaches_beyond(list, &boxes, &open, case.window),
             last_is_nearest: i64::from(list.len() > 1 && means.iter().all(|mean| *mean >= last)),
         })
     }
@@ -185,19 +185,19 @@ struct Open {
 
 impl Open {
     /// Of a triangle that covers all samples but these.
-    fn left_by(triangle: &Triangle, window: [i64; 2]) -> Option<Self> {
-        let sample = |at: i64| at * PX + PX / 2;
-        for axis in (0..2).filter(|axis| window[*axis] > 1) {
-            let across = [0, window[1 - axis] - 1].map(sample);
+    fn left_by(triangle: &Triangle, window: PixelRect) -> Option<Self> {
+        let sides = [window.x1, window.y1];
+        for axis in (0..2).filter(|axis| sides[*axis] > 1) {
+            let across = [0, sides[1 - axis] - 1].map(centre);
             // A triangle is convex: it covers all samples between two lines if it covers those at their ends.
-            let covers_line = |at: i64| {
+            let covers_line = |at: i32| {
                 let ends = across.map(|across| match axis {
-                    0 => [sample(at), across],
-                    _ => [across, sample(at)],
+                    0 => [centre(at), across],
+                    _ => [across, centre(at)],
                 });
                 ends.map(|end| covers(triangle, end))
             };
-            let last = window[axis] - 1;
+            let last = sides[axis] - 1;
             for (is_last, open, near, far) in [(false, 0, 1, last), (true, last, last - 1, 0)] {
                 let is_covered = [near, far].map(covers_line) == [[true; 2]; 2];
                 if is_covered && covers_line(open) == [false; 2] {
@@ -214,19 +214,20 @@ fn reaches_beyond(
     list: &[Triangle],
     boxes: &[[[i64; 2]; 2]],
     open: &[Option<Open>],
-    window: [i64; 2],
+    window: PixelRect,
 ) -> i64 {
+    let sides = [window.x1, window.y1];
     let depths = |i: usize| list[i].vertices.each_ref().map(|v| v.depth);
     let mut found = 0;
     for (front, open) in open.iter().enumerate() {
         let Some(Open { axis, is_last }) = *open else { continue };
         let farthest = depths(front).into_iter().fold(0.0, f64::max);
         // The samples that are open, and their neighbours, which are covered.
-        let (last, sample) = (window[axis] - 1, |at: i64| at * PX + PX / 2);
-        let [from, to] = if is_last { [last - 1, last] } else { [0, 1] }.map(sample);
+        let last = sides[axis] - 1;
+        let [from, to] = if is_last { [last - 1, last] } else { [0, 1] }.map(centre);
         for (i, [low, high]) in boxes.iter().enumerate() {
             let is_behind = depths(i).iter().all(|depth| *depth > farthest);
-            let is_in = low[1 - axis] < window[1 - axis] * PX && high[1 - axis] > 0;
+            let is_in = low[1 - axis] < i64::from(sides[1 - axis]) * PX && high[1 - axis] > 0;
             if is_behind && is_in && low[axis] <= from && high[axis] >= to {
                 found = found.max(if i > front { 2 } else { 1 });
             }
@@ -480,11 +481,6 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
                 list.swap(at, last);
             }
             12 => list[at] = background(rng, window),
-            14 => {
-                list[at] = background(rng, window);
-                bring_to_front(&mut list, at);
-            }
-            15 => window = two_samples(rng, &mut list, at),
             // One or all from border to border of a wide or a high window, and within it.
             13 => {
                 window = if rng.chance(2) {
@@ -497,6 +493,11 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
                     span(rng, triangle, window);
                 }
             }
+            14 => {
+                list[at] = background(rng, window);
+                bring_to_front(&mut list, at);
+            }
+            15 => window = two_samples(rng, &mut list, at),
             _ => arrange(rng, &mut list),
         }
     }
