@@ -311,11 +311,13 @@ pub fn impossible<Q, L>(topic: &Topic<Q, L>) -> Vec<[u16; 2]> {
 /// The questions of a block.
 #[must_use]
 pub fn block<Q: Clone, L>(topic: &Topic<Q, L>, seed: u64, number: u64, limits: &L) -> Vec<Q> {
-    block_without(&impossible(topic), topic, [seed, number], limits)
+    let effort = Effort::of_block(number, topic.count());
+    block_by(effort, &impossible(topic), topic, [seed, number], limits)
 }
 
-/// The questions of a block in which some pairs are not looked for.
-pub(crate) fn block_without<Q: Clone, L>(
+/// The questions of a block that are chosen with this effort, in which some pairs are not looked for.
+fn block_by<Q: Clone, L>(
+    effort: Effort,
     impossible: &[[u16; 2]],
     topic: &Topic<Q, L>,
     [seed, number]: [u64; 2],
@@ -324,7 +326,6 @@ pub(crate) fn block_without<Q: Clone, L>(
     let facts = topic.starts().len() as u64;
     let third = number.checked_sub(1).map(|number| (number % facts) as usize);
     let all = topic.count();
-    let effort = Effort::of_block(number, all);
     // No candidate is chosen by larger combinations.
     let largest = effort.together.iter().copied().fold(3, usize::max);
     let mut chooser = Chooser {
@@ -450,20 +451,23 @@ mod tests {
         has_every_pair(&design::TOPIC, &Coordinates::F64);
     }
 
-    /// The quadruples of a block.
-    fn quadruples<Q: Clone, L>(topic: &Topic<Q, L>, number: u64, limits: &L) -> usize {
+    /// How many quadruples the first block after those by triples has, chosen with some effort.
+    fn quadruples<Q: Clone, L>(topic: &Topic<Q, L>, effort: Effort, limits: &L) -> usize {
         let mut table = Table::new(topic.count(), 4);
-        note(&mut table, topic, limits, &block(topic, 1, number, limits));
+        let block = block_by(effort, &impossible(topic), topic, [1, BY_TRIPLES], limits);
+        note(&mut table, topic, limits, &block);
         table.count(4)
     }
 
-    /// The first block that is chosen by quadruples has more of them than the one before.
+    /// The first block that is chosen by quadruples has more of them than if it was chosen by pairs and triples among as many candidates.
     #[test]
     fn later_blocks_have_more_quadruples() {
         for topic in [triangles::TOPIC, lines::TOPIC, near::TOPIC] {
             let limits = Limits::default();
-            let [before, after] =
-                [BY_TRIPLES - 1, BY_TRIPLES].map(|number| quadruples(&topic, number, &limits));
+            let effort = || Effort::of_block(BY_TRIPLES, topic.count());
+            let by_triples = Effort { together: PAIRS_AND_TRIPLES, ..effort() };
+            let before = quadruples(&topic, by_triples, &limits);
+            let after = quadruples(&topic, effort(), &limits);
             assert!(after > before, "{}: {before} quadruples, then {after}", topic.name);
         }
     }
@@ -472,7 +476,8 @@ mod tests {
     fn search_long<Q: Clone, L>(topic: &Topic<Q, L>, limits: &L) {
         let mut table = Table::new(topic.count(), 3);
         for seed in 100..140 {
-            note(&mut table, topic, limits, &block_without(&[], topic, [seed, 0], limits));
+            let effort = Effort::of_block(0, topic.count());
+            note(&mut table, topic, limits, &block_by(effort, &[], topic, [seed, 0], limits));
         }
         let missing = missing(topic, &table);
         if std::env::var_os("RASTERPROOF_RENEW").is_some() {
