@@ -475,15 +475,16 @@ fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, pan
     // What is best at each price lies under the dots, and the error of snapping between both.
     let placed = places(dots, [&time, &error], y1);
     frontier(drawing, &placed);
-    let mut taken = Vec::new();
+    let mut taken = Taken::default();
     if let Some(value) = snapping {
         let (y, text) = (error.place(value), "error of snapping");
         drawing.line([x0, y], [x1, y], GREEN);
         let left = x1 - canvas::width(text) - 4.0;
         drawing.text([left, y - 8.0], text, GREEN);
-        taken.extend([[left, y - 14.0, x1, y - 2.0], [x0, y - 1.0, x1, y + 1.0]]);
+        taken.words.push([left, y - 14.0, x1, y - 2.0]);
+        taken.marks.push([x0, y - 1.0, x1, y + 1.0]);
     }
-    labelled(drawing, placed, &time, [[x0, y0], [x1, y1]], taken);
+    labelled(drawing, placed, &time, Plot { x: [x0, x1], y: [y0, y1, bottom] }, &mut taken);
 }
 
 /// The choices with their places, the fastest first: those without an error stand on the shelf, one below the other.
@@ -555,49 +556,69 @@ fn overlap(a: &Area, b: &Area) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
+/// Where the dots and labels of a panel may lie.
+#[derive(Clone, Copy)]
+struct Plot {
+    /// Left and right.
+    x: [f64; 2],
+    /// The top, the floor of the errors, and that of the shelf below it.
+    y: [f64; 3],
+}
+
+impl Plot {
+    /// Whether a label lies inside, on the shelf or above it.
+    fn holds(&self, area: &Area, is_on_shelf: bool) -> bool {
+        let [top, floor] =
+            if is_on_shelf { [self.y[1], self.y[2]] } else { [self.y[0], self.y[1]] };
+        area[0] >= self.x[0] && area[2] <= self.x[1] && area[1] >= top && area[3] <= floor
+    }
+}
+
+/// What a label must not lie on.
+#[derive(Default)]
+struct Taken {
+    words: Vec<Area>,
+    /// Dots, and the line of the error of snapping.
+    marks: Vec<Area>,
+}
+
 /// Each choice with its label, which takes the nearest free place beside its dot, and a line from the first to the last
-/// quartile of its time. What has no error stands below the others.
+/// quartile of its time. What has no error stands on the shelf.
 fn labelled(
     drawing: &mut Drawing,
     mut placed: Vec<(&Dot, [f64; 2])>,
     time: &Axis,
-    [[x0, y0], [x1, y1]]: [[f64; 2]; 2],
-    mut taken: Vec<Area>,
+    plot: Plot,
+    taken: &mut Taken,
 ) {
     placed.sort_by(|a, b| a.1[1].total_cmp(&b.1[1]));
-    // No label may lie on a dot.
     for (_, at) in &placed {
-        taken.push(area_around(*at));
+        taken.marks.push(area_around(*at));
     }
     for (dot, at) in &placed {
-        let room = canvas::width(&dot.label);
-        let label = Label { at: *at, room };
-        let own = area_around(*at);
-        let is_free = |place: [f64; 2], strict: bool| {
-            let area = label.area(place);
-            let is_high = area[1] >= y0 && area[3] <= y1;
-            if area[0] < x0 || area[2] > x1 || is_high != dot.error.is_some() {
-                return false;
-            }
-            let clear = |other: &Area| {
-                !(overlap(&area, other) || strict && crosses(label.leader(place), other))
-            };
-            !overlap(&area, &own) && taken.iter().filter(|one| **one != own).all(clear)
-        };
         let quartiles @ [low, high] = ends(dot, time);
         drawing.wide_line([low, at[1]], [high, at[1]], SOFT);
         let ink = mark(drawing, *at, dot);
-        // Better a line across something than no label, and better across the quartiles.
-        let places = label.places(quartiles, [x0, x1]);
-        let strictly_free = places.iter().find(|place| is_free(**place, true));
-        let found = strictly_free.or_else(|| places.iter().find(|place| is_free(**place, false)));
-        let place = found.copied().unwrap_or([(high + 10.0).min(x1 - room), at[1]]);
+        let label = Label { at: *at, room: canvas::width(&dot.label) };
+        // Places inside the plot where no word lies. If none is left, the label covers its own dot.
+        let mut places = label.places(quartiles, plot.x);
+        places.retain(|place| {
+            let area = label.area(*place);
+            plot.holds(&area, dot.error.is_none())
+                && taken.words.iter().all(|word| !overlap(&area, word))
+        });
+        // Best is a place whose line from the dot crosses nothing; better a line across something than a label on a dot.
+        let is_clear = |place: &&[f64; 2]| label.is_clear(**place, taken);
+        let is_off = |place: &&[f64; 2]| label.is_off(**place, &taken.marks);
+        let found =
+            places.iter().find(is_clear).or_else(|| places.iter().find(is_off)).or(places.first());
+        let place = found.copied().unwrap_or_else(|| label.over(plot.x));
         if (place[1] - at[1]).abs() > 1.0 {
             let [from, to] = label.leader(place);
             drawing.line(from, to, SOFT);
         }
         drawing.text(place, &dot.label, ink);
-        taken.push(label.area(place));
+        taken.words.push(label.area(place));
     }
 }
 
@@ -614,10 +635,10 @@ struct Label {
 
 impl Label {
     /// Where its text may begin, the best place first: beside the dot, then higher and lower by half lines, on both sides.
-    fn places(&self, quartiles: [f64; 2], [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
+    fn places(&self, quartiles: [f64; 2], between: [f64; 2]) -> Vec<[f64; 2]> {
         let Self { at, room } = *self;
         // Where neither side has room, above or below.
-        let over = (at[0] - room / 2.0).clamp(x0 + 2.0, (x1 - room - 2.0).max(x0 + 2.0));
+        let over = self.over(between)[0];
         let mut places = Vec::new();
         for i in 0..56 {
             let down = f64::from((i + 1) / 2) * ROW / 2.0 * if i % 2 == 0 { 1.0 } else { -1.0 };
@@ -628,6 +649,24 @@ impl Label {
             }
         }
         places
+    }
+
+    /// In the row of its dot, about it as far as the sides of the plot let it.
+    fn over(&self, [x0, x1]: [f64; 2]) -> [f64; 2] {
+        let right = (x1 - self.room - 2.0).max(x0 + 2.0);
+        [(self.at[0] - self.room / 2.0).clamp(x0 + 2.0, right), self.at[1]]
+    }
+
+    /// Whether no mark lies below the text.
+    fn is_off(&self, place: [f64; 2], marks: &[Area]) -> bool {
+        marks.iter().all(|mark| !overlap(&self.area(place), mark))
+    }
+
+    /// Whether, besides, the line from the dot crosses no word and no mark but its own.
+    fn is_clear(&self, place: [f64; 2], taken: &Taken) -> bool {
+        let own = area_around(self.at);
+        let mut others = taken.words.iter().chain(taken.marks.iter().filter(|mark| **mark != own));
+        self.is_off(place, &taken.marks) && others.all(|area| !crosses(self.leader(place), area))
     }
 
     /// What the text covers, if it begins there.
@@ -658,4 +697,66 @@ fn crosses([from, to]: [[f64; 2]; 2], area: &Area) -> bool {
         }
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_core::random::Rng;
+
+    const NAMES: [&str; 6] = [
+        "scanline big integers",
+        "edge function (snapped)",
+        "exact f64, adaptive",
+        "f32",
+        "book by scanline",
+        "rational numbers (12)",
+    ];
+
+    /// A choice at a random time, mostly without an error, since these crowd.
+    fn random_dot(rng: &mut Rng, number: usize) -> Dot {
+        let median = 10f64.powf(4.0 * rng.unit());
+        Dot {
+            label: NAMES[number % NAMES.len()].to_owned(),
+            time: [0.9 * median, median, 1.2 * median],
+            error: rng.chance(3).then(|| 10f64.powf(6.0 * rng.signed())),
+            ink: GREEN,
+            is_hollow: false,
+            around: None,
+        }
+    }
+
+    /// The words of random panels, of the width of a phone and of a third of a wide page, neither lie over one another
+    /// nor leave the plot.
+    #[test]
+    fn no_labels_lie_over_one_another() {
+        for seed in 0..400 {
+            let mut rng = Rng::new("labels", seed, 0);
+            let dots: Vec<Dot> =
+                (0..4 + seed as usize % 14).map(|k| random_dot(&mut rng, k)).collect();
+            let on_shelf = dots.iter().filter(|dot| dot.error.is_none()).count();
+            let plot = Plot { x: [54.0, 390.0], y: [70.0, 220.0, 228.0 + ROW * on_shelf as f64] };
+            let time = Axis::new(dots.iter().flat_map(|dot| dot.time), 0.12, plot.x);
+            let error =
+                Axis::new(dots.iter().filter_map(|dot| dot.error), 0.4, [plot.y[1], plot.y[0]]);
+            let placed = places(&dots, [&time, &error], plot.y[1]);
+            let mut taken = Taken::default();
+            labelled(&mut Drawing::new("", [400.0, 500.0]), placed, &time, plot, &mut taken);
+            assert_eq!(taken.words.len(), dots.len());
+            for (k, word) in taken.words.iter().enumerate() {
+                let others = &taken.words[k + 1..];
+                assert!(
+                    others.iter().all(|other| !overlap(word, other)),
+                    "seed {seed}: {:?}",
+                    taken.words
+                );
+                let [left, top, right, bottom] = *word;
+                let is_inside = left >= plot.x[0]
+                    && right <= plot.x[1]
+                    && top >= plot.y[0]
+                    && bottom <= plot.y[2];
+                assert!(is_inside, "seed {seed}: {word:?} leaves the plot");
+            }
+        }
+    }
 }
