@@ -6,7 +6,7 @@
 //! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
 //!
 //! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. After
-//! [`BY_TRIPLES`] blocks hardly a triple is missing, and the one is taken that has most quadruples. Some are drawn
+//! `BY_TRIPLES` blocks hardly a triple is missing, and the one is taken that has most quadruples. Some are drawn
 //! at random, and more are made of two cases that were chosen, each the example of a class, so that rare classes have their turn as
 //! often as frequent ones. What is rare is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
 //! data ([`impossible`]).
