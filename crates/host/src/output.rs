@@ -402,8 +402,8 @@ impl Lock {
     }
 }
 
-/// The process whose number is in the file of a lock. The inner value is missing in an empty file, the outer one in a file that is no
-/// lock.
+/// The process whose number is in the file of a lock: `Some(None)` of an empty file, whose holder has not written its number yet,
+/// and `None` of a file with any other text, which is not a lock of this program.
 fn holder(file: &mut File) -> Option<Option<u32>> {
     let mut text = String::new();
     file.take(20).read_to_string(&mut text).ok()?;

@@ -160,7 +160,7 @@ class View extends HTMLElement {
     const wide = Math.max(40, this.shown[0].figure.clientWidth - axis - 2); // its frame
     const fits = Math.min(this.isWide ? Infinity : most, wide / width, room / height);
     this.cell = Math.max(least, fits >= 4 ? Math.floor(fits) : fits);
-    // So many pixels have room: all of them, unless they had to be smaller.
+    // How many pixels of the part are seen at this size, across and down: all of them, unless they would have to be smaller than `least`.
     const fitting = this.cell === least ? [Math.min(width, Math.floor(wide / least)), Math.min(height, Math.max(1, Math.floor(room / least)))] : [width, height];
     // Another shape shows another part.
     if (String(fitting) !== String(this.fitting)) this.seen = null;

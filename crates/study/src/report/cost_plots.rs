@@ -559,26 +559,27 @@ fn overlap(a: &Area, b: &Area) -> bool {
 /// Where the dots and labels of a panel may lie.
 #[derive(Clone, Copy)]
 struct Plot {
-    /// Left and right.
+    /// Its left and its right side, in px of the drawing.
     x: [f64; 2],
-    /// The top, the floor of the errors, and that of the shelf below it.
+    /// From above: where the part with errors begins, where the shelf begins, and where the shelf ends.
     y: [f64; 3],
 }
 
 impl Plot {
     /// Whether a label lies inside, on the shelf or above it.
     fn holds(&self, area: &Area, is_on_shelf: bool) -> bool {
-        let [top, floor] =
+        let [top, bottom] =
             if is_on_shelf { [self.y[1], self.y[2]] } else { [self.y[0], self.y[1]] };
-        area[0] >= self.x[0] && area[2] <= self.x[1] && area[1] >= top && area[3] <= floor
+        area[0] >= self.x[0] && area[2] <= self.x[1] && area[1] >= top && area[3] <= bottom
     }
 }
 
-/// What a label must not lie on.
+/// The areas that are drawn on before a label is placed.
 #[derive(Default)]
 struct Taken {
+    /// Labels, and the name of the line of the error of snapping: no label may lie on one.
     words: Vec<Area>,
-    /// Dots, and the line of the error of snapping.
+    /// Dots, and that line: a label may lie on one if no other place is left.
     marks: Vec<Area>,
 }
 
@@ -600,7 +601,7 @@ fn labelled(
         drawing.wide_line([low, at[1]], [high, at[1]], SOFT);
         let ink = mark(drawing, *at, dot);
         let label = Label { at: *at, room: canvas::width(&dot.label) };
-        // Places inside the plot where no word lies. If none is left, the label covers its own dot.
+        // Places inside the plot where no word lies. If there is none, the label goes over its own dot, whatever lies there.
         let mut places = label.places(quartiles, plot.x);
         places.retain(|place| {
             let area = label.area(*place);
@@ -713,21 +714,29 @@ mod tests {
         "rational numbers (12)",
     ];
 
+    /// From 1 to ten to this power, as likely in each decade.
+    fn within(rng: &mut Rng, powers: i64) -> f64 {
+        let mut value = 1.0 + 9.0 * rng.unit();
+        for _ in 1..rng.int(1, powers) {
+            value *= 10.0;
+        }
+        value
+    }
+
     /// A choice at a random time, mostly without an error, since these crowd.
     fn random_dot(rng: &mut Rng, number: usize) -> Dot {
-        let median = 10f64.powf(4.0 * rng.unit());
+        let median = within(rng, 4);
         Dot {
             label: NAMES[number % NAMES.len()].to_owned(),
             time: [0.9 * median, median, 1.2 * median],
-            error: rng.chance(3).then(|| 10f64.powf(6.0 * rng.signed())),
+            error: rng.chance(3).then(|| within(rng, 12)),
             ink: GREEN,
             is_hollow: false,
             around: None,
         }
     }
 
-    /// The words of random panels, of the width of a phone and of a third of a wide page, neither lie over one another
-    /// nor leave the plot.
+    /// In random panels no label lies over another, and none leaves the plot, which is as narrow as on a phone.
     #[test]
     fn no_labels_lie_over_one_another() {
         for seed in 0..400 {
