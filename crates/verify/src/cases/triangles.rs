@@ -31,10 +31,10 @@ pub const FAMILIES: &[Family] = &[
     family("near-tie", "an edge through a sample, one end moved by a subpixel", near_tie),
     family("far", "offsets of 2^11, 2^14 and 2^22 px from the origin", far),
     family("w-equal", "perspective with equal w", w_equal),
-    family("w-4", "w ratio up to 4", |rng| perspective(rng, |rng| spread(rng, 4.0))),
-    family("w-100", "w ratio up to 100", |rng| perspective(rng, |rng| spread(rng, 100.0))),
-    family("w-1e4", "w ratio up to 10,000", |rng| perspective(rng, |rng| spread(rng, 1e4))),
-    family("w-1e6", "w ratio up to 1,000,000", |rng| perspective(rng, |rng| spread(rng, 1e6))),
+    family("w-4", "w ratio up to 4", |rng| w_up_to(rng, 4.0)),
+    family("w-100", "w ratio up to 100", |rng| w_up_to(rng, 100.0)),
+    family("w-1e4", "w ratio up to 10,000", |rng| w_up_to(rng, 1e4)),
+    family("w-1e6", "w ratio up to 1,000,000", |rng| w_up_to(rng, 1e6)),
     family("w-extreme", "w anywhere in its domain, ratio up to 2^400", w_extreme),
     designed(facts::triangles::TOPIC, "every two facts of a triangle together"),
     designed(facts::values::TOPIC, "every two facts of its values together"),
@@ -48,32 +48,60 @@ fn window() -> PixelRect {
     PixelRect::window(SIDE_PX, SIDE_PX)
 }
 
-/// A triangle with random depth and attributes and w between 1 and 4.
-fn dressed(rng: &mut Rng, corners: Corners) -> Triangle {
-    dressed_with(rng, corners, |rng| 1.0 + 3.0 * rng.unit())
+/// How the w of a corner is chosen.
+#[derive(Clone, Copy)]
+enum W {
+    /// Between 1 and 4.
+    Near,
+    Equal(f64),
+    /// In [1, ratio]: often one of the ends, since the whole ratio is the danger.
+    UpTo(f64),
+    /// 1 to 2 times a power of two from 2^-200 to 2^199: exact, and the same on every machine.
+    Extreme,
 }
 
-fn dressed_with(rng: &mut Rng, corners: Corners, mut w: impl FnMut(&mut Rng) -> f64) -> Triangle {
+impl W {
+    fn of(self, rng: &mut Rng) -> f64 {
+        match self {
+            Self::Near => 1.0 + 3.0 * rng.unit(),
+            Self::Equal(w) => w,
+            Self::UpTo(ratio) => match rng.int(0, 2) {
+                0 => 1.0,
+                1 => ratio,
+                _ => 1.0 + (ratio - 1.0) * rng.unit(),
+            },
+            Self::Extreme => {
+                let exponent = rng.int(-200, 199) + 1023;
+                (1.0 + rng.unit()) * f64::from_bits((exponent as u64) << 52)
+            }
+        }
+    }
+}
+
+/// A triangle with random depth and attributes.
+fn dressed(rng: &mut Rng, corners: Corners, w: W) -> Triangle {
     let vertices = corners.map_array(|position| ScreenVertex {
         position,
         depth: rng.unit(),
-        inv_w: 1.0 / w(rng),
+        inv_w: 1.0 / w.of(rng),
         varying: DVec2::new(rng.signed(), rng.signed() * 100.0),
     });
     ScreenTriangle { vertices }
 }
 
-fn single(rng: &mut Rng, window: PixelRect, corners: Corners) -> Case {
-    mesh(rng, window, [corners], true)
+fn moved(point: SubpixelPoint, dx: i32, dy: i32) -> SubpixelPoint {
+    SubpixelPoint::new(point.x + dx, point.y + dy)
 }
 
-fn mesh(
-    rng: &mut Rng,
-    window: PixelRect,
-    corners: impl IntoIterator<Item = Corners>,
-    disjoint: bool,
-) -> Case {
-    let list = corners.into_iter().map(|corners| dressed(rng, corners)).collect();
+fn single(rng: &mut Rng, window: PixelRect, corners: Corners) -> Case {
+    mesh(rng, window, &[corners], true)
+}
+
+fn mesh(rng: &mut Rng, window: PixelRect, triangles: &[Corners], disjoint: bool) -> Case {
+    let mut list = Vec::with_capacity(triangles.len());
+    for &corners in triangles {
+        list.push(dressed(rng, corners, W::Near));
+    }
     Case { window, shape: Shape::Triangles { list, disjoint } }
 }
 
@@ -82,12 +110,17 @@ fn point(rng: &mut Rng, low: i64, high: i64) -> SubpixelPoint {
 }
 
 fn points(rng: &mut Rng, low: i64, high: i64) -> Corners {
-    [(); 3].map_array(|()| point(rng, low, high))
+    [point(rng, low, high), point(rng, low, high), point(rng, low, high)]
 }
 
 /// A point on a pixel centre, pixels low..=high.
 fn on_centre(rng: &mut Rng, low_px: i64, high_px: i64) -> SubpixelPoint {
     centre_of(rng.coordinate(low_px, high_px), rng.coordinate(low_px, high_px))
+}
+
+/// Three of them, from pixel 0 on.
+fn on_centres(rng: &mut Rng, high_px: i64) -> Corners {
+    [on_centre(rng, 0, high_px), on_centre(rng, 0, high_px), on_centre(rng, 0, high_px)]
 }
 
 fn uniform(rng: &mut Rng) -> Case {
@@ -96,7 +129,7 @@ fn uniform(rng: &mut Rng) -> Case {
 }
 
 fn half_integer(rng: &mut Rng) -> Case {
-    let corners = [(); 3].map_array(|()| on_centre(rng, 0, 15));
+    let corners = on_centres(rng, 15);
     single(rng, PixelRect::window(16, 16), corners)
 }
 
@@ -104,7 +137,7 @@ fn rectangle(rng: &mut Rng) -> Case {
     let (a, b) = (on_centre(rng, 0, 15), on_centre(rng, 0, 15));
     let (c, d) = (SubpixelPoint::new(b.x, a.y), SubpixelPoint::new(a.x, b.y));
     let split = if rng.chance(2) { [[a, c, b], [a, b, d]] } else { [[c, b, d], [c, d, a]] };
-    mesh(rng, PixelRect::window(16, 16), split, true)
+    mesh(rng, PixelRect::window(16, 16), &split, true)
 }
 
 /// Spokes go to points on a square ring, which needs no sines, pulled in by a random factor.
@@ -114,41 +147,44 @@ fn fan(rng: &mut Rng) -> Case {
     let spokes = rng.int(5, 12);
     let reach = rng.int(256, 10 * 256);
     let perimeter = 8 * reach;
-    let ring: Vec<_> = (0..spokes)
-        .map(|spoke| {
-            let along = (perimeter * spoke + rng.int(0, perimeter - 1)) / spokes;
-            let (side, rest) = (along / (2 * reach), along % (2 * reach) - reach);
-            let (x, y) = match side {
-                0 => (rest, -reach),
-                1 => (reach, rest),
-                2 => (-rest, reach),
-                _ => (-reach, -rest),
-            };
-            let pull = rng.int(128, 256);
-            (x * pull / 256, y * pull / 256)
-        })
-        .collect();
-    let next = |i: usize| ring[(i + 1) % ring.len()];
-    // Rounding may have folded a thin slice over; then it is no fan.
-    let disjoint = (0..ring.len()).all(|i| ring[i].0 * next(i).1 - ring[i].1 * next(i).0 > 0);
-    let tip = |(x, y): (i64, i64)| sub(i64::from(centre.x) + x, i64::from(centre.y) + y);
-    let corners: Vec<_> = (0..ring.len()).map(|i| [centre, tip(ring[i]), tip(next(i))]).collect();
-    mesh(rng, PixelRect::window(32, 32), corners, disjoint)
+    // Where each spoke ends, as seen from the centre.
+    let mut ring = Vec::new();
+    for spoke in 0..spokes {
+        let along = (perimeter * spoke + rng.int(0, perimeter - 1)) / spokes;
+        let (side, rest) = (along / (2 * reach), along % (2 * reach) - reach);
+        let (x, y) = match side {
+            0 => (rest, -reach),
+            1 => (reach, rest),
+            2 => (-rest, reach),
+            _ => (-reach, -rest),
+        };
+        let pull = rng.int(128, 256);
+        ring.push([x * pull / 256, y * pull / 256]);
+    }
+    // A slice between each two spokes. Rounding may have folded a thin one over; then it is no fan.
+    let tip = |[x, y]: [i64; 2]| sub(i64::from(centre.x) + x, i64::from(centre.y) + y);
+    let mut slices = Vec::with_capacity(ring.len());
+    let mut disjoint = true;
+    for (i, &this) in ring.iter().enumerate() {
+        let next = ring[(i + 1) % ring.len()];
+        disjoint &= this[0] * next[1] - this[1] * next[0] > 0;
+        slices.push([centre, tip(this), tip(next)]);
+    }
+    mesh(rng, PixelRect::window(32, 32), &slices, disjoint)
 }
 
 fn strip(rng: &mut Rng) -> Case {
     let on_centres = rng.chance(2);
     let snap = |sub: i64| if on_centres { sub.div_euclid(256) * 256 + 128 } else { sub };
     let mut x = rng.int(0, 2 * 256);
-    let vertices: Vec<_> = (0..rng.int(4, 9))
-        .map(|i| {
-            x += rng.int(256, 5 * 256);
-            let y = if i % 2 == 0 { rng.int(0, 10 * 256) } else { rng.int(14 * 256, 31 * 256) };
-            sub(snap(x), snap(y))
-        })
-        .collect();
-    let corners: Vec<_> = vertices.windows(3).map(|v| [v[0], v[1], v[2]]).collect();
-    mesh(rng, PixelRect::window(48, 32), corners, true)
+    let mut vertices = Vec::new();
+    for i in 0..rng.int(4, 9) {
+        x += rng.int(256, 5 * 256);
+        let y = if i % 2 == 0 { rng.int(0, 10 * 256) } else { rng.int(14 * 256, 31 * 256) };
+        vertices.push(sub(snap(x), snap(y)));
+    }
+    let triangles: Vec<_> = vertices.windows(3).map(|v| [v[0], v[1], v[2]]).collect();
+    mesh(rng, PixelRect::window(48, 32), &triangles, true)
 }
 
 fn sliver(rng: &mut Rng) -> Case {
@@ -168,24 +204,25 @@ fn near_horizontal(rng: &mut Rng) -> Case {
 }
 
 fn near_vertical(rng: &mut Rng) -> Case {
-    let corners = near_line(rng).map_array(|p| SubpixelPoint::new(p.y, p.x));
-    single(rng, window(), corners)
+    let corners = near_line(rng);
+    single(rng, window(), corners.map_array(|p| SubpixelPoint::new(p.y, p.x)))
 }
 
 /// Two points within three subpixels of a row of centres, the third one there as well or far away.
 fn near_line(rng: &mut Rng) -> Corners {
     let row = rng.int(4, 40) * 256 + 128;
-    let near = |rng: &mut Rng| sub(rng.int(0, SIDE), row + rng.int(-3, 3));
-    let (a, b) = (near(rng), near(rng));
-    let c = if rng.chance(2) { near(rng) } else { point(rng, 0, SIDE) };
+    let (a, b) = (near_row(rng, row), near_row(rng, row));
+    let c = if rng.chance(2) { near_row(rng, row) } else { point(rng, 0, SIDE) };
     [a, b, c]
+}
+
+fn near_row(rng: &mut Rng, row: i64) -> SubpixelPoint {
+    sub(rng.int(0, SIDE), row + rng.int(-3, 3))
 }
 
 fn tiny(rng: &mut Rng) -> Case {
     let corner = point(rng, 0, 7 * 256);
-    let corners = [(); 3].map_array(|()| {
-        SubpixelPoint::new(corner.x + rng.coordinate(0, 255), corner.y + rng.coordinate(0, 255))
-    });
+    let corners = points(rng, 0, 255).map_array(|p| moved(p, corner.x, corner.y));
     single(rng, PixelRect::window(8, 8), corners)
 }
 
@@ -218,7 +255,7 @@ fn off_screen(rng: &mut Rng) -> Case {
     let corners = match rng.int(0, 3) {
         0 => points(rng, -3 * SIDE, -1),
         1 => points(rng, SIDE + 1, 4 * SIDE),
-        2 => points(rng, 0, SIDE).map_array(|p| SubpixelPoint::new(p.x - SIDE as i32, p.y)),
+        2 => points(rng, 0, SIDE).map_array(|p| moved(p, -(SIDE as i32), 0)),
         _ => {
             let (x, y) = (rng.int(1, SIDE), rng.int(1, SIDE));
             // Above the line x + y = 0 there is nothing of the window.
@@ -229,21 +266,29 @@ fn off_screen(rng: &mut Rng) -> Case {
 }
 
 fn huge(rng: &mut Rng) -> Case {
-    let far = |rng: &mut Rng| {
-        let bits = rng.int(14, 31);
-        let limit = 1i64 << bits;
-        rng.int(-limit, limit - 1)
-    };
-    let mut corners = [(); 3].map_array(|()| sub(far(rng), far(rng)));
+    let mut corners = [far_point(rng), far_point(rng), far_point(rng)];
     if rng.chance(2) {
         // Make an edge run through the window: mirror one end at a point inside it.
         let (p, a) = (point(rng, 0, SIDE), corners[0]);
-        let mirror = |p: i32, a: i32| {
-            (2 * i64::from(p) - i64::from(a)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
-        };
-        corners[1] = SubpixelPoint::new(mirror(p.x, a.x), mirror(p.y, a.y));
+        corners[1] = SubpixelPoint::new(mirrored(a.x, p.x), mirrored(a.y, p.y));
     }
     single(rng, window(), corners)
+}
+
+/// Each coordinate anywhere within 2^14 to 2^31 subpixels.
+fn far_point(rng: &mut Rng) -> SubpixelPoint {
+    let mut coordinates = [0; 2];
+    for v in &mut coordinates {
+        let limit = 1i64 << rng.int(14, 31);
+        *v = rng.int(-limit, limit - 1);
+    }
+    sub(coordinates[0], coordinates[1])
+}
+
+/// A coordinate mirrored at another one, or the last one that there is on that side.
+fn mirrored(v: i32, at: i32) -> i32 {
+    let mirrored = 2 * i64::from(at) - i64::from(v);
+    mirrored.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }
 
 fn near_tie(rng: &mut Rng) -> Case {
@@ -259,49 +304,33 @@ fn near_tie(rng: &mut Rng) -> Case {
 }
 
 fn far(rng: &mut Rng) -> Case {
-    let corners = if rng.chance(2) {
-        points(rng, 0, SIDE)
-    } else {
-        [(); 3].map_array(|()| on_centre(rng, 0, 47))
-    };
-    let offset = |rng: &mut Rng| {
+    let corners = if rng.chance(2) { points(rng, 0, SIDE) } else { on_centres(rng, 47) };
+    let mut offset = [0; 2];
+    for v in &mut offset {
         let px = 1i32 << [0, 11, 14, 22][rng.int(0, 3) as usize];
-        if rng.chance(2) { px } else { -px }
-    };
-    let (dx, dy) = (offset(rng), offset(rng));
-    let moved = corners.map_array(|p| SubpixelPoint::new(p.x + dx * 256, p.y + dy * 256));
+        *v = if rng.chance(2) { px } else { -px };
+    }
+    let [dx, dy] = offset;
+    let corners = corners.map_array(|p| moved(p, dx * 256, dy * 256));
     let w = window();
-    single(rng, PixelRect { x0: w.x0 + dx, y0: w.y0 + dy, x1: w.x1 + dx, y1: w.y1 + dy }, moved)
+    single(rng, PixelRect { x0: w.x0 + dx, y0: w.y0 + dy, x1: w.x1 + dx, y1: w.y1 + dy }, corners)
 }
 
 fn w_equal(rng: &mut Rng) -> Case {
     let w = 0.1 + 10.0 * rng.unit();
-    perspective(rng, |_| w)
+    perspective(rng, W::Equal(w))
+}
+
+fn w_up_to(rng: &mut Rng, ratio: f64) -> Case {
+    perspective(rng, W::UpTo(ratio))
 }
 
 fn w_extreme(rng: &mut Rng) -> Case {
-    // 1 to 2 times a power of two: exact, and the same on every machine.
-    perspective(rng, |rng| {
-        let exponent = rng.int(-200, 199) + 1023;
-        (1.0 + rng.unit()) * f64::from_bits((exponent as u64) << 52)
-    })
+    perspective(rng, W::Extreme)
 }
 
-/// A w in [1, ratio]: often one of the ends, since the whole ratio is the danger.
-fn spread(rng: &mut Rng, ratio: f64) -> f64 {
-    match rng.int(0, 2) {
-        0 => 1.0,
-        1 => ratio,
-        _ => 1.0 + (ratio - 1.0) * rng.unit(),
-    }
-}
-
-fn perspective(rng: &mut Rng, w: impl FnMut(&mut Rng) -> f64) -> Case {
-    let corners = if rng.chance(3) {
-        [(); 3].map_array(|()| on_centre(rng, 0, 47))
-    } else {
-        points(rng, 0, SIDE)
-    };
-    let list = vec![dressed_with(rng, corners, w)];
+fn perspective(rng: &mut Rng, w: W) -> Case {
+    let corners = if rng.chance(3) { on_centres(rng, 47) } else { points(rng, 0, SIDE) };
+    let list = vec![dressed(rng, corners, w)];
     Case { window: window(), shape: Shape::Triangles { list, disjoint: true } }
 }
