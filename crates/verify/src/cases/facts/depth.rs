@@ -117,62 +117,162 @@ impl PileFacts {
     /// Of a case of triangles.
     #[must_use]
     pub fn of_case(case: &Case) -> Option<Self> {
-        let list = case.triangles();
-        list.first()?;
-        let window = [case.window.width(), case.window.height()].map(i64::from);
-        let boxes: Vec<[[i64; 2]; 2]> = list.iter().map(box_of).collect();
-        let means: Vec<f64> =
-            list.iter().map(|t| t.vertices.iter().map(|v| v.depth).sum::<f64>() / 3.0).collect();
-        let depths: Vec<[f64; 3]> =
-            list.iter().map(|t| t.vertices.each_ref().map(|v| v.depth)).collect();
-        let mut sorted = means.clone();
-        sorted.sort_unstable_by(f64::total_cmp);
-        let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.0);
-        let extents = boxes.iter().map(|[low, high]| (high[0] - low[0]).max(high[1] - low[1]));
-        let share = |count: usize| match count {
-            0 => 0,
-            count if count == list.len() => 2,
-            _ => 1,
-        };
-        let is_cut = |[low, high]: &&[[i64; 2]; 2]| {
-            (0..2).any(|axis| low[axis] < 0 || high[axis] > window[axis] * PX)
-        };
-        let has = |depth: f64| depths.iter().flatten().any(|d| *d == depth);
-        let last = means[means.len() - 1];
-        let open: Vec<Option<Open>> = list.iter().map(|t| Open::left_by(t, case.window)).collect();
-        Some(Self {
+        let list: Vec<Layer> = case.triangles().iter().map(Layer::of).collect();
+        let last = list.last()?.mean;
+        let window = [i64::from(case.window.width()), i64::from(case.window.height())];
+        let mut measured = Self {
             count: list.len() as i64,
-            piled: piled(list, &boxes, case.window),
-            in_block: in_block(&boxes, window),
+            piled: piled(&list, case.window),
+            in_block: in_block(&list, window),
             window,
-            order: order(&means),
-            equal: share(equal(&depths)),
-            leaning: share(depths.iter().filter(|[a, b, c]| a != b || b != c).count()),
-            clockwise: share(list.iter().filter(|t| twice_area(&t.corners()) > 0).count()),
-            cut: share(boxes.iter().filter(is_cut).count()),
-            largest: extents.clone().max().unwrap_or(0),
-            smallest: extents.min().unwrap_or(0),
-            closest: gaps.map(|gap| i64::from(exponent(gap))).min().unwrap_or(0),
-            ends: i64::from(has(0.0)) + 2 * i64::from(has(1.0)),
-            leaves_open: open
-                .iter()
-                .flatten()
-                .map(|open| 1 + i64::from(open.is_last))
-                .max()
-                .unwrap_or(0),
-            reaches_beyond: reaches_beyond(list, &boxes, &open, case.window),
-            last_is_nearest: i64::from(list.len() > 1 && means.iter().all(|mean| *mean >= last)),
-        })
+            order: order(&list),
+            equal: share(equal(&list), list.len()),
+            leaning: 0,
+            clockwise: 0,
+            cut: 0,
+            largest: 0,
+            smallest: i64::MAX,
+            closest: closest(&list),
+            ends: 0,
+            last_is_nearest: i64::from(list.len() > 1),
+            leaves_open: 0,
+            reaches_beyond: 0,
+        };
+        let (mut leaning, mut clockwise, mut cut) = (0, 0, 0);
+        for layer in &list {
+            let [a, b, c] = layer.depths;
+            leaning += usize::from(a != b || b != c);
+            clockwise += usize::from(layer.turns);
+            cut += usize::from(layer.is_cut(window));
+            let extent = (layer.high[0] - layer.low[0]).max(layer.high[1] - layer.low[1]);
+            measured.largest = measured.largest.max(extent);
+            measured.smallest = measured.smallest.min(extent);
+            // Bit 0 where depth 0 occurs, bit 1 for depth 1.
+            measured.ends |= i64::from(layer.depths.contains(&0.0));
+            measured.ends |= 2 * i64::from(layer.depths.contains(&1.0));
+            measured.last_is_nearest &= i64::from(layer.mean >= last);
+        }
+        measured.leaning = share(leaning, list.len());
+        measured.clockwise = share(clockwise, list.len());
+        measured.cut = share(cut, list.len());
+        measured.note_open_borders(&list, [case.window.x1, case.window.y1]);
+        Some(measured)
+    }
+
+    /// Notes the triangles that leave a border of the window open, and those that are farther than all of one of them and reach
+    /// into what it leaves open.
+    fn note_open_borders(&mut self, list: &[Layer], sides: [i32; 2]) {
+        for (front, layer) in list.iter().enumerate() {
+            let Some(Open { axis, is_last }) = layer.leaves_open(sides) else { continue };
+            self.leaves_open = self.leaves_open.max(1 + i64::from(is_last));
+            let farthest = layer.depths.into_iter().fold(0.0, f64::max);
+            // The samples that are open, and their neighbours, which are covered.
+            let last = sides[axis] - 1;
+            let [from, to] = if is_last { [last - 1, last] } else { [0, 1] }.map(centre);
+            for (i, other) in list.iter().enumerate() {
+                let Layer { depths, low, high, .. } = other;
+                let is_behind = depths.iter().all(|depth| *depth > farthest);
+                let is_in = low[1 - axis] < i64::from(sides[1 - axis]) * PX && high[1 - axis] > 0;
+                if is_behind && is_in && low[axis] <= from && high[axis] >= to {
+                    self.reaches_beyond = self.reaches_beyond.max(if i > front { 2 } else { 1 });
+                }
+            }
+        }
     }
 }
 
-/// The least and the largest coordinates.
-fn box_of(triangle: &Triangle) -> [[i64; 2]; 2] {
-    let [a, b, c] = triangle.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
-    [
-        [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis])),
-        [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis])),
-    ]
+/// Whether none (0), some (1) or all (2) of so many.
+fn share(count: usize, of: usize) -> i64 {
+    match count {
+        0 => 0,
+        count if count == of => 2,
+        _ => 1,
+    }
+}
+
+/// A triangle of a pile, measured once.
+struct Layer {
+    corners: [[i64; 2]; 3],
+    /// The least and the largest coordinates.
+    low: [i64; 2],
+    high: [i64; 2],
+    depths: [f64; 3],
+    mean: f64,
+    /// Clockwise on the screen.
+    turns: bool,
+}
+
+impl Layer {
+    fn of(triangle: &Triangle) -> Self {
+        let mut layer = Self {
+            corners: [[0; 2]; 3],
+            low: [i64::MAX; 2],
+            high: [i64::MIN; 2],
+            depths: [0.0; 3],
+            mean: 0.0,
+            turns: twice_area(&triangle.corners()) > 0,
+        };
+        for (at, vertex) in triangle.vertices.iter().enumerate() {
+            let corner = [i64::from(vertex.position.x), i64::from(vertex.position.y)];
+            for (axis, v) in corner.into_iter().enumerate() {
+                layer.low[axis] = layer.low[axis].min(v);
+                layer.high[axis] = layer.high[axis].max(v);
+            }
+            layer.corners[at] = corner;
+            layer.depths[at] = vertex.depth;
+            layer.mean += vertex.depth;
+        }
+        layer.mean /= 3.0;
+        layer
+    }
+
+    fn is_cut(&self, window: [i64; 2]) -> bool {
+        let [wide, high] = window;
+        self.low[0] < 0 || self.low[1] < 0 || self.high[0] > wide * PX || self.high[1] > high * PX
+    }
+
+    /// Whether it covers a point, its boundary included.
+    fn covers(&self, [x, y]: [i64; 2]) -> bool {
+        if x < self.low[0] || x > self.high[0] || y < self.low[1] || y > self.high[1] {
+            return false;
+        }
+        let (mut is_left, mut is_right) = (true, true);
+        let mut a = self.corners[2];
+        for b in self.corners {
+            let side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+            is_left &= side <= 0;
+            is_right &= side >= 0;
+            a = b;
+        }
+        // Both where it has no area.
+        is_left != is_right
+    }
+
+    /// The row or column at the border of a window that it leaves open, where it covers all other samples.
+    fn leaves_open(&self, sides: [i32; 2]) -> Option<Open> {
+        for axis in 0..2 {
+            let last = sides[axis] - 1;
+            if last == 0 {
+                continue;
+            }
+            // The samples at both ends of a row or column. A triangle is convex: it covers all samples between two lines if it
+            // covers those at their ends.
+            let ends = |at: i32| {
+                [0, sides[1 - axis] - 1].map(|across| match axis {
+                    0 => [centre(at), centre(across)],
+                    _ => [centre(across), centre(at)],
+                })
+            };
+            for (is_last, open, near, far) in [(false, 0, 1, last), (true, last, last - 1, 0)] {
+                let covers = |at: i32| ends(at).iter().all(|end| self.covers(*end));
+                let meets = |at: i32| ends(at).iter().any(|end| self.covers(*end));
+                if covers(near) && covers(far) && !meets(open) {
+                    return Some(Open { axis, is_last });
+                }
+            }
+        }
+        None
+    }
 }
 
 /// The row or column at the border of the window that a triangle leaves open.
@@ -183,94 +283,59 @@ struct Open {
     is_last: bool,
 }
 
-impl Open {
-    /// Of a triangle that covers all samples but these.
-    fn left_by(triangle: &Triangle, window: PixelRect) -> Option<Self> {
-        let sides = [window.x1, window.y1];
-        for axis in (0..2).filter(|axis| sides[*axis] > 1) {
-            let across = [0, sides[1 - axis] - 1].map(centre);
-            // A triangle is convex: it covers all samples between two lines if it covers those at their ends.
-            let covers_line = |at: i32| {
-                let ends = across.map(|across| match axis {
-                    0 => [centre(at), across],
-                    _ => [across, centre(at)],
-                });
-                ends.map(|end| covers(triangle, end))
-            };
-            let last = sides[axis] - 1;
-            for (is_last, open, near, far) in [(false, 0, 1, last), (true, last, last - 1, 0)] {
-                let is_covered = [near, far].map(covers_line) == [[true; 2]; 2];
-                if is_covered && covers_line(open) == [false; 2] {
-                    return Some(Self { axis, is_last });
-                }
-            }
-        }
-        None
+/// How the means of depths follow each other.
+fn order(list: &[Layer]) -> i64 {
+    let (mut rises, mut falls) = (true, true);
+    for pair in list.windows(2) {
+        rises &= pair[0].mean <= pair[1].mean;
+        falls &= pair[0].mean >= pair[1].mean;
+    }
+    match (list.len(), rises, falls) {
+        (1, ..) => 0,
+        (_, true, true) => 4,
+        (_, true, false) => 1,
+        (_, false, true) => 2,
+        (_, false, false) => 3,
     }
 }
 
-/// Whether a triangle that is farther than all of one with an open border reaches into that, and is drawn before (1) or after (2).
-fn reaches_beyond(
-    list: &[Triangle],
-    boxes: &[[[i64; 2]; 2]],
-    open: &[Option<Open>],
-    window: PixelRect,
-) -> i64 {
-    let sides = [window.x1, window.y1];
-    let depths = |i: usize| list[i].vertices.each_ref().map(|v| v.depth);
-    let mut found = 0;
-    for (front, open) in open.iter().enumerate() {
-        let Some(Open { axis, is_last }) = *open else { continue };
-        let farthest = depths(front).into_iter().fold(0.0, f64::max);
-        // The samples that are open, and their neighbours, which are covered.
-        let last = sides[axis] - 1;
-        let [from, to] = if is_last { [last - 1, last] } else { [0, 1] }.map(centre);
-        for (i, [low, high]) in boxes.iter().enumerate() {
-            let is_behind = depths(i).iter().all(|depth| *depth > farthest);
-            let is_in = low[1 - axis] < i64::from(sides[1 - axis]) * PX && high[1 - axis] > 0;
-            if is_behind && is_in && low[axis] <= from && high[axis] >= to {
-                found = found.max(if i > front { 2 } else { 1 });
-            }
+/// The logarithm of the smallest difference of means that is not 0.
+fn closest(list: &[Layer]) -> i64 {
+    let mut means: Vec<f64> = list.iter().map(|layer| layer.mean).collect();
+    means.sort_unstable_by(f64::total_cmp);
+    let mut closest = None;
+    for pair in means.windows(2) {
+        let gap = pair[1] - pair[0];
+        if gap > 0.0 {
+            let exponent = i64::from(exponent(gap));
+            closest = Some(closest.map_or(exponent, |least: i64| least.min(exponent)));
         }
     }
-    found
-}
-
-fn order(means: &[f64]) -> i64 {
-    let is = |holds: fn(f64, f64) -> bool| means.windows(2).all(|pair| holds(pair[0], pair[1]));
-    if means.len() == 1 {
-        0
-    } else if is(|a, b| a == b) {
-        4
-    } else if is(|a, b| a <= b) {
-        1
-    } else if is(|a, b| a >= b) {
-        2
-    } else {
-        3
-    }
+    closest.unwrap_or(0)
 }
 
 /// How many have the depths of another.
-fn equal(depths: &[[f64; 3]]) -> usize {
-    let mut sorted: Vec<[u64; 3]> = depths.iter().map(|depths| depths.map(f64::to_bits)).collect();
-    sorted.sort_unstable();
-    sorted.chunk_by(|a, b| a == b).map(<[_]>::len).filter(|count| *count > 1).sum()
+fn equal(list: &[Layer]) -> usize {
+    let mut depths: Vec<[u64; 3]> =
+        list.iter().map(|layer| layer.depths.map(f64::to_bits)).collect();
+    depths.sort_unstable();
+    let mut count = 0;
+    for alike in depths.chunk_by(|a, b| a == b) {
+        count += if alike.len() > 1 { alike.len() } else { 0 };
+    }
+    count
 }
 
 /// The most triangles that cover one of a few samples.
-fn piled(list: &[Triangle], boxes: &[[[i64; 2]; 2]], window: PixelRect) -> i64 {
+fn piled(list: &[Layer], window: PixelRect) -> i64 {
     let mut most = 0;
-    let [wide, high] = [window.x1, window.y1].map(|side| side.min(4));
+    let [wide, high] = [window.x1.min(4), window.y1.min(4)];
     for row in 0..high {
         for column in 0..wide {
-            let [x, y] = [centre(column * window.x1 / wide), centre(row * window.y1 / high)];
-            let is_in = |[low, high]: &[[i64; 2]; 2]| {
-                low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
-            };
+            let sample = [centre(column * window.x1 / wide), centre(row * window.y1 / high)];
             let mut covering = 0;
-            for (triangle, its_box) in list.iter().zip(boxes) {
-                covering += i64::from(is_in(its_box) && covers(triangle, [x, y]));
+            for layer in list {
+                covering += i64::from(layer.covers(sample));
             }
             most = most.max(covering);
         }
@@ -278,25 +343,18 @@ fn piled(list: &[Triangle], boxes: &[[[i64; 2]; 2]], window: PixelRect) -> i64 {
     most
 }
 
-/// Whether a triangle covers a point, its boundary included.
-fn covers(triangle: &Triangle, [x, y]: [i64; 2]) -> bool {
-    let points = triangle.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
-    let side = |[a, b]: [[i64; 2]; 2]| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-    let [a, b, c] = points;
-    let sides = [[a, b], [b, c], [c, a]].map(side);
-    sides != [0; 3] && (sides.iter().all(|s| *s >= 0) || sides.iter().all(|s| *s <= 0))
-}
-
 /// The most boxes that meet the same block of 8 x 8 px of the window.
-fn in_block(boxes: &[[[i64; 2]; 2]], window: [i64; 2]) -> i64 {
+fn in_block(list: &[Layer], window: [i64; 2]) -> i64 {
+    let block = 8 * PX;
     let mut most = 0;
-    for block_y in 0..(window[1] + 7) / 8 {
-        for block_x in 0..(window[0] + 7) / 8 {
-            let near = [block_x, block_y].map(|block| block * 8 * PX);
-            let meets = |[low, high]: &&[[i64; 2]; 2]| {
-                (0..2).all(|axis| low[axis] < near[axis] + 8 * PX && high[axis] >= near[axis])
-            };
-            most = most.max(boxes.iter().filter(meets).count() as i64);
+    for y in (0..window[1] * PX).step_by(8 * PX as usize) {
+        for x in (0..window[0] * PX).step_by(8 * PX as usize) {
+            let mut meeting = 0;
+            for Layer { low, high, .. } in list {
+                let meets_columns = low[0] < x + block && high[0] >= x;
+                meeting += i64::from(meets_columns && low[1] < y + block && high[1] >= y);
+            }
+            most = most.max(meeting);
         }
     }
     most

@@ -22,19 +22,6 @@ fn bit(class: u16) -> (usize, u64) {
     (usize::from(class / 64), 1 << (class % 64))
 }
 
-/// How many of some bits are not among others.
-fn missing(wanted: &Bits, known: &Bits) -> usize {
-    let rest: Bits = std::array::from_fn(|word| wanted[word] & !known[word]);
-    // Mostly none is missing, and counting takes longer.
-    if rest == [0; WORDS] { 0 } else { rest.iter().map(|word| word.count_ones() as usize).sum() }
-}
-
-fn insert(new: &Bits, known: &mut Bits) {
-    for (new, known) in new.iter().zip(known) {
-        *known |= new;
-    }
-}
-
 /// For each class of a question the classes before it.
 fn smaller(classes: &[u16]) -> Vec<Bits> {
     let mut before = [0; WORDS];
@@ -65,21 +52,45 @@ impl Table {
         Self { ways, rows }
     }
 
-    /// Visits the row of each choice of `left` of some classes, with the classes of the question below these.
-    fn each_row(
-        &self,
-        classes: &[u16],
-        smaller: &[Bits],
-        (left, row): (usize, usize),
-        visit: &mut impl FnMut(usize, &Bits),
-    ) {
-        // The largest class first; the others are below it, and so is the smallest of the combination.
-        for at in left..classes.len() {
-            let row = row + self.ways[usize::from(classes[at])][left];
-            if left == 1 {
-                visit(row, &smaller[at]);
-            } else {
-                self.each_row(&classes[..at], smaller, (left - 1, row), visit);
+    /// How many of a question's combinations are not among the rows of those of `left` classes and the smallest one. The rows
+    /// begin at that of the larger classes that were chosen.
+    fn missing_in(&self, rows: &[Bits], classes: &[u16], smaller: &[Bits], left: usize) -> usize {
+        let mut count = 0;
+        if left > 1 {
+            // The largest class first; the others are below it, and so is the smallest of the combination.
+            for at in left..classes.len() {
+                let rows = &rows[self.ways[usize::from(classes[at])][left]..];
+                count += self.missing_in(rows, &classes[..at], smaller, left - 1);
+            }
+            return count;
+        }
+        // One class more: its number is that of its row.
+        for (&class, wanted) in classes.iter().zip(smaller).skip(1) {
+            let known = &rows[usize::from(class)];
+            let rest = [wanted[0] & !known[0], wanted[1] & !known[1], wanted[2] & !known[2]];
+            // Mostly none is missing, and counting takes longer.
+            if rest[0] | rest[1] | rest[2] != 0 {
+                for word in rest {
+                    count += word.count_ones() as usize;
+                }
+            }
+        }
+        count
+    }
+
+    /// Inserts a question's combinations into the same rows.
+    fn note_in(&self, rows: &mut [Bits], classes: &[u16], smaller: &[Bits], left: usize) {
+        if left > 1 {
+            for at in left..classes.len() {
+                let rows = &mut rows[self.ways[usize::from(classes[at])][left]..];
+                self.note_in(rows, &classes[..at], smaller, left - 1);
+            }
+            return;
+        }
+        for (&class, new) in classes.iter().zip(smaller).skip(1) {
+            let known = &mut rows[usize::from(class)];
+            for word in 0..WORDS {
+                known[word] |= new[word];
             }
         }
     }
@@ -96,22 +107,15 @@ impl Table {
 
     /// How many combinations of so many classes a question has that are missing.
     pub(super) fn missing(&self, together: usize, classes: &[u16]) -> usize {
-        let rows = &self.rows[together - 2];
-        let mut count = 0;
-        self.each_row(classes, &smaller(classes), (together - 1, 0), &mut |row, smaller| {
-            count += missing(smaller, &rows[row]);
-        });
-        count
+        self.missing_in(&self.rows[together - 2], classes, &smaller(classes), together - 1)
     }
 
     /// Notes the combinations of a question.
     pub(super) fn note(&mut self, classes: &[u16]) {
         let smaller = smaller(classes);
         let mut all = std::mem::take(&mut self.rows);
-        for (rows, chosen) in all.iter_mut().zip(1..) {
-            self.each_row(classes, &smaller, (chosen, 0), &mut |row, smaller| {
-                insert(smaller, &mut rows[row]);
-            });
+        for (at, rows) in all.iter_mut().enumerate() {
+            self.note_in(rows, classes, &smaller, at + 1);
         }
         self.rows = all;
     }
