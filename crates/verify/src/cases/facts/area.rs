@@ -108,17 +108,19 @@ enum Cut {
 
 /// An exact share takes much longer than looking on which side of the edges a pixel lies.
 fn cut(corners: &Corners, turn: i128, x_px: i32, y_px: i32) -> Cut {
-    let middle = [x_px, y_px].map(|px| i128::from(centre(px)));
+    let [x, y] = [centre(x_px), centre(y_px)];
     let mut is_whole = true;
     for [a, b] in edges(corners) {
-        let [dx, dy] = [[a.x, b.x], [a.y, b.y]].map(|[a, b]| i128::from(b) - i128::from(a));
-        let side = dx * (middle[1] - i128::from(a.y)) - dy * (middle[0] - i128::from(a.x));
+        let [dx, dy] = [i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y)];
+        // Differences of 33 bits, whose products do not fit 64.
+        let left = i128::from(dx) * i128::from(y - i64::from(a.y));
+        let side = turn * (left - i128::from(dy) * i128::from(x - i64::from(a.x)));
         // The farthest corner of the pixel lies so far beside its centre.
-        let reach = (dx.abs() + dy.abs()) * i128::from(HALF_PIXEL);
-        if side * turn <= -reach {
+        let reach = i128::from((dx.abs() + dy.abs()) * i64::from(HALF_PIXEL));
+        if side <= -reach {
             return Cut::Outside;
         }
-        is_whole &= side * turn >= reach;
+        is_whole &= side >= reach;
     }
     if is_whole { Cut::Whole } else { Cut::Perhaps }
 }

@@ -7,7 +7,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers};
+use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers, share};
 use crate::cases::{Case, Limits, Shape, Triangle};
 
 /// Triangles before and behind each other.
@@ -178,15 +178,6 @@ impl PileFacts {
                 }
             }
         }
-    }
-}
-
-/// Whether none (0), some (1) or all (2) of so many.
-fn share(count: usize, of: usize) -> i64 {
-    match count {
-        0 => 0,
-        count if count == of => 2,
-        _ => 1,
     }
 }
 

@@ -9,7 +9,7 @@ use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 use super::triangles::{Point, columns_at};
 use super::{
-    Read, Test, Topic, Unit, WINDOW_WAYS, fact, facts_of, numbers, saturated, vary_window,
+    Read, Test, Topic, Unit, WINDOW_WAYS, fact, facts_of, numbers, saturated, share, vary_window,
 };
 use crate::cases::{Case, Limits, Shape};
 
@@ -97,66 +97,84 @@ struct MeshFacts {
 impl MeshFacts {
     fn of_case(case: &Case) -> Option<Self> {
         let list: Vec<Corners> = case.triangles().iter().map(ScreenTriangle::corners).collect();
-        let window = [case.window.width(), case.window.height()].map(i64::from);
-        let mut points: Vec<Point> = list.iter().flatten().map(point).collect();
-        let mut low = *points.first()?;
-        let mut high = low;
-        let mut bits = [0; 2];
-        for p in &points {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-                bits[axis] = bits[axis].max(8 - i64::from((p[axis] as u64 | 256).trailing_zeros()));
-            }
-        }
-        points.sort_unstable();
-        let at_one_place = || points.chunk_by(|a, b| a == b);
-        let meets = |same: &&[Point]| same.len() > 1 && is_sample(same[0], window);
-        let is_cut = |corners: &&Corners| {
-            corners
-                .iter()
-                .map(point)
-                .any(|p| (0..2).any(|axis| p[axis] < 0 || p[axis] > window[axis] * PX))
-        };
-        let share = |count: usize| match count {
-            0 => 0,
-            count if count == list.len() => 2,
-            _ => 1,
-        };
-        let areas = list.iter().map(|corners| twice_area(corners).unsigned_abs());
+        let first = point(list.first()?.first()?);
+        let window = [i64::from(case.window.width()), i64::from(case.window.height())];
         let mut measured = Self {
             count: list.len() as i64,
             overlaps: i64::from(!is_disjoint(&list)),
-            around: at_one_place().map(<[Point]>::len).max().unwrap_or(0) as i64,
+            around: 0,
             shared: 0,
             level: 0,
             upright: 0,
             ties: 0,
-            met: at_one_place().filter(meets).count() as i64,
-            clockwise: share(list.iter().filter(|corners| twice_area(corners) > 0).count()),
-            cut: share(list.iter().filter(is_cut).count()),
-            size: [0, 1].map(|axis| high[axis] - low[axis]),
-            least_area: areas.min().unwrap_or(0).min(i64::MAX as u128) as i64,
-            beyond: [-low[0], -low[1], high[0] - window[0] * PX, high[1] - window[1] * PX],
+            met: 0,
+            clockwise: 0,
+            cut: 0,
+            size: [0; 2],
+            least_area: i64::MAX,
+            beyond: [0; 4],
             window,
-            bits,
+            bits: [0; 2],
         };
+        let (mut low, mut high) = (first, first);
+        let (mut clockwise, mut cut) = (0, 0);
+        for corners in &list {
+            let mut is_cut = false;
+            for corner in corners {
+                let p = point(corner);
+                for axis in 0..2 {
+                    low[axis] = low[axis].min(p[axis]);
+                    high[axis] = high[axis].max(p[axis]);
+                    let bits = 8 - i64::from((p[axis] as u64 | 256).trailing_zeros());
+                    measured.bits[axis] = measured.bits[axis].max(bits);
+                    is_cut |= p[axis] < 0 || p[axis] > window[axis] * PX;
+                }
+            }
+            cut += usize::from(is_cut);
+            let area = twice_area(corners);
+            clockwise += usize::from(area > 0);
+            let area = area.unsigned_abs().min(i64::MAX as u128) as i64;
+            measured.least_area = measured.least_area.min(area);
+        }
+        measured.clockwise = share(clockwise, list.len());
+        measured.cut = share(cut, list.len());
+        measured.size = [high[0] - low[0], high[1] - low[1]];
+        measured.beyond = [-low[0], -low[1], high[0] - window[0] * PX, high[1] - window[1] * PX];
+        measured.count_corners(&list);
         measured.count_edges(&list);
         Some(measured)
     }
 
+    /// Counts the triangles at one place, and the samples at which several meet.
+    fn count_corners(&mut self, list: &[Corners]) {
+        let mut places: Vec<u64> = list.iter().flatten().map(as_number).collect();
+        places.sort_unstable();
+        for same in places.chunk_by(|a, b| a == b) {
+            self.around = self.around.max(same.len() as i64);
+            let is_met = same.len() > 1 && is_sample(point(&as_point(same[0])), self.window);
+            self.met += i64::from(is_met);
+        }
+    }
+
     /// Counts the shared edges, and the samples on them.
     fn count_edges(&mut self, list: &[Corners]) {
-        let mut edges: Vec<[Point; 2]> = Vec::with_capacity(3 * list.len());
-        for corners in list.iter().filter(|corners| twice_area(corners) != 0) {
-            let [a, b, c] = corners.each_ref().map(point);
-            edges
-                .extend([[a, b], [b, c], [c, a]].map(|[p, q]| if p < q { [p, q] } else { [q, p] }));
+        let mut edges: Vec<u128> = Vec::with_capacity(3 * list.len());
+        for corners in list {
+            if twice_area(corners) == 0 {
+                continue;
+            }
+            let [a, b, c] = corners.each_ref().map(as_number);
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                edges.push(u128::from(p.min(q)) << 64 | u128::from(p.max(q)));
+            }
         }
         edges.sort_unstable();
-        for [p, q] in
-            edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 2).map(|same| same[0])
-        {
+        for same in edges.chunk_by(|a, b| a == b) {
+            if same.len() != 2 {
+                continue;
+            }
+            let [p, q] =
+                [point(&as_point((same[0] >> 64) as u64)), point(&as_point(same[0] as u64))];
             self.shared += 1;
             self.level += i64::from(p[1] == q[1]);
             self.upright += i64::from(p[0] == q[0]);
@@ -169,15 +187,27 @@ impl MeshFacts {
     }
 }
 
+/// A corner as one number, of which many are sorted faster.
+fn as_number(corner: &SubpixelPoint) -> u64 {
+    u64::from(corner.x as u32) << 32 | u64::from(corner.y as u32)
+}
+
+fn as_point(number: u64) -> SubpixelPoint {
+    SubpixelPoint::new((number >> 32) as i32, number as i32)
+}
+
 fn point(p: &SubpixelPoint) -> Point {
     [p.x.into(), p.y.into()]
 }
 
 /// Whether a point is the centre of a pixel of the window.
 fn is_sample(p: Point, window: [i64; 2]) -> bool {
-    (0..2).all(|axis| {
-        p[axis].rem_euclid(PX) == i64::from(HALF_PIXEL) && (0..window[axis] * PX).contains(&p[axis])
-    })
+    let mut is_sample = true;
+    for axis in 0..2 {
+        is_sample &= p[axis].rem_euclid(PX) == i64::from(HALF_PIXEL);
+        is_sample &= 0 <= p[axis] && p[axis] < window[axis] * PX;
+    }
+    is_sample
 }
 
 /// A side of a window: every pixel within a mesh is looked at.

@@ -72,7 +72,13 @@ impl Test {
     pub fn class(self, value: i64) -> usize {
         match self {
             Self::Sign => (value.signum() + 1) as usize,
-            Self::Steps(limits) => limits.iter().filter(|limit| value >= **limit).count(),
+            Self::Steps(limits) => {
+                let mut class = 0;
+                while class < limits.len() && value >= limits[class] {
+                    class += 1;
+                }
+                class
+            }
             Self::Divisor => value.trailing_zeros().min(4) as usize,
             Self::Choice(words) => (value as usize).min(words.len() - 1),
         }
@@ -318,6 +324,15 @@ pub const TOPICS: [Topic; 10] = [
     wide::TOPIC,
     area::TOPIC,
 ];
+
+/// Whether none (0), some (1) or all (2) of so many.
+pub(crate) fn share(count: usize, of: usize) -> i64 {
+    match count {
+        0 => 0,
+        count if count == of => 2,
+        _ => 1,
+    }
+}
 
 /// A side of a window in pixels: mostly small, since every pixel of it is compared; each class of size and divisor occurs.
 fn draw_side(rng: &mut Rng) -> i32 {

@@ -2,7 +2,6 @@
 
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
-use rasterproof_core::triangle::Corners;
 
 use super::triangles::{self, Point, TriangleFacts, columns_at, form_facts};
 use super::{Read, Test, Topic, Unit, fact, facts_of, joined, numbers};
@@ -109,9 +108,18 @@ impl SampleFacts {
             only_centre: 0,
             without_centre: 0,
         };
+        // Of each sample, and then of the centre, the triangle moved so that it comes to lie at the centre.
+        let half = i64::from(HALF_PIXEL);
+        let mut moved = [[[0; 2]; 3]; 5];
+        for (number, points) in moved.iter_mut().enumerate() {
+            let [x, y] = if number == CENTRE { [half; 2] } else { SAMPLES[number] };
+            for (point, p) in points.iter_mut().zip(&corners) {
+                *point = [i64::from(p.x) + half - x, i64::from(p.y) + half - y];
+            }
+        }
         let mut masks = vec![0_u8; case.window.width() as usize];
         for y_px in case.window.y0..case.window.y1 {
-            measured.count_row(&corners, case.window, y_px, &mut masks);
+            measured.count_row(&moved, case.window, y_px, &mut masks);
         }
         for (number, sample) in (1..).zip(SAMPLES) {
             let is_on = |p: &SubpixelPoint| {
@@ -127,16 +135,17 @@ impl SampleFacts {
     }
 
     /// Counts the pixels of a row of the window. The masks of its pixels are 0 before and afterwards.
-    fn count_row(&mut self, corners: &Corners, window: PixelRect, y_px: i32, masks: &mut [u8]) {
-        let half = i64::from(HALF_PIXEL);
-        let [x0, x1] = [window.x0, window.x1].map(i64::from);
+    fn count_row(
+        &mut self,
+        moved: &[[Point; 3]; 5],
+        window: PixelRect,
+        y_px: i32,
+        masks: &mut [u8],
+    ) {
+        let [x0, x1] = [i64::from(window.x0), i64::from(window.x1)];
         let [mut start, mut end] = [x1, x0];
-        // The samples, and then the centre.
-        for (number, sample) in SAMPLES.into_iter().chain([[half; 2]]).enumerate() {
-            // The triangle moved so that the sample comes to lie at the centre.
-            let points = corners
-                .map(|p| [i64::from(p.x) + half - sample[0], i64::from(p.y) + half - sample[1]]);
-            let Some((columns, is_exact)) = row_of(&points, y_px, [x0, x1]) else { continue };
+        for (number, points) in moved.iter().enumerate() {
+            let Some((columns, is_exact)) = row_of(points, y_px, [x0, x1]) else { continue };
             let [first, last] = [columns[0].max(x0), columns[1].min(x1 - 1)];
             (start, end) = (start.min(first), end.max(last + 1));
             for x in first..=last {

@@ -240,27 +240,34 @@ impl TriangleFacts {
     /// Of a triangle whose pixels are sampled there.
     #[must_use]
     pub fn of(corners: &Corners, window: PixelRect, sample: [i32; 2]) -> Self {
-        let centred = |v: i32, axis: usize| i64::from(v) + i64::from(HALF_PIXEL - sample[axis]);
-        let points = corners.map(|p| [centred(p.x, 0), centred(p.y, 1)]);
-        let [a, b, c] = points;
+        // Moved so that pixels are sampled at their centres.
+        let by = [i64::from(HALF_PIXEL - sample[0]), i64::from(HALF_PIXEL - sample[1])];
+        let mut points = [[0; 2]; 3];
+        for (point, p) in points.iter_mut().zip(corners) {
+            *point = [i64::from(p.x) + by[0], i64::from(p.y) + by[1]];
+        }
         let area = twice_area(corners);
-        let low = [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis]));
-        let high = [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis]));
-        let near = [window.x0, window.y0].map(|px| i64::from(px) * PX);
-        let far = [window.x1, window.y1].map(|px| i64::from(px) * PX);
-        let is_in = |p: &Point| (0..2).all(|axis| (near[axis]..far[axis]).contains(&p[axis]));
-        let bits = [0, 1].map(|axis| {
-            points
-                .iter()
-                .map(|p| 8 - i64::from((p[axis] as u64 | 256).trailing_zeros()))
-                .max()
-                .unwrap_or(0)
-        });
-        let tiles = [0, 1].map(|axis| {
-            let [first, last] = [low[axis].max(near[axis]), high[axis].min(far[axis] - 1)]
-                .map(|v| v.div_euclid(8 * PX));
-            (last - first).max(0)
-        });
+        let near = [i64::from(window.x0) * PX, i64::from(window.y0) * PX];
+        let far = [i64::from(window.x1) * PX, i64::from(window.y1) * PX];
+        let (mut low, mut high, mut bits) = (points[0], points[0], [0; 2]);
+        let mut inside = 0;
+        for p in points {
+            let mut is_in = true;
+            for axis in 0..2 {
+                let v = p[axis];
+                low[axis] = low[axis].min(v);
+                high[axis] = high[axis].max(v);
+                bits[axis] = bits[axis].max(8 - i64::from((v as u64 | 256).trailing_zeros()));
+                is_in &= near[axis] <= v && v < far[axis];
+            }
+            inside += i64::from(is_in);
+        }
+        let mut tiles = [0; 2];
+        for axis in 0..2 {
+            let first = low[axis].max(near[axis]).div_euclid(8 * PX);
+            let last = high[axis].min(far[axis] - 1).div_euclid(8 * PX);
+            tiles[axis] = (last - first).max(0);
+        }
         let mut measured = Self {
             turn: area.signum() as i64,
             top: uppermost(&points),
@@ -271,7 +278,7 @@ impl TriangleFacts {
             twice_area: area.unsigned_abs().min(i64::MAX as u128) as i64,
             bits,
             beyond: [near[0] - low[0], near[1] - low[1], high[0] - far[0], high[1] - far[1]],
-            inside: points.iter().filter(|p| is_in(p)).count() as i64,
+            inside,
             window: [i64::from(window.width()), i64::from(window.height())],
             ties: 0,
             rows: 0,
@@ -299,23 +306,25 @@ impl TriangleFacts {
         // The first and the last row whose samples lie between the uppermost and the lowest corner.
         let first_row = i64::from(window.y0).max((low[1] - half + PX - 1).div_euclid(PX));
         let last_row = i64::from(window.y1 - 1).min((high[1] - half).div_euclid(PX));
+        let (start, end) = (i64::from(window.x0), i64::from(window.x1));
         let mut first_column = i64::MAX;
         for row in first_row..=last_row {
             let y = row * PX + half;
             // Where the row enters and leaves the triangle, rounded to the first and the last column inside.
-            let mut columns: Option<(i64, i64)> = None;
-            for edge in 0..3 {
-                let [p, q] = [points[edge], points[(edge + 1) % 3]];
-                let Some((first, last, is_exact)) = columns_at(p, q, y) else { continue };
-                let old = columns.unwrap_or((first, last));
-                columns = Some((old.0.min(first), old.1.max(last)));
-                if is_exact && (i64::from(window.x0)..i64::from(window.x1)).contains(&first) {
-                    self.ties = self.ties.max(1);
+            let (mut first, mut last) = (i64::MAX, i64::MIN);
+            let mut p = points[2];
+            for &q in points {
+                if let Some((enters, leaves, is_exact)) = columns_at(p, q, y) {
+                    (first, last) = (first.min(enters), last.max(leaves));
+                    if is_exact && start <= enters && enters < end {
+                        self.ties = 1;
+                    }
                 }
+                p = q;
             }
-            let Some((first, last)) = columns else { continue };
-            self.rows += 1;
-            let [first, last] = [first.max(window.x0.into()), last.min(i64::from(window.x1) - 1)];
+            // A row of samples meets two edges or none.
+            self.rows += i64::from(last != i64::MIN);
+            (first, last) = (first.max(start), last.min(end - 1));
             if first <= last {
                 self.samples += last - first + 1;
                 first_column = first_column.min(first);
@@ -324,10 +333,11 @@ impl TriangleFacts {
         if first_column != i64::MAX {
             self.first_column = first_column;
         }
-        let on_sample = |p: &Point| p.iter().all(|v| v.rem_euclid(PX) == half);
-        let in_window = |p: &Point| window.contains((p[0] >> 8) as i32, (p[1] >> 8) as i32);
-        if points.iter().any(|p| on_sample(p) && in_window(p)) {
-            self.ties = 2;
+        for p in points {
+            let is_sample = p[0].rem_euclid(PX) == half && p[1].rem_euclid(PX) == half;
+            if is_sample && window.contains((p[0] >> 8) as i32, (p[1] >> 8) as i32) {
+                self.ties = 2;
+            }
         }
         for edge in 0..3 {
             let [p, q] = [points[edge], points[(edge + 1) % 3]];
@@ -343,23 +353,29 @@ impl TriangleFacts {
         if first > rows[1].min((lower - half).div_euclid(PX)) {
             return;
         }
-        let [dx, dy] = [0, 1].map(|axis| (p[axis] - q[axis]).abs());
-        let doublings = |long: i64, short: i64| match (long, short) {
-            (_, 0) => -1,
-            (long, short) if long < short => -1,
-            (long, short) => i64::from((long / short).ilog2()),
-        };
+        let (dx, dy) = ((p[0] - q[0]).abs(), (p[1] - q[1]).abs());
         self.levelest = self.levelest.max(doublings(dx, dy));
         self.steepest = self.steepest.max(doublings(dy, dx));
     }
 }
 
+/// The power of two of a quotient of at least 1; -1 of others.
+fn doublings(over: i64, under: i64) -> i64 {
+    if under == 0 || over < under { -1 } else { i64::from((over / under).ilog2()) }
+}
+
 /// The corner above all others; 3 where two are equally high.
 fn uppermost(points: &[Point; 3]) -> i64 {
-    let least = points.iter().map(|p| p[1]).min().unwrap_or(0);
-    let mut at = points.iter().enumerate().filter(|(_, p)| p[1] == least);
-    let first = at.next().map_or(0, |(number, _)| number as i64);
-    if at.next().is_some() { 3 } else { first }
+    let [a, b, c] = [points[0][1], points[1][1], points[2][1]];
+    if a < b && a < c {
+        0
+    } else if b < a && b < c {
+        1
+    } else if c < a && c < b {
+        2
+    } else {
+        3
+    }
 }
 
 /// Which edge is level (`axis` 1) or upright (`axis` 0): none, that at the least coordinate, that at the largest, or all.
@@ -367,13 +383,15 @@ fn aligned_edge(points: &[Point; 3], axis: usize, low: i64, high: i64) -> i64 {
     if low == high {
         return 3;
     }
-    let at = |value: i64| points.iter().filter(|p| p[axis] == value).count();
-    if at(low) > 1 {
-        1
-    } else if at(high) > 1 {
-        2
-    } else {
-        0
+    let (mut at_low, mut at_high) = (0, 0);
+    for p in points {
+        at_low += i64::from(p[axis] == low);
+        at_high += i64::from(p[axis] == high);
+    }
+    match (at_low, at_high) {
+        (2, _) => 1,
+        (_, 2) => 2,
+        _ => 0,
     }
 }
 
@@ -402,18 +420,20 @@ pub(super) fn columns_at(p: Point, q: Point, y: i64) -> Option<(i64, i64, bool)>
         let last = (p[0].max(q[0]) - half).div_euclid(PX);
         return Some((first, last, first <= last));
     }
-    let (dy, dx) = (i128::from(q[1] - p[1]), i128::from(q[0] - p[0]));
+    // Downwards, so that the divisor is above 0.
+    let [p, q] = if p[1] < q[1] { [p, q] } else { [q, p] };
     // The column is (x - 1/2 px) / px with x = p + (y - p) dx / dy.
-    let [over, under] = match dy > 0 {
-        true => [i128::from(p[0] - half) * dy + i128::from(y - p[1]) * dx, dy * i128::from(PX)],
-        false => {
-            [-(i128::from(p[0] - half) * dy + i128::from(y - p[1]) * dx), -dy * i128::from(PX)]
-        }
-    };
-    // In few bits a division is much faster.
-    let (floor, is_exact) = match (i64::try_from(over), i64::try_from(under)) {
-        (Ok(over), Ok(under)) => (over.div_euclid(under), over.rem_euclid(under) == 0),
-        _ => (over.div_euclid(under) as i64, over.rem_euclid(under) == 0),
+    let (dx, dy, from) = (q[0] - p[0], q[1] - p[1], p[0] - half);
+    let (floor, is_exact) = if from.abs().max(dx.abs()).max(dy) < 1 << 31 {
+        // Products of 31 bits, of which a sum has 63: a division is much faster there.
+        let (over, under) = (from * dy + (y - p[1]) * dx, dy * PX);
+        let floor = over.div_euclid(under);
+        (floor, floor * under == over)
+    } else {
+        let over = i128::from(from) * i128::from(dy) + i128::from(y - p[1]) * i128::from(dx);
+        let under = i128::from(dy) * i128::from(PX);
+        let floor = over.div_euclid(under);
+        (floor as i64, floor * under == over)
     };
     Some((floor + i64::from(!is_exact), floor, is_exact))
 }
