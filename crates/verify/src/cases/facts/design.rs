@@ -492,14 +492,14 @@ mod tests {
     /// The search that `impossible` stems from: 40 blocks that look for every pair.
     /// `RASTERPROOF_RENEW=1` writes what it has not found.
     #[test]
-    #[ignore = "a minute"]
+    #[ignore = "minutes; .ci/run --all runs it"]
     fn impossible_pairs_are_not_found() {
         TOPICS.iter().for_each(|topic| search_long(topic, &Limits::default()));
     }
 
     /// The same of polygons.
     #[test]
-    #[ignore = "a minute"]
+    #[ignore = "minutes; .ci/run --all runs it"]
     fn impossible_pairs_of_polygons_are_not_found() {
         search_long(&design::TOPIC, &Coordinates::F64);
     }
