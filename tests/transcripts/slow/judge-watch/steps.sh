@@ -1,6 +1,6 @@
 # Judges mine.py while it is edited; each screen goes to a file: 1, 2, ...
 : > all
-COLUMNS=80 rasterproof judge --watch --cases 300 --family half-integer --family design -- python3 -B mine.py > all 2> errors &
+COLUMNS=80 rasterproof judge --watch --cases 100 --family half-integer --family design -- python3 -B mine.py > all 2> errors &
 judge=$!
 shown=0
 
