@@ -118,7 +118,10 @@ fn designs_find_what_needs_two_facts() {
     let mut missed = Vec::new();
     for (at, (name, _)) in FAULTS.iter().enumerate() {
         let by_others: usize = by_others.iter().map(|counts| counts[at]).sum();
-        println!("{name}: {} cases of the design, {by_others} of the other families", by_design[at]);
+        println!(
+            "{name}: {} cases of the design, {by_others} of the other families",
+            by_design[at]
+        );
         if by_design[at] == 0 {
             missed.push(name);
         }

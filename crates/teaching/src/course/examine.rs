@@ -12,7 +12,7 @@ use rasterproof_judge::run::Failing;
 use rasterproof_judge::stages::Answered;
 use rasterproof_judge::timed::Timed;
 use rasterproof_judge::{adapt_case, recognise, run};
-use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::{Case, Family};
 use rasterproof_verify::mistakes::{Explanation, Mistakes, NOTHING};
 
 /// How many requests a step takes, and how much time.
@@ -123,6 +123,11 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
 /// Answers of each family that a misconception has to explain.
 const ASKED_OF_A_FAMILY: usize = 200;
 
+/// How many cases of a family are asked where so many are of one without a design: by default all pairs of a design's facts.
+pub(super) fn cases_of(family: &Family, cases: u64) -> u64 {
+    if family.design().is_some() { 10 * cases } else { cases }
+}
+
 /// Asks the cases of a family; the first that fails. No step is passed with a request that the program does not answer, so
 /// the rest is not asked after the first of these: each would cost the whole time limit again.
 fn ask_family<'a>(
@@ -141,7 +146,7 @@ fn ask_family<'a>(
     let mut cases = Vec::new();
     // A case may need several requests, which follow each other in the list.
     let mut questions = Vec::new();
-    for index in 0..amount.cases {
+    for index in 0..cases_of(family, amount.cases) {
         let case = adapt_case::case(family, amount.seed, index, &truth.declared);
         let Some(case) = (exercise.prepare)(case).filter(|case| check.fits(case)) else {
             continue;
@@ -230,7 +235,9 @@ pub fn complaint(program: &dyn Subject) -> Option<String> {
 mod tests {
     use super::*;
     use crate::course::STEPS;
-    use rasterproof_judge::ask::{Breach, Misbehaviour, Question};
+    use rasterproof_judge::ask::{Asked, Breach, Misbehaviour, Question};
+    use rasterproof_judge::in_process::Inside;
+    use rasterproof_registry::engines;
 
     /// A program whose requests all come to nothing, and how many it was asked.
     struct Silent {
@@ -259,6 +266,38 @@ mod tests {
         let end = Instant::now() + Duration::from_secs(3600);
         let amount = Amount { cases: 50, seed: 1, end, patience: Duration::ZERO };
         (examine(&mut program, step, &amount), program.asked)
+    }
+
+    /// An engine that draws only so many triangles of one question about depth.
+    struct FirstOnly(Inside, usize);
+
+    impl Subject for FirstOnly {
+        fn declared(&self) -> &Declared {
+            self.0.declared()
+        }
+
+        fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+            let mut seen = questions.to_vec();
+            for question in &mut seen {
+                if let Asked::Depth(list) = &mut question.of {
+                    list.truncate(self.1);
+                }
+            }
+            self.0.ask(&seen, most_deaths)
+        }
+    }
+
+    /// The families of piles have five triangles at most: only a design asks more of them together.
+    #[test]
+    fn a_step_asks_the_design_of_its_question() {
+        let step = crate::course::find("depth").unwrap();
+        let end = Instant::now() + Duration::from_secs(3600);
+        let amount = Amount { cases: 100, seed: 1, end, patience: Duration::ZERO };
+        let engine = || Inside::new(engines::find("scanline").unwrap());
+        assert!(examine(&mut FirstOnly(engine(), 64), step, &amount).passes());
+        let outcome = examine(&mut FirstOnly(engine(), 16), step, &amount);
+        let failure = outcome.failure.unwrap();
+        assert_eq!((failure.family, outcome.wrong > 0), ("depth-design", true));
     }
 
     #[test]
