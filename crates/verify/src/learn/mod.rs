@@ -37,7 +37,7 @@ pub mod trial;
 mod visit;
 mod walk;
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::future::Future;
 use std::pin::Pin;
 
@@ -261,8 +261,11 @@ struct Learner<'a> {
     left: usize,
     vocabulary: Vocabulary,
     answered: Vec<LearnedAnswer>,
-    /// What the last search found, and the changed questions that came nearest in the first one.
+    /// What the last search found.
     last: Option<Model>,
+    /// Whether it predicted nearly all new answers.
+    is_nearly: bool,
+    /// The changed questions that came nearest in the first search.
     nearest: OnceCell<Vec<Base>>,
 }
 
@@ -277,6 +280,7 @@ impl<'a> Learner<'a> {
             vocabulary,
             answered: Vec::new(),
             last: None,
+            is_nearly: false,
             nearest: OnceCell::new(),
         }
     }
@@ -319,6 +323,7 @@ impl<'a> Learner<'a> {
             answered: &self.answered,
             first: OnceCell::new(),
             nearest: &self.nearest,
+            followed: RefCell::default(),
         }
     }
 
@@ -430,7 +435,7 @@ impl Learn for Learner<'_> {
     type Hypothesis = Model;
 
     fn search(&mut self) -> Model {
-        self.drawer.work().begin();
+        self.drawer.work().begin(self.is_nearly);
         let search = Self::search(self);
         // What was nearly right is mended first.
         let mended = self.last.as_ref().and_then(|last| search.mended(last));
@@ -468,6 +473,7 @@ impl Learn for Learner<'_> {
             missed.extend((!fits).then_some(i));
         }
         self.put_first(&missed);
+        self.is_nearly = trial.is_nearly();
         Some(trial)
     }
 

@@ -16,7 +16,7 @@ use super::seen::{
 };
 use super::shorter::shorter;
 use super::walk::Walk;
-use std::cell::{Cell, OnceCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 /// Answers that rules are learned from, wrong and right.
@@ -45,6 +45,9 @@ const LEAST_BESIDE: usize = 8;
 /// Questions that a pixel rule must explain, and that a guard must.
 const NEED: usize = 4;
 
+/// Answers that show where a changed question holds, wrong and right ones.
+const GUARDED_BY: [usize; 2] = [400, 400];
+
 /// Everything that a search looks at.
 pub(super) struct Search<'a> {
     pub(super) drawer: &'a dyn Drawer,
@@ -54,6 +57,21 @@ pub(super) struct Search<'a> {
     pub(super) first: OnceCell<Rc<[Table; 3]>>,
     /// The changed questions that came nearest in the first search: later ones look at these alone.
     pub(super) nearest: &'a OnceCell<Vec<Base>>,
+    /// Models that were followed by pixel rules already.
+    pub(super) followed: RefCell<Vec<Followed>>,
+}
+
+/// A model with the pixel rules that it was followed by: how many of them at most, and how many of the first.
+pub(super) struct Followed {
+    model: Model,
+    most: usize,
+    beam: usize,
+}
+
+impl Followed {
+    fn contains(&self, other: &Self) -> bool {
+        self.model == other.model && self.most >= other.most && self.beam >= other.beam
+    }
 }
 
 /// A model with the share of wrong and of right answers that it predicts.
@@ -189,6 +207,8 @@ impl Search<'_> {
     ) -> Vec<(Nearness, Base)> {
         let near = |base: &Base| match under.steps.is_empty() && under.borders.is_empty() {
             true => change::nearness(base, answers, self.drawer),
+            // Those that come nearest without the rules were looked at by then.
+            false if self.drawer.work().is_done() => Nearness::default(),
             false => {
                 let model = Model { chain: vec![always(base)], ..under.clone() };
                 let fitting =
@@ -307,6 +327,7 @@ impl Search<'_> {
                 answered: &left,
                 first: OnceCell::new(),
                 nearest: &OnceCell::new(),
+                followed: RefCell::default(),
             };
             let mut more = vec![search.tried(Model::default())];
             search.guard_bases(&search.ranked(&Model::default()), &mut more);
@@ -662,6 +683,13 @@ impl Search<'_> {
     /// Adds the pixel rule that explains most, again and again, each by the facts of what is then predicted. The order of
     /// rules matters: the best first ones are each followed to the end.
     fn with_steps(&self, model: &Model, most: usize, beam: usize) -> Model {
+        // Different ways through a search come to the same model.
+        let followed = Followed { model: model.clone(), most, beam };
+        let is_done = self.followed.borrow().iter().any(|other| other.contains(&followed));
+        if is_done {
+            return model.clone();
+        }
+        self.followed.borrow_mut().push(followed);
         let few = |wrong| self.some(wrong, 40);
         let all = || [true, false].into_iter().flat_map(few);
         let score = |model: &Model| {
@@ -777,7 +805,14 @@ impl Search<'_> {
     fn guarded(&self, model: &Model, fitting: &[bool], base: &Base) -> Option<Model> {
         let alone = Model { chain: vec![always(base)], ..model.clone() };
         let mut table = Table::default();
+        // What refuted a model comes first, so that it is among these.
+        let mut left = GUARDED_BY;
         for ((number, a), &fits) in self.answered.iter().enumerate().zip(fitting) {
+            let left = &mut left[usize::from(!a.is_wrong())];
+            if *left == 0 {
+                continue;
+            }
+            *left -= 1;
             match [self.fits(&alone, a), fits] {
                 [true, false] => {
                     table.yes.push(a.facts.clone());

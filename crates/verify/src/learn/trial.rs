@@ -20,6 +20,9 @@ const ENOUGH_NEW_WRONG: u64 = 50;
 /// Wrong ones that are independent of each other among these.
 pub const ENOUGH_INDEPENDENT: u64 = 12;
 
+/// Answers after which a wrong one that is independent should have been met.
+const ENOUGH_FOR_RARE: u64 = 2000;
+
 /// How much the searches for an explanation may do. It is counted in steps and never in seconds, so that the same answers get
 /// the same explanation on a slow machine and on a fast one.
 #[derive(Debug)]
@@ -31,6 +34,8 @@ pub struct Work {
 
 /// Steps of all searches for one explanation. A step is some fifty instructions.
 const MOST_WORK: usize = 500_000_000;
+/// Steps of a search for what was nearly right.
+const MOST_NEARLY: usize = 40_000_000;
 
 impl Default for Work {
     fn default() -> Self {
@@ -47,8 +52,12 @@ impl Work {
 
     /// A search begins: it may use three fifths of what is left. What one search does not find is seldom found by the next, which
     /// is there for what was nearly right.
-    pub fn begin(&self) {
-        self.kept.set(self.left.get() * 2 / 5);
+    ///
+    /// What was nearly right is seldom made right by another long search: it gets less.
+    pub fn begin(&self, is_nearly: bool) {
+        let left = self.left.get();
+        let most = if is_nearly { MOST_NEARLY } else { left };
+        self.kept.set(left - (left * 3 / 5).min(most));
     }
 
     /// Whether no search may do anything any more.
@@ -114,7 +123,8 @@ pub async fn explained<L: Learn>(learner: &mut L) -> Option<(Trial, L::Hypothesi
         }
         // Where most is not predicted, another look at more answers seldom helps.
         let is_hopeless = searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
-        if !is_refuted && trial.is_enough() || is_hopeless || learner.is_over() {
+        let is_rare = is_refuted && trial.is_rare() && trial.is_nearly();
+        if !is_refuted && trial.is_enough() || is_hopeless || is_rare || learner.is_over() {
             break;
         }
     }
@@ -151,8 +161,14 @@ impl Trial {
     }
 
     /// Whether hardly any answer is not predicted.
-    fn is_nearly(&self) -> bool {
+    #[must_use]
+    pub fn is_nearly(&self) -> bool {
         HARDLY * self.missed() <= self.wrong.of + self.right.of
+    }
+
+    /// Whether what is wrong is met beside failing cases alone: no other explanation will ever have enough answers, either.
+    fn is_rare(&self) -> bool {
+        self.independent == 0 && self.wrong.of + self.right.of >= ENOUGH_FOR_RARE
     }
 
     /// Whether there are enough answers to call something the cause.

@@ -485,11 +485,25 @@ pub async fn of_triangles(
     }
     let why = with_limits(why, answered.len(), limits);
     // What no table has is learned, with the nearest mistakes as parts that may be known.
-    let starts = learn::starts(&known.declared, expected, found);
+    let mut starts = learn::starts(&known.declared, expected, found);
+    // A convention by which hardly any answer is right is seldom the one that the program is wrong beside.
+    let missed = |start: &learn::Start<'_, TriangleConvention>| {
+        let is_missed = |a: &&AnsweredQuestion<TriangleQuestion>| {
+            let right = start.convention.mask(&a.question.corners, a.question.window);
+            right.is_none_or(|right| right != a.drawn)
+        };
+        answered.iter().filter(is_missed).count()
+    };
+    if 100 * count_wrong(&answered) > MOST_MISSED_PERCENT * answered.len() {
+        starts.sort_by_key(missed);
+    }
     let ways: Vec<_> = nearest.iter().map(|near| near.way(&found_bases, draws_twice)).collect();
     let learned = async { learn?(asker, known, &starts, &ways).await };
     or_learned(why, answered.len(), learned).await
 }
+
+/// A convention that misses more than so many percent of the answers is not the first that something is learned beside.
+const MOST_MISSED_PERCENT: usize = 75;
 
 /// What a rasterizer was asked, and what it drew.
 struct AskedTriangles<'a> {
@@ -657,7 +671,8 @@ fn explain(
                 };
                 let mut says = says.clone();
                 says.does += &base.words(mistake.draws);
-                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                let predicts = weigh::remembered(predicts);
+                hypotheses.push(Hypothesis { predicts, says });
                 variants.push(Variant { mistake, p, base: number });
             }
         }
@@ -686,7 +701,8 @@ fn explain(
         Some(variant) => bases[variant.base].said.is_none() || bases[variant.base].is_found(),
         None => false,
     };
-    let nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(answered), &may_be);
+    let shows = |i: usize| !answered[i].is_blank();
+    let nearest = weigh::nearest(&hypotheses, &is_wrong, &shows, &may_be);
     (why, nearest.into_iter().map(|i| variants[i]).collect())
 }
 
@@ -779,11 +795,6 @@ fn are_wrong<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
     answered.iter().map(AnsweredQuestion::is_wrong).collect()
 }
 
-/// Which answers are wrong and have a pixel: of others, whatever draws nothing is a part.
-fn wrong_with_pixels<Q>(answered: &[AnsweredQuestion<Q>]) -> Vec<bool> {
-    answered.iter().map(|a| a.is_wrong() && !a.is_blank()).collect()
-}
-
 /// The name of the cause where no answer has a pixel.
 pub const NOTHING: &str = "nothing";
 
@@ -874,7 +885,8 @@ pub async fn of_lines(
                     mask.is_none_or(|mask| mask == answered[i].drawn)
                 };
                 let says = variant.says(expected);
-                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                let predicts = weigh::remembered(predicts);
+                hypotheses.push(Hypothesis { predicts, says });
                 variants.push(variant);
             }
         }
@@ -897,7 +909,8 @@ pub async fn of_lines(
             Some(Variant { base, .. }) => base == expected || Some(base) == found,
             None => false,
         };
-        nearest = weigh::nearest(&hypotheses, &wrong_with_pixels(&answered), &may_be);
+        let shows = |i: usize| !answered[i].is_blank();
+        nearest = weigh::nearest(&hypotheses, &is_wrong, &shows, &may_be);
     }
     let limits = thresholds::of_lines(asker, known, expected).await;
     let why = with_limits(why, is_wrong.len(), limits);
@@ -937,7 +950,7 @@ impl<Q, Picture> Program<'_, Q, Picture> {
             })
         };
         let says = Explanation::of_program(self.name, self.about.clone());
-        Hypothesis { predicts: Box::new(predicts), says }
+        Hypothesis { predicts: weigh::remembered(predicts), says }
     }
 }
 

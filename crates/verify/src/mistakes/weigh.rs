@@ -10,6 +10,7 @@
 //! 3. these are weighed on every second answer, and the best 24
 //! 4. on the other answers, which had no part in the choice: only these count.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use super::Explanation;
@@ -21,6 +22,30 @@ pub struct Hypothesis<'a> {
     pub predicts: Box<dyn Fn(usize) -> bool + 'a>,
     /// What it says, with counts of nothing yet.
     pub says: Explanation,
+}
+
+/// What a hypothesis says of each answer, computed once: it is weighed by all of them, then by those without large
+/// coordinates, and looked at again where the nearest ones are searched for.
+pub(super) fn remembered<'a>(
+    predicts: impl Fn(usize) -> bool + 'a,
+) -> Box<dyn Fn(usize) -> bool + 'a> {
+    // Two bits for each answer: whether it was predicted already, and whether that was right. Most hypotheses are left after a
+    // few answers, and of these nothing is kept beyond them.
+    let seen = RefCell::new(Vec::new());
+    Box::new(move |i| {
+        let (word, bit) = (i / 32, i % 32 * 2);
+        let known: u64 = seen.borrow().get(word).map_or(0, |word: &u64| word >> bit & 3);
+        if known != 0 {
+            return known == 3;
+        }
+        let is_right = predicts(i);
+        let mut seen = seen.borrow_mut();
+        if seen.len() <= word {
+            seen.resize(word + 1, 0);
+        }
+        seen[word] |= (1 | u64::from(is_right) << 1) << bit;
+        is_right
+    })
 }
 
 /// How far a hypothesis explains answers that it was not chosen by.
@@ -166,9 +191,9 @@ fn keep_of_names<T>(all: &mut Vec<T>, count: usize, name: impl Fn(&T) -> &'stati
     });
 }
 
-/// Wrong answers by which the nearest hypotheses are found, and those of them that are looked at first.
+/// Wrong answers by which the nearest hypotheses are found, and those of each of which one must be predicted.
 const NEAREST_BY: usize = 60;
-const NEAREST_FIRST: usize = 10;
+const NEAREST_OF_ONE: usize = 10;
 /// Wrong answers that such a hypothesis predicts at least, and the part of them.
 const LEAST_NEAR: u32 = 4;
 const LEAST_PART: u32 = 12;
@@ -177,22 +202,25 @@ const MOST_NEAR: usize = 24;
 const NEAR_OF_ONE_NAME: usize = 3;
 
 /// The hypotheses, of those that may be one, that predict most wrong answers, each others than those before it: parts of what a
-/// program does, perhaps.
+/// program does, perhaps. Of an answer that shows nothing, whatever draws nothing is a part, so that these do not count.
 pub(super) fn nearest(
     hypotheses: &[Hypothesis<'_>],
     is_wrong: &[bool],
+    shows: &dyn Fn(usize) -> bool,
     may_be: &dyn Fn(usize) -> bool,
 ) -> Vec<usize> {
-    let wrong = chosen_by(is_wrong).into_iter().filter(|&i| is_wrong[i]);
+    // These are the first that all hypotheses were looked at by.
+    let wrong = chosen_by(is_wrong).into_iter().filter(|&i| is_wrong[i] && shows(i));
     let wrong: Vec<usize> = wrong.take(NEAREST_BY).collect();
     // A part of what a program does need not explain most of it.
     let least = LEAST_NEAR.max(wrong.len() as u32 / LEAST_PART);
     // Which wrong answers each predicts, as bits.
     let mut near: Vec<(u64, usize)> = Vec::new();
     for (number, hypothesis) in hypotheses.iter().enumerate().filter(|(i, _)| may_be(*i)) {
-        let mut predicted = 0;
+        let mut predicted: u64 = 0;
         for (at, &i) in wrong.iter().enumerate() {
-            if at == NEAREST_FIRST && predicted == 0 {
+            // What predicts a twelfth of all predicts nearly as much of those so far.
+            if at % NEAREST_OF_ONE == 0 && (predicted.count_ones() as usize) < at / NEAREST_OF_ONE {
                 break;
             }
             predicted |= u64::from((hypothesis.predicts)(i)) << at;
@@ -258,4 +286,24 @@ fn look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> u64 {
         }
     }
     missed[0] + missed[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_hypothesis_says_of_an_answer_is_computed_once() {
+        let calls = RefCell::new(BTreeMap::new());
+        let says = |i: usize| i % 3 == 0 || i == 64;
+        let predicts = remembered(|i| {
+            *calls.borrow_mut().entry(i).or_insert(0) += 1;
+            says(i)
+        });
+        // From the last word to the first and again, so that words are added and kept.
+        for i in [200, 64, 31, 32, 33, 0, 1, 2, 63].into_iter().cycle().take(27) {
+            assert_eq!(predicts(i), says(i), "{i}");
+        }
+        assert!(calls.borrow().len() == 9 && calls.borrow().values().all(|calls| *calls == 1));
+    }
 }

@@ -370,7 +370,7 @@ impl Learn for Learner<'_> {
     type Hypothesis = Chain;
 
     fn search(&mut self) -> Chain {
-        self.work.begin();
+        self.work.begin(false);
         Search::of(self.stage, &self.answered, &self.truth.declared, &self.work).explain()
     }
 
