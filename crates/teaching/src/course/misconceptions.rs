@@ -50,8 +50,8 @@ enum Prediction {
     FromSmallerEnd,
     /// A line has a pixel for each column; halves go down the window, or on from the left end.
     AlongX { goes_on: bool },
-    /// x and y of each pixel are exchanged.
-    LineExchanged,
+    /// x and y of each pixel are exchanged; what then lies outside the window is left out, or drawn.
+    LineExchanged { is_cut: bool },
     /// Another rule for samples on edges, and nothing else.
     Rule(&'static str),
     /// The whole picture is turned over, or x and y are exchanged in it.
@@ -139,7 +139,8 @@ const KNOWN: &[KnownMisconception] = known![
 
     "transposed", "x and y are exchanged in your picture",
     "Which of the two numbers of a pixel comes first in the answer, and which one indexes a row of your array?",
-    [LineExchanged,
+    [LineExchanged { is_cut: true },
+     LineExchanged { is_cut: false },
      Mirrored(Mirror::Exchanged, "top-left")];
 
     "strict", "you draw no sample that lies exactly on an edge",
@@ -458,7 +459,7 @@ impl Prediction {
             LineRounds(rounding) => line_by(question, LineConvention { rounding, ..line }),
             FromSmallerEnd => sorted_line(question, truth),
             AlongX { goes_on } => along_x(question, truth, goes_on),
-            LineExchanged => exchanged_line(question, truth),
+            LineExchanged { is_cut } => exchanged_line(question, truth, is_cut),
             Rule(ties) => covered(question, ties, right),
             Mirrored(mirror, ties) => {
                 covered(question, ties, TriangleConvention { mirror, ..right })
@@ -623,13 +624,13 @@ fn along_x(question: &Question, truth: &Truth, goes_on: bool) -> Option<Answer> 
     Some(Answer::Line(pixels))
 }
 
-/// The right pixels with x and y exchanged, where they lie in the window then.
-fn exchanged_line(question: &Question, truth: &Truth) -> Option<Answer> {
+/// The right pixels with x and y exchanged, all of them or those that lie in the window then.
+fn exchanged_line(question: &Question, truth: &Truth, is_cut: bool) -> Option<Answer> {
     let Some(Answer::Line(pixels)) = expected_answer(question, truth) else { return None };
     let mut exchanged = Vec::new();
     for (x, y) in pixels {
         // Where the window is not a square, some pixels leave it.
-        if y < question.width as i32 && x < question.height as i32 {
+        if !is_cut || y < question.width as i32 && x < question.height as i32 {
             exchanged.push((y, x));
         }
     }
