@@ -68,7 +68,7 @@ struct CheckArguments {
     /// Show one hint more
     #[arg(long)]
     hint: bool,
-    /// Cases of each family
+    /// Cases of each family, and ten times as many of a design
     #[arg(long, value_name = "N", default_value_t = 100,
         value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,

@@ -41,7 +41,7 @@ pub struct GradeArguments {
     /// What to print
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Cases of each family
+    /// Cases of each family, and ten times as many of a design
     #[arg(long, value_name = "N", default_value_t = 100,
         value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,
