@@ -87,7 +87,7 @@ const FAULTS: [(&str, Fault); 10] = [
     }),
 ];
 
-/// In how many of the first cases of a family that a program is asked each of the faults is wrong.
+/// In how many of the first 1,000 cases of a family each fault draws something wrong.
 fn wrong_cases(family: &Family) -> [usize; FAULTS.len()] {
     let mut counts = [0; FAULTS.len()];
     for index in 0..1000 {
@@ -165,16 +165,15 @@ fn check_tables(tables: &[PageTable], test: &str) {
 /// The least share of triples that is asked by default, in percent.
 const LEAST_TRIPLES: f64 = 95.0;
 
-/// All pairs are among the first 1,000 cases, nearly all triples among those that are asked by default, and what families ask is
-/// never called impossible. At night also the table of shares, with those of 100,000 cases.
+/// The first 1,000 cases have all pairs, the default numbers of cases nearly all triples, and no family has a pair that is called
+/// impossible. At night the table of shares is checked, too, with 100,000 cases.
 #[test]
 #[ignore = "minutes; .ci/run runs it, and .ci/run --all in full"]
 fn designs_ask_most_of_what_can_be_asked() {
     let is_whole = every(2) == 1;
-    let most = if is_whole { 100_000 } else { 20_000 };
     let mut all: Vec<Shares> =
-        facts::TOPICS.par_iter().map(|topic| designs::of_topic(topic, most)).collect();
-    all.push(designs::of_polygons(most));
+        facts::TOPICS.par_iter().map(|topic| designs::of_topic(topic, is_whole)).collect();
+    all.push(designs::of_polygons(is_whole));
     let rows: String = all.iter().map(Shares::row).collect();
     let impossible: Vec<&String> =
         all.iter().flat_map(|shares| &shares.by_families.impossible).collect();
@@ -304,8 +303,8 @@ fn summed(counts: &[Option<u64>]) -> String {
     format!("{} | {} | {missed}", shown(counts[counts.len() / 2]), shown(worst))
 }
 
-/// How many cases it takes to find planted faults and the mistakes of the tables: by families alone, and by the design. By day of
-/// some of them, without the tables of the pages.
+/// How many cases it takes to find planted faults and the mistakes of the tables: by families alone, and by the design. By day
+/// every sixth is looked for, and the tables of the pages are not checked.
 #[test]
 #[ignore = "minutes; .ci/run runs it, and .ci/run --all in full"]
 fn designs_find_faults_early() {

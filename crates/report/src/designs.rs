@@ -11,7 +11,7 @@ use rasterproof_verify::partition::{self, Coordinates, Family as PolygonFamily};
 pub struct Shares {
     pub whole: DesignShare,
     /// By 1,000 cases of the design, by the default numbers of `judge` and `verify` (nothing where it does not ask the design), and by
-    /// 100,000 cases, where so many are wanted.
+    /// 100,000 cases, for a whole table.
     pub by_design: [Option<AskedClasses>; 4],
     pub by_families: AskedClasses,
 }
@@ -19,9 +19,9 @@ pub struct Shares {
 /// The default numbers of cases of a design, in `judge` and in `verify`.
 type Defaults = [Option<u64>; 2];
 
-/// The numbers of cases by which shares are counted, up to the largest one wanted.
-fn counts([of_judge, of_verify]: Defaults, most: u64) -> [Option<u64>; 4] {
-    [Some(1000), of_judge, of_verify, Some(100_000).filter(|count| *count <= most)]
+/// The numbers of cases by which shares are counted; the last one only for a whole table.
+fn counts([of_judge, of_verify]: Defaults, is_whole: bool) -> [Option<u64>; 4] {
+    [Some(1000), of_judge, of_verify, is_whole.then_some(100_000)]
 }
 
 impl Shares {
@@ -79,8 +79,9 @@ fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
     (chosen.collect(), cases)
 }
 
-/// Of the design of a topic, beside the families that ask about the same; by at most so many cases, 20,000 or more.
-pub fn of_topic(topic: &Topic, most: u64) -> Shares {
+/// Of the design of a topic, beside the families that ask about the same. A whole table also has 100,000 cases, which takes
+/// minutes.
+pub fn of_topic(topic: &Topic, is_whole: bool) -> Shares {
     let limits = Limits::default();
     let question = |index: u64| facts::design::case(topic, 1, index, &limits);
     let (families, cases) = families_beside(topic.name);
@@ -89,7 +90,7 @@ pub fn of_topic(topic: &Topic, most: u64) -> Shares {
     let defaults = [Some(of_judge), (cases == 20_000).then_some(cases)];
     Shares {
         whole: DesignShare::of(topic, 0..1000, &limits, &question),
-        by_design: counts(defaults, most).map(|count| {
+        by_design: counts(defaults, is_whole).map(|count| {
             count.map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
         }),
         by_families: AskedClasses::by(topic, &limits, drawn),
@@ -97,14 +98,14 @@ pub fn of_topic(topic: &Topic, most: u64) -> Shares {
 }
 
 /// The same of the polygons that tessellators are asked.
-pub fn of_polygons(most: u64) -> Shares {
+pub fn of_polygons(is_whole: bool) -> Shares {
     let (topic, limits) = (&partition::design::TOPIC, Coordinates::F64);
     let question = |index: u64| partition::design::polygon(1, index, limits);
     let families = PolygonFamily::ALL.into_iter().filter(|of| *of != PolygonFamily::Design);
     let drawn = families.flat_map(|of| (0..2000).map(move |index| of.polygon(1, index, limits)));
     Shares {
         whole: partition::design::asked(1, 0..1000, limits),
-        by_design: counts([Some(2000), None], most).map(|count| {
+        by_design: counts([Some(2000), None], is_whole).map(|count| {
             count.map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
         }),
         by_families: AskedClasses::by(topic, &limits, drawn),

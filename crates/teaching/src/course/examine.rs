@@ -123,7 +123,7 @@ pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outco
 /// Answers of each family that a misconception has to explain.
 const ASKED_OF_A_FAMILY: usize = 200;
 
-/// How many cases of a family are asked where so many are of one without a design: by default all pairs of a design's facts.
+/// A design gets ten times as many cases as another family: 1,000 by default, which have all pairs of its facts.
 pub(super) fn cases_of(family: &Family, cases: u64) -> u64 {
     if family.design().is_some() { 10 * cases } else { cases }
 }

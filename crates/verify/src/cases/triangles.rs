@@ -48,11 +48,10 @@ fn window() -> PixelRect {
     PixelRect::window(SIDE_PX, SIDE_PX)
 }
 
-/// How the w of a corner is chosen.
+/// The ways in which w of a corner is drawn.
 #[derive(Clone, Copy)]
 enum W {
-    /// Between 1 and 4.
-    Near,
+    OneToFour,
     Equal(f64),
     /// In [1, ratio]: often one of the ends, since the whole ratio is the danger.
     UpTo(f64),
@@ -63,7 +62,7 @@ enum W {
 impl W {
     fn of(self, rng: &mut Rng) -> f64 {
         match self {
-            Self::Near => 1.0 + 3.0 * rng.unit(),
+            Self::OneToFour => 1.0 + 3.0 * rng.unit(),
             Self::Equal(w) => w,
             Self::UpTo(ratio) => match rng.int(0, 2) {
                 0 => 1.0,
@@ -100,7 +99,7 @@ fn single(rng: &mut Rng, window: PixelRect, corners: Corners) -> Case {
 fn mesh(rng: &mut Rng, window: PixelRect, triangles: &[Corners], disjoint: bool) -> Case {
     let mut list = Vec::with_capacity(triangles.len());
     for &corners in triangles {
-        list.push(dressed(rng, corners, W::Near));
+        list.push(dressed(rng, corners, W::OneToFour));
     }
     Case { window, shape: Shape::Triangles { list, disjoint } }
 }
@@ -118,7 +117,7 @@ fn on_centre(rng: &mut Rng, low_px: i64, high_px: i64) -> SubpixelPoint {
     centre_of(rng.coordinate(low_px, high_px), rng.coordinate(low_px, high_px))
 }
 
-/// Three of them, from pixel 0 on.
+/// Three points on pixel centres, of pixels 0 to this one.
 fn on_centres(rng: &mut Rng, high_px: i64) -> Corners {
     [on_centre(rng, 0, high_px), on_centre(rng, 0, high_px), on_centre(rng, 0, high_px)]
 }

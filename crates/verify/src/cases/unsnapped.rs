@@ -41,7 +41,7 @@ type Point = [f64; 2];
 struct Floats {
     round: fn(f64) -> f64,
     nudge: fn(f64, i64) -> f64,
-    /// Bits behind the point that leave room for a few doublings.
+    /// Bits behind the point of a step, so few that a point some steps away is exact, too.
     fraction_bits: u32,
 }
 
@@ -156,8 +156,11 @@ fn near_tie_f64(rng: &mut Rng) -> Case {
 
 /// A step of up to `most` px along each axis, in parts of a pixel.
 fn fraction(rng: &mut Rng, most: i64, parts: i64) -> Point {
-    let coordinate = |rng: &mut Rng| rng.int(-most * parts, most * parts) as f64 / parts as f64;
-    [coordinate(rng), coordinate(rng)]
+    let mut step = [0.0; 2];
+    for v in &mut step {
+        *v = rng.int(-most * parts, most * parts) as f64 / parts as f64;
+    }
+    step
 }
 
 /// An edge through a sample, whose one end is then rounded or moved by an ulp. Half of the edges

@@ -261,7 +261,7 @@ struct Learner<'a> {
     left: usize,
     vocabulary: Vocabulary,
     answered: Vec<LearnedAnswer>,
-    /// What the last search found.
+    /// The model of the last search, which the next one tries to mend first.
     last: Option<Model>,
     /// Whether it predicted nearly all new answers.
     is_nearly: bool,

@@ -495,7 +495,7 @@ pub async fn of_triangles(
         answered.iter().filter(is_missed).count()
     };
     if 100 * count_wrong(&answered) > MOST_MISSED_PERCENT * answered.len() {
-        starts.sort_by_key(missed);
+        starts.sort_by_cached_key(missed);
     }
     let ways: Vec<_> = nearest.iter().map(|near| near.way(&found_bases, draws_twice)).collect();
     let learned = async { learn?(asker, known, &starts, &ways).await };

@@ -34,7 +34,7 @@ pub(super) fn remembered<'a>(
     let seen = RefCell::new(Vec::new());
     Box::new(move |i| {
         let (word, bit) = (i / 32, i % 32 * 2);
-        let known: u64 = seen.borrow().get(word).map_or(0, |word: &u64| word >> bit & 3);
+        let known = seen.borrow().get(word).copied().unwrap_or(0_u64) >> bit & 3;
         if known != 0 {
             return known == 3;
         }

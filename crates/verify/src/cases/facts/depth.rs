@@ -142,7 +142,7 @@ impl PileFacts {
         for layer in &list {
             let [a, b, c] = layer.depths;
             leaning += usize::from(a != b || b != c);
-            clockwise += usize::from(layer.turns);
+            clockwise += usize::from(layer.is_clockwise);
             cut += usize::from(layer.is_cut(window));
             let extent = (layer.high[0] - layer.low[0]).max(layer.high[1] - layer.low[1]);
             measured.largest = measured.largest.max(extent);
@@ -159,8 +159,8 @@ impl PileFacts {
         Some(measured)
     }
 
-    /// Notes the triangles that leave a border of the window open, and those that are farther than all of one of them and reach
-    /// into what it leaves open.
+    /// Notes whether a triangle leaves a border of the window open, and whether another one, all of which is farther, reaches into
+    /// that border.
     fn note_open_borders(&mut self, list: &[Layer], sides: [i32; 2]) {
         for (front, layer) in list.iter().enumerate() {
             let Some(Open { axis, is_last }) = layer.leaves_open(sides) else { continue };
@@ -189,8 +189,7 @@ struct Layer {
     high: [i64; 2],
     depths: [f64; 3],
     mean: f64,
-    /// Clockwise on the screen.
-    turns: bool,
+    is_clockwise: bool,
 }
 
 impl Layer {
@@ -201,7 +200,7 @@ impl Layer {
             high: [i64::MIN; 2],
             depths: [0.0; 3],
             mean: 0.0,
-            turns: twice_area(&triangle.corners()) > 0,
+            is_clockwise: twice_area(&triangle.corners()) > 0,
         };
         for (at, vertex) in triangle.vertices.iter().enumerate() {
             let corner = [i64::from(vertex.position.x), i64::from(vertex.position.y)];
@@ -246,18 +245,16 @@ impl Layer {
             if last == 0 {
                 continue;
             }
-            // The samples at both ends of a row or column. A triangle is convex: it covers all samples between two lines if it
-            // covers those at their ends.
-            let ends = |at: i32| {
+            // A triangle is convex: it covers all samples between two lines if it covers those at their ends.
+            let covers_ends = |at: i32| {
                 [0, sides[1 - axis] - 1].map(|across| match axis {
-                    0 => [centre(at), centre(across)],
-                    _ => [centre(across), centre(at)],
+                    0 => self.covers([centre(at), centre(across)]),
+                    _ => self.covers([centre(across), centre(at)]),
                 })
             };
             for (is_last, open, near, far) in [(false, 0, 1, last), (true, last, last - 1, 0)] {
-                let covers = |at: i32| ends(at).iter().all(|end| self.covers(*end));
-                let meets = |at: i32| ends(at).iter().any(|end| self.covers(*end));
-                if covers(near) && covers(far) && !meets(open) {
+                let is_covered = covers_ends(near) == [true; 2] && covers_ends(far) == [true; 2];
+                if is_covered && covers_ends(open) == [false; 2] {
                     return Some(Open { axis, is_last });
                 }
             }

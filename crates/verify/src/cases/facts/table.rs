@@ -67,9 +67,10 @@ impl Table {
         // One class more: its number is that of its row.
         for (&class, wanted) in classes.iter().zip(smaller).skip(1) {
             let known = &rows[usize::from(class)];
-            let rest = [wanted[0] & !known[0], wanted[1] & !known[1], wanted[2] & !known[2]];
+            let ([a, b, c], [x, y, z]) = (wanted, known);
+            let rest = [a & !x, b & !y, c & !z];
             // Mostly none is missing, and counting takes longer.
-            if rest[0] | rest[1] | rest[2] != 0 {
+            if rest != [0; WORDS] {
                 for word in rest {
                     count += word.count_ones() as usize;
                 }
