@@ -22,6 +22,7 @@ export const PLANTS = [
   ['winding', 'facing', 0, ['outside', 'outside']],
   ['lines-moved', 'lines', 0, ['outside', 'allowed']],
   ['farther', 'depth', 0, ['outside', 'outside']],
+  ['farther', 'depth', 1, ['outside', 'outside']],
   ['w-ignored', 'values', 0, ['outside', 'outside']],
   ['no-near-plane', 'near-plane', 0, ['outside', 'outside']],
   ['samples-moved', 'samples', 0, ['allowed', 'outside']],
@@ -29,10 +30,11 @@ export const PLANTS = [
 
 const numbered = (check, count) => Array.from({ length: count }, (_, number) => [check, number]);
 
-/** One batch of each check, and each family of coverage. */
+/** One batch of each check, each family of coverage, and of what a design chose, the first batches. */
 export const PARTS = [
   ...['lattice', 'reach', 'tiling', 'order', 'facing', 'lines', 'depth', 'values', 'samples', 'twice'].map((check) => [check, 0]),
-  ...numbered('coverage', 12),
+  ...numbered('coverage', 13),
+  ['reach', 10], ['lines', 2], ['depth', 1], ['values', 3],
   ...numbered('near-plane', 4),
 ];
 

@@ -2,6 +2,8 @@
 
 /** A hit adds this many steps of 255: a rounding of the blending unit, or noise, does not make another number of it. */
 const HIT = 16;
+/** The steps of a number of a triangle in the depth test: there are 64 at most, and the nearest replaces the others. */
+const NUMBER = 3;
 
 const fragment = (colour) => `#version 300 es
 precision highp float;
@@ -133,7 +135,7 @@ function openWebgl2() {
       if (error) throw new Error(`WebGL: 0x${error.toString(16)}`);
       if (floating) return base64(bytes);
       if (kind === 'samples') return apart ? hits(bytes, 1, 8) : hits(bytes, 4, HIT / 4);
-      return hits(bytes, 4, HIT);
+      return hits(bytes, 4, kind === 'depth' ? NUMBER : HIT);
     },
   };
 }

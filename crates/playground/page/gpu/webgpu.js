@@ -115,7 +115,7 @@ async function openWebgpu() {
       const bytes = new Uint8Array(read.getMappedRange().slice(0));
       read.destroy();
       buffer.destroy();
-      return kind === 'values' ? base64(bytes) : hits(bytes, 1, HIT);
+      return kind === 'values' ? base64(bytes) : hits(bytes, 1, kind === 'depth' ? NUMBER : HIT);
     },
   };
 }

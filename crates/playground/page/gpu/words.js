@@ -7,7 +7,7 @@ const RULE_ZH = { 'top-right': '右上规则', 'bottom-left': '左下规则', 'b
 const WORDS = {
   en: {
     title: 'your GPU', other: '中文',
-    about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
+    about: 'This page draws about 290,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
     private: 'Nothing is sent: all of it happens in this browser, which keeps what was judged until the end, in case the page is closed.',
     judge: 'Judge my GPU', again: 'Judge again', alone: 'Or one check alone:', stop: 'Stop', stopped: 'Stopped before all checks were made.',
     resumed: (at) => `The page was closed before: the first ${plural(at, 'batch', 'batches')} were judged then.`,
@@ -40,7 +40,7 @@ const WORDS = {
       order: (t) => `${plural(t.shapes, 'triangle')} with their corners in six orders: ${t.free + t.broken === 0 ? 'the same pixels each time, as by the top-left rule.' : `${(t.free + t.broken).toLocaleString('en')} differ, ${t.broken.toLocaleString('en')} of them beyond samples on edges.`}`,
       facing: (t) => `${plural(t.shapes, 'triangle')} of both windings with back faces culled: ${t.broken} are drawn or left out wrongly${t.free ? `, ${t.free} differ at samples on edges` : ''}.`,
       lines: (t) => `${plural(t.subjects, 'line')}: ${t.explained[0]} as the diamond-exit rule draws them, ${t.explained[1]} as rectangles, ${t.explained[2]} as parallelograms; ${t.broken} beyond what is allowed.`,
-      depth: (t) => `${plural(t.subjects, 'pair')} of triangles, ${plural(t.pixels, 'pixel')}: ${t.broken} pairs keep the farther one or cover other pixels${t.free ? `; in ${t.free} a pixel was too close to decide, or lies on an edge` : ''}.`,
+      depth: (t) => `${plural(t.subjects, 'case')} of triangles before each other, ${plural(t.pixels, 'pixel')}: ${t.broken} keep a farther one or cover other pixels${t.free ? `; in ${t.free} a pixel was too close to decide, or lies on an edge` : ''}.`,
       values: (t) => `${plural(t.pixels, 'value')} of ${plural(t.subjects, 'triangle')}: the worst error is ${t.worst.toFixed(3)} of the derived bound; ${t.free} triangles go beyond it as far as positions are exact, ${t.broken} farther.`,
       'near-plane': (t) => `${plural(t.subjects, 'triangle')} before and behind the planes: ${t.broken + t.free === 0 ? 'all exactly cut.' : `${t.free} differ within what rounding new corners explains, ${t.broken} beyond it.`}`,
       samples: (t) => `${plural(t.subjects, 'triangle')}: ${t.broken + t.free === 0 ? 'every sample as at the standard positions.' : `${t.broken} wrong, ${t.free} different where they may.`}`,
@@ -55,7 +55,7 @@ const WORDS = {
   },
   zh: {
     title: '你的 GPU', other: 'English',
-    about: '本页用这个浏览器的图形接口画大约二十八万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
+    about: '本页用这个浏览器的图形接口画大约二十九万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
     private: '不发送任何东西：一切都在这个浏览器里进行。评判结束之前，浏览器会保存已有的结果，以防页面被关闭。',
     judge: '评判我的 GPU', again: '再评判一次', alone: '或者只做一项检查：', stop: '停', stopped: '在做完所有检查之前停了。',
     resumed: (at) => `这个页面中途关闭过：前 ${zhCount(at)} 批是那时评判的。`,
@@ -88,7 +88,7 @@ const WORDS = {
       order: (t) => `${zhCount(t.shapes)} 个三角形，顶点按六种顺序：${t.free + t.broken === 0 ? '每次的像素都相同，与左上规则一致。' : `${zhCount(t.free + t.broken)} 个不同，其中 ${zhCount(t.broken)} 个不限于边上的采样点。`}`,
       facing: (t) => `${zhCount(t.shapes)} 个两种绕向的三角形，剔除背面：${t.broken} 个画错或漏画${t.free ? `，${t.free} 个在边上的采样点处不同` : ''}。`,
       lines: (t) => `${zhCount(t.subjects)} 条直线：${t.explained[0]} 条与菱形出口规则一致，${t.explained[1]} 条与矩形一致，${t.explained[2]} 条与平行四边形一致；${t.broken} 条超出允许的范围。`,
-      depth: (t) => `${zhCount(t.subjects)} 对三角形，${zhCount(t.pixels)} 个像素：${t.broken} 对保留了较远的或覆盖了别的像素${t.free ? `；${t.free} 对里有像素太接近而无法判定，或在边上` : ''}。`,
+      depth: (t) => `${zhCount(t.subjects)} 组前后重叠的三角形，${zhCount(t.pixels)} 个像素：${t.broken} 组保留了较远的或覆盖了别的像素${t.free ? `；${t.free} 组里有像素太接近而无法判定，或在边上` : ''}。`,
       values: (t) => `${zhCount(t.subjects)} 个三角形的 ${zhCount(t.pixels)} 个数值：最大误差是推导出的上界的 ${t.worst.toFixed(3)} 倍；${t.free} 个三角形超出上界，但不超出位置的精度，${t.broken} 个超出更多。`,
       'near-plane': (t) => `${zhCount(t.subjects)} 个在平面前后的三角形：${t.broken + t.free === 0 ? '全部精确裁剪。' : `${t.free} 个的不同可用新顶点的舍入解释，${t.broken} 个不能。`}`,
       samples: (t) => `${zhCount(t.subjects)} 个三角形：${t.broken + t.free === 0 ? '每个采样点都如在标准位置。' : `${t.broken} 个错误，${t.free} 个在允许处不同。`}`,

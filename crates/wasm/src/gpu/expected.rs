@@ -302,26 +302,41 @@ impl<'a> Forgiving<'a> {
         f64::from(self.device.step()) / f64::from(SUBPIXELS) + 6.0 * u * 156.0 * half_picture_px
     }
 
-    /// Where depths are nearer than they are exact, or a rule decides about an edge, either may be kept.
+    /// Where depths are nearer than they are exact, or a rule decides about an edge, either may be kept: what is shown covers the pixel,
+    /// and nothing that surely covers it is surely nearer.
     fn depth_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
-        let triangles = self.subject.triangles();
-        let (mut edges, mut inside, mut is_of_one) = (0, 0, false);
-        for triangle in &triangles {
+        let (mut nearest, mut shown): (Option<AtDepth>, Option<AtDepth>) = (None, None);
+        for triangle in self.subject.triangles() {
             let place = place(&triangle.corners(), centre_of(x, y));
-            edges += usize::from(place == Place::Edge);
-            inside += usize::from(place == Place::Inside);
-            is_of_one |= place != Place::Outside && number(triangle) == hits;
+            if place == Place::Outside {
+                continue;
+            }
+            let here = AtDepth { depth: depth(&triangle, x, y), triangle };
+            if number(&triangle) == hits {
+                shown = Some(here);
+            }
+            if place == Place::Inside && nearest.is_none_or(|other| here.depth < other.depth) {
+                nearest = Some(here);
+            }
         }
-        if edges > 0 {
-            return hits == 0 || is_of_one;
+        match (nearest, shown) {
+            // No triangle surely covers it.
+            (None, shown) => hits == 0 || shown.is_some(),
+            (Some(nearest), Some(shown)) => {
+                // A buffer of 24 bits keeps steps of 2^-24.
+                let bounds = [nearest, shown].map(|t| depth_bounds(&t.triangle, 1024.0)[1]);
+                shown.depth - nearest.depth <= bounds[0] + bounds[1] + 2f64.powi(-24)
+            }
+            (Some(_), None) => false,
         }
-        let [first, second] = &triangles[..] else { return false };
-        // A buffer of 24 bits keeps steps of 2^-24.
-        let bounds = [first, second].map(|t| depth_bounds(t, 1024.0)[1]);
-        let bound = bounds[0] + bounds[1] + 2f64.powi(-24);
-        let difference = (depth(first, x, y) - depth(second, x, y)).abs();
-        inside == 2 && is_of_one && difference <= bound
     }
+}
+
+/// A triangle with its depth at a pixel.
+#[derive(Clone, Copy)]
+struct AtDepth {
+    depth: f64,
+    triangle: Triangle,
 }
 
 /// How the pixels of a line stand to the diamond-exit rule, to a rectangle and to a parallelogram.

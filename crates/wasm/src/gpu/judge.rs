@@ -506,7 +506,9 @@ impl PictureJudgement {
 fn digits(planes: &Planes) -> Vec<String> {
     let mut lines = Vec::new();
     for plane in planes {
-        lines.push(plane.iter().map(|hits| char::from(b'0' + (*hits).min(9))).collect());
+        // Of 64 triangles before each other, those from the tenth on have letters.
+        lines
+            .push(plane.iter().filter_map(|n| char::from_digit((*n).min(35).into(), 36)).collect());
     }
     lines
 }
@@ -581,8 +583,9 @@ fn facts(check: Topic, tally: &Tally) -> Value {
 mod tests {
     use super::super::Vertex;
     use super::super::shrink::{asked, size};
-    use super::super::subjects::PLAN;
+    use super::super::subjects::{PLAN, limits};
     use super::*;
+    use rasterproof_verify::cases::{Shape, triangles};
     use serde_json::from_value;
 
     /// The names of all checks but that of values.
@@ -668,11 +671,72 @@ mod tests {
     fn what_is_expected_is_as_promised() {
         let checks = checks();
         for (check, interface) in checks.iter().flat_map(|c| [(c, "webgl2"), (c, "webgpu")]) {
-            let answer = answer(check, interface, json!({}), &|_, _| {});
+            // The last batch is one of a design, where there is one.
+            let topic = batch(check, interface, json!({})).check;
+            let (_, count) = PLAN.into_iter().find(|(other, _)| *other == topic).unwrap();
+            let answer = answer(check, interface, json!({ "number": count - 1 }), &|_, _| {});
             // Positions are expected unrounded, and WebGL says that there are at least four bits.
             assert_eq!(answer["word"], "equal", "{check} {interface} {}", answer["facts"]);
             assert!(answer["tally"]["subjects"].as_u64() > Some(40), "{}", answer["tally"]);
         }
+    }
+
+    /// A design has each pair of its facts in its first thousand cases: no batch leaves one out or asks it twice.
+    #[test]
+    fn designs_are_asked_whole() {
+        let subjects = |check: &str, number: u64| {
+            batch(check, "webgl2", json!({ "number": number })).subjects().unwrap()
+        };
+        // The numbers of the batches that a design chooses.
+        for (check, numbers, step) in [("coverage", 12..39, 13), ("reach", 10..31, 1)] {
+            let family = triangles::FAMILIES.iter().find(|f| f.name == "design").unwrap();
+            let limits = limits(batch(check, "webgl2", json!({})).check, 16, 48);
+            let mut index = 0;
+            for number in numbers.step_by(step) {
+                let (layout, list) = subjects(check, number);
+                assert_eq!(list.len(), layout.room(), "{check} {number}");
+                for subject in list {
+                    let Shape::Triangles { list, .. } = family.case_within(1, index, &limits).shape
+                    else {
+                        panic!("{check} {index}")
+                    };
+                    let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+                    assert_eq!(subject.corners(), corners, "{check} {index}");
+                    index += 1;
+                }
+            }
+            assert!(index >= 1000, "{check} {index}");
+        }
+        // Every line of the design has two ends in its cell, but for those that are one point.
+        let (layout, list) = subjects("lines", 2);
+        assert_eq!(list.len(), layout.room());
+        let ends: Vec<_> = list.iter().flat_map(Drawing::ends).collect();
+        let lengths = |axis: fn(SubpixelPoint) -> i32| {
+            let all: std::collections::BTreeSet<i32> =
+                ends.iter().map(|[from, to]| axis(*to) - axis(*from)).collect();
+            all.len()
+        };
+        // From -27 to 27 px in each direction.
+        assert!(lengths(|p| p.x) > 40 && lengths(|p| p.y) > 40, "{ends:?}");
+        let px = |v: i32| v / SUBPIXELS;
+        assert!(ends.as_flattened().iter().all(|p| (2..30).contains(&px(p.x.min(p.y)))));
+        assert!(ends.as_flattened().iter().all(|p| (2..30).contains(&px(p.x.max(p.y)))));
+    }
+
+    /// A device that draws sixteen triangles of a pile at most is met by the design, and shown by seventeen triangles.
+    #[test]
+    fn a_pile_is_drawn_whole() {
+        let sixteen = |subject: &Drawing, planes: &mut Planes| {
+            let some = Drawing(subject.0.iter().take(16).cloned().collect());
+            let device = batch("depth", "webgl2", json!({})).device;
+            *planes = expected(Topic::Depth, device, &some, 32);
+        };
+        let found = |number: u64| answer("depth", "webgl2", json!({ "number": number }), &sixteen);
+        assert_eq!([0, 1].map(|number| found(number)["word"].clone()), ["equal", "outside"]);
+        let draw =
+            |check, device, layout, list: &[Drawing]| drawn(check, device, layout, list, &sixteen);
+        let (Drawing(smallest), _) = shrunk("depth", found(1)["broken"].clone(), &draw);
+        assert_eq!(smallest.len(), 17, "{smallest:?}");
     }
 
     /// Every pixel that is hit is hit once more, or none is: no check calls that free.

@@ -150,6 +150,12 @@ impl Topic {
             _ => "hits",
         }
     }
+
+    /// What the first attribute is multiplied by. A hit is 16 steps of a byte, so that several of them add up; the number of one of 64
+    /// triangles is so many times 3, and nothing adds up.
+    fn scale(self) -> f64 {
+        if self == Self::Depth { 3.0 / 16.0 } else { 1.0 }
+    }
 }
 
 #[derive(Deserialize)]
@@ -214,7 +220,8 @@ impl Device {
             // Each subject is moved to its own cell.
             let origin = layout.origin(index);
             draws.push([vertices.len() as i32, origin[0], origin[1]]);
-            for vertex in vertices {
+            for mut vertex in vertices {
+                vertex[4] *= check.scale();
                 for number in self.clip(vertex, layout.side, origin) {
                     bytes.extend(number.to_le_bytes());
                 }

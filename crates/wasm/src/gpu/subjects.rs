@@ -2,6 +2,9 @@
 //!
 //! Every subject follows from a seed and its number, so that a page can ask for one again. A batch is as many subjects as one picture
 //! has cells; some that do not fit a cell are left out, and the next ones take their places.
+//!
+//! Covering designs choose triangles, lines, piles and values, too: a thousand of each, so that every two facts that can occur do so together. Their
+//! windows are parts of a cell, all of whose pixels are judged.
 
 use super::{Device, Drawing, Interface, Layout, Topic, Vertex};
 use crate::no_answer::NoAnswer;
@@ -9,28 +12,34 @@ use rasterproof_core::geometry::{ORDERS, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
-use rasterproof_verify::cases::{Family, Shape, Triangle, triangles};
+use rasterproof_verify::cases::facts::{self, design};
+use rasterproof_verify::cases::{Case, Family, Limits, Line, Shape, Triangle, triangles};
 use rasterproof_verify::oracle::clipped;
 
 /// The checks with the numbers of their batches.
 pub(super) const PLAN: [(Topic, u64); 12] = [
     (Topic::Lattice, 1),
     (Topic::Coverage, FAMILIES.len() as u64 * PAGES),
-    (Topic::Reach, 10),
+    (Topic::Reach, REACHING + 21),
     (Topic::Tiling, 2),
     (Topic::Order, 1),
     (Topic::Facing, 1),
-    (Topic::Lines, 2),
-    (Topic::Depth, 1),
-    (Topic::Values, 3),
+    (Topic::Lines, LINES + 1),
+    (Topic::Depth, PAIRS + 1),
+    (Topic::Values, VALUES + 10),
     (Topic::NearPlane, 4),
     (Topic::Samples, 2),
     (Topic::Twice, 1),
 ];
 
 const PAGES: u64 = 3;
+/// Batches that no design chooses, before those of a design.
+const REACHING: u64 = 10;
+const LINES: u64 = 2;
+const PAIRS: u64 = 1;
+const VALUES: u64 = 3;
 /// Families of coverage whose corners lie in their window, with its side in px.
-const FAMILIES: [(&str, i32); 12] = [
+const FAMILIES: [(&str, i32); 13] = [
     ("half-integer", 16),
     ("rectangle", 16),
     ("fan", 32),
@@ -43,6 +52,7 @@ const FAMILIES: [(&str, i32); 12] = [
     ("flat", 48),
     ("near-tie", 48),
     ("degenerate", 48),
+    ("design", 48),
 ];
 /// Families in perspective, whose w an f32 can hold.
 const IN_PERSPECTIVE: [&str; 3] = ["w-equal", "w-4", "w-100"];
@@ -178,7 +188,7 @@ pub(super) fn drawn(check: Topic, Drawing(shapes): &Drawing) -> Vec<Vertex> {
     vertices
 }
 
-/// The family of this name.
+/// The family of triangles of this name.
 fn family(name: &str) -> Option<&'static Family> {
     triangles::FAMILIES.iter().find(|family| family.name == name)
 }
@@ -200,6 +210,55 @@ fn snapped(family: &Family, seed: u64, index: u64, step: i32, cell: i32) -> Opti
     Some(all)
 }
 
+/// A batch whose subjects a design chooses.
+struct Designed {
+    topic: &'static facts::Topic,
+    /// Which of its batches.
+    batch: u64,
+}
+
+/// The design that chooses the subjects of a batch, if one does.
+fn designed(check: Topic, number: u64) -> Option<Designed> {
+    let families = FAMILIES.len() as u64;
+    let (topic, batch) = match check {
+        // The last family is the design.
+        Topic::Coverage if number % families == families - 1 => {
+            (&facts::triangles::TOPIC, number / families)
+        }
+        Topic::Reach => (&facts::triangles::TOPIC, number.checked_sub(REACHING)?),
+        Topic::Lines => (&facts::lines::TOPIC, number.checked_sub(LINES)?),
+        Topic::Depth => (&facts::depth::TOPIC, number.checked_sub(PAIRS)?),
+        Topic::Values => (&facts::values::TOPIC, number.checked_sub(VALUES)?),
+        _ => return None,
+    };
+    Some(Designed { topic, batch })
+}
+
+/// What a design may ask of a check: corners on the device's lattice in the cell, or as far beyond it as the picture is empty.
+pub(super) fn limits(check: Topic, step: i32, cell: i32) -> Limits {
+    let beyond = if check == Topic::Reach { REACH } else { 0 };
+    Limits {
+        step: step.into(),
+        least: (-beyond * cell * SUBPIXELS).into(),
+        most: ((beyond + 1) * cell * SUBPIXELS).into(),
+        // Lines lie around the middle of the cell, two pixels from its border at least.
+        line_range_px: Some(cell / 2 - 2),
+        window: Some([cell as u32; 2]),
+        ..Limits::default()
+    }
+}
+
+/// A subject that a design chose.
+fn of_design(check: Topic, case: Case, step: i32, cell: i32) -> Option<Drawing> {
+    Some(Drawing(match (check, case.shape) {
+        (_, Shape::Lines(list)) => vec![around_middle(list.first()?, cell)?],
+        (Topic::Values, Shape::Triangles { list, .. }) => vec![valued(list.first()?, step)],
+        (Topic::Depth, Shape::Triangles { list, .. }) => numbered(&list, step),
+        (_, Shape::Triangles { list, .. }) => list.iter().map(|t| triangle(t.corners())).collect(),
+        _ => return None,
+    }))
+}
+
 /// The subjects of a batch, and how they lie.
 pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layout, Vec<Drawing>) {
     let cell = cell_of(check, number);
@@ -207,7 +266,13 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
     let room = layout.room().min(MOST);
     let step = device.step();
     let name = format!("your-gpu-{check:?}");
+    let (designed, limits) = (designed(check, number), limits(check, step, cell));
     let one = |index: usize| -> Option<Drawing> {
+        if let Some(Designed { topic, batch }) = designed {
+            // A design has its pairs in its first cases: batches of it go on where the one before ended.
+            let index = batch * room as u64 + index as u64;
+            return of_design(check, design::case(topic, seed, index, &limits), step, cell);
+        }
         let index = number * MOST as u64 + index as u64;
         // One generator for each subject, so that leaving one out changes no other.
         let mut rng = Rng::new(&name, seed, index);
@@ -231,24 +296,21 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
             Topic::Tiling => tiling(&mut rng, cell),
             Topic::Order | Topic::Samples => {
                 // Every other one with corners on centres, where rules decide.
-                let family =
-                    family(["half-integer", "tiny"][usize::from(check == Topic::Samples)])?;
+                let name = if check == Topic::Samples { "tiny" } else { "half-integer" };
                 match index % 2 {
                     0 => vec![triangle([(); 3].map(|()| on_lattice(0, cell)))],
-                    _ => snapped(family, seed, index, step, cell)?
-                        .into_iter()
-                        .map(triangle)
-                        .collect(),
+                    _ => {
+                        let all = snapped(family(name)?, seed, index, step, cell)?;
+                        all.into_iter().map(triangle).collect()
+                    }
                 }
             }
             Topic::Facing => vec![triangle([(); 3].map(|()| on_lattice(0, cell)))],
             Topic::Lines => vec![line(&mut rng, step, cell, index)?],
             Topic::Depth => crossing(&mut rng, step, cell),
             Topic::Values => {
-                let family = family(IN_PERSPECTIVE[(index % 3) as usize])?;
-                let Shape::Triangles { list, .. } = family.case(seed, index).shape else {
-                    return None;
-                };
+                let case = family(IN_PERSPECTIVE[(index % 3) as usize])?.case(seed, index);
+                let Shape::Triangles { list, .. } = case.shape else { return None };
                 vec![valued(list.first()?, step)]
             }
             Topic::NearPlane => vec![clip_space(&mut rng, index)],
@@ -256,13 +318,17 @@ pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layou
     };
     // Twice as many as there is room for are tried, since some leave their cell.
     let mut list: Vec<Drawing> = (0..2 * room).filter_map(one).take(room).collect();
-    // What faces the other way is drawn too, and is culled.
     if check == Topic::Facing {
-        for Drawing(shapes) in list.iter_mut().step_by(2) {
-            shapes[0].swap(1, 2);
-        }
+        turn_every_other(&mut list);
     }
     (layout, list)
+}
+
+/// Turns every other triangle round: what faces the other way is drawn too, and is culled.
+fn turn_every_other(list: &mut [Drawing]) {
+    for Drawing(shapes) in list.iter_mut().step_by(2) {
+        shapes[0].swap(1, 2);
+    }
 }
 
 /// A small triangle with corners within a sixth of a pixel of pixel centres, on the finest lattice: its
@@ -328,6 +394,13 @@ fn line(rng: &mut Rng, step: i32, cell: i32, index: u64) -> Option<Vec<Vertex>> 
     (ends[0] != ends[1]).then(|| ends.map(plain).to_vec())
 }
 
+/// A line between centres of pixels whose places are counted from the middle of a cell; none where it is a point.
+fn around_middle(line: &Line, cell: i32) -> Option<Vec<Vertex>> {
+    let place = |px: i32| (px + cell / 2) * SUBPIXELS + HALF_PIXEL;
+    let ends = line.ends.map(|end| SubpixelPoint::new(place(end.pixel.x), place(end.pixel.y)));
+    (ends[0] != ends[1]).then(|| ends.map(plain).to_vec())
+}
+
 /// Two triangles whose depths lean through each other; their first attributes tell them apart.
 fn crossing(rng: &mut Rng, step: i32, cell: i32) -> Vec<Vec<Vertex>> {
     let steps = i64::from(cell) * i64::from(SUBPIXELS / step);
@@ -339,6 +412,19 @@ fn crossing(rng: &mut Rng, step: i32, cell: i32) -> Vec<Vec<Vertex>> {
             let [x, y, ..] = plain(SubpixelPoint::new(v(), v()));
             shape.push([x, y, rng.int(64, 960) as f64 / 1024.0, 1.0, number, 0.0]);
         }
+    }
+    shapes
+}
+
+/// Triangles before and behind each other, with their depths rounded to f32; the first attributes count them.
+fn numbered(list: &[Triangle], step: i32) -> Vec<Vec<Vertex>> {
+    let mut shapes = Vec::new();
+    for (triangle, number) in list.iter().zip(1..) {
+        let mut shape = valued(triangle, step);
+        for vertex in &mut shape {
+            vertex[4] = f64::from(number);
+        }
+        shapes.push(shape);
     }
     shapes
 }
