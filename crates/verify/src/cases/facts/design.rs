@@ -3,7 +3,8 @@
 //!
 //! Cases come in blocks of [`BLOCK`]. The first block has every pair of classes that can occur. In block k some triples are
 //! looked for that hold a class of fact k - 1. A
-//! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
+//! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it. Whoever asks for
+//! a few cases of a block waits for no more than these.
 //!
 //! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. After
 //! `BY_TRIPLES` blocks hardly a triple is missing, and the one is taken that has most quadruples. Some are drawn
@@ -12,7 +13,7 @@
 //! data ([`impossible`]).
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rasterproof_core::random::Rng;
 
@@ -84,12 +85,15 @@ struct Candidate<Q> {
 /// A pair or a triple of classes that is missing, in ascending order.
 type Wanted = Vec<u16>;
 
-struct Chooser<'a, Q: 'static, L: 'static> {
-    topic: &'a Topic<Q, L>,
-    limits: &'a L,
+struct Chooser<Q: 'static, L: 'static> {
+    topic: Topic<Q, L>,
+    limits: L,
     rng: Rng,
     effort: Effort,
-    impossible: &'a [[u16; 2]],
+    /// The fact of whose classes triples are looked for; pairs are, where there is none.
+    third: Option<usize>,
+    /// Pairs that are not looked for.
+    impossible: Vec<[u16; 2]>,
     table: Table,
     /// The cases of the block so far.
     chosen: Vec<Q>,
@@ -101,11 +105,49 @@ struct Chooser<'a, Q: 'static, L: 'static> {
     more_turns: usize,
 }
 
-impl<Q: Clone, L> Chooser<'_, Q, L> {
+impl<Q: Clone, L: Clone> Chooser<Q, L> {
+    /// Of a block that is chosen with this effort, from the seed and the number of the block.
+    fn new(
+        effort: Effort,
+        impossible: Vec<[u16; 2]>,
+        topic: &Topic<Q, L>,
+        [seed, number]: [u64; 2],
+        limits: &L,
+    ) -> Self {
+        let facts = topic.starts().len() as u64;
+        let all = topic.count();
+        // No candidate is chosen by larger combinations.
+        let largest = effort.together.iter().copied().fold(3, usize::max);
+        Self {
+            topic: *topic,
+            limits: limits.clone(),
+            rng: Rng::new(topic.name, seed, number),
+            effort,
+            third: number.checked_sub(1).map(|number| (number % facts) as usize),
+            impossible,
+            table: Table::new(all, largest),
+            chosen: Vec::with_capacity(BLOCK as usize),
+            examples: vec![Vec::new(); all],
+            wanted: VecDeque::new(),
+            more_turns: if number == 0 { MOST_TURNS } else { 0 },
+        }
+    }
+
+    /// Chooses cases until there are so many.
+    fn grow(&mut self, count: usize) {
+        while self.chosen.len() < count {
+            if self.chosen.len() as u64 == EASY {
+                self.list_wanted();
+            }
+            let chosen = self.choose().expect("what is drawn has facts, put within any limits");
+            self.note(chosen);
+        }
+    }
+
     /// A case put within the limits; none where nothing is left of it.
     fn candidate(&self, case: Q) -> Option<Candidate<Q>> {
-        let case = (self.topic.put)(self.limits, case);
-        let classes = self.topic.classes(&case, self.limits)?;
+        let case = (self.topic.put)(&self.limits, case);
+        let classes = self.topic.classes(&case, &self.limits)?;
         Some(Candidate { case, classes })
     }
 
@@ -243,8 +285,8 @@ impl<Q: Clone, L> Chooser<'_, Q, L> {
     }
 
     /// Lists what can occur and is missing, in random order: the pairs, or some triples that hold a class of a fact.
-    fn list_wanted(&mut self, third: Option<usize>) {
-        let mut wanted = match third {
+    fn list_wanted(&mut self) {
+        let mut wanted = match self.third {
             None => self.all_pairs(),
             Some(fact) => self.some_triples(fact),
         };
@@ -310,44 +352,50 @@ pub fn impossible<Q, L>(topic: &Topic<Q, L>) -> Vec<[u16; 2]> {
 
 /// The questions of a block.
 #[must_use]
-pub fn block<Q: Clone, L>(topic: &Topic<Q, L>, seed: u64, number: u64, limits: &L) -> Vec<Q> {
+pub fn block<Q: Clone, L: Clone>(
+    topic: &Topic<Q, L>,
+    seed: u64,
+    number: u64,
+    limits: &L,
+) -> Vec<Q> {
     let effort = Effort::of_block(number, topic.count());
-    block_by(effort, &impossible(topic), topic, [seed, number], limits)
+    block_by(effort, impossible(topic), topic, [seed, number], limits)
 }
 
 /// The questions of a block that are chosen with this effort, in which some pairs are not looked for.
-fn block_by<Q: Clone, L>(
+fn block_by<Q: Clone, L: Clone>(
     effort: Effort,
-    impossible: &[[u16; 2]],
+    impossible: Vec<[u16; 2]>,
     topic: &Topic<Q, L>,
-    [seed, number]: [u64; 2],
+    of_block: [u64; 2],
     limits: &L,
 ) -> Vec<Q> {
-    let facts = topic.starts().len() as u64;
-    let third = number.checked_sub(1).map(|number| (number % facts) as usize);
-    let all = topic.count();
-    // No candidate is chosen by larger combinations.
-    let largest = effort.together.iter().copied().fold(3, usize::max);
-    let mut chooser = Chooser {
-        topic,
-        limits,
-        rng: Rng::new(topic.name, seed, number),
-        effort,
-        impossible,
-        table: Table::new(all, largest),
-        chosen: Vec::with_capacity(BLOCK as usize),
-        examples: vec![Vec::new(); all],
-        wanted: VecDeque::new(),
-        more_turns: if number == 0 { MOST_TURNS } else { 0 },
-    };
-    for at in 0..BLOCK {
-        if at == EASY {
-            chooser.list_wanted(third);
-        }
-        let chosen = chooser.choose().expect("what is drawn has facts, put within any limits");
-        chooser.note(chosen);
-    }
+    let mut chooser = Chooser::new(effort, impossible, topic, of_block, limits);
+    chooser.grow(BLOCK as usize);
     chooser.chosen
+}
+
+/// A block as far as it was asked for.
+enum Block<Q: 'static, L: 'static> {
+    Growing(Box<Chooser<Q, L>>),
+    Whole(Vec<Q>),
+}
+
+impl<Q: Clone, L: Clone> Block<Q, L> {
+    /// The question at a place.
+    fn question(&mut self, at: usize) -> Q {
+        let chooser = match self {
+            Self::Growing(chooser) => chooser,
+            Self::Whole(all) => return all[at].clone(),
+        };
+        chooser.grow(at + 1);
+        let question = chooser.chosen[at].clone();
+        // Nothing more is chosen, so that what was missing is forgotten.
+        if chooser.chosen.len() as u64 == BLOCK {
+            *self = Self::Whole(std::mem::take(&mut chooser.chosen));
+        }
+        question
+    }
 }
 
 /// What the questions of a block depend on.
@@ -359,34 +407,45 @@ struct Key<L> {
     limits: L,
 }
 
-type KeptBlock<Q> = Arc<OnceLock<Vec<Q>>>;
+/// A block that several may ask for, empty where nobody has yet.
+type SharedBlock<Q, L> = Arc<Mutex<Option<Block<Q, L>>>>;
 
-/// Blocks that were chosen, for whoever asks for their questions next.
-pub struct Blocks<Q, L>(Mutex<Vec<(Key<L>, KeptBlock<Q>)>>);
+struct KeptBlock<Q: 'static, L: 'static> {
+    key: Key<L>,
+    block: SharedBlock<Q, L>,
+}
+
+/// Blocks that were begun, for whoever asks for their questions next.
+pub struct Blocks<Q: 'static, L: 'static>(Mutex<Vec<KeptBlock<Q, L>>>);
 
 impl<Q: Clone, L: Clone + PartialEq> Blocks<Q, L> {
     pub(crate) const fn none() -> Self {
         Self(Mutex::new(Vec::new()))
     }
 
-    /// A question of the design of a topic. Its block is chosen once, and kept while others ask for questions of it.
+    /// A question of the design of a topic. Its block is chosen as far as that, and kept while others ask for questions of it.
     #[must_use]
     pub fn question(&self, topic: &Topic<Q, L>, seed: u64, index: u64, limits: &L) -> Q {
         let key = Key { topic: topic.name, seed, number: index / BLOCK, limits: limits.clone() };
         let number = key.number;
-        let kept = self.place(key);
-        let all = kept.get_or_init(|| block(topic, seed, number, limits));
-        all[(index % BLOCK) as usize].clone()
+        let place = self.place(key);
+        let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
+        let block = place.get_or_insert_with(|| {
+            let effort = Effort::of_block(number, topic.count());
+            let chooser = Chooser::new(effort, impossible(topic), topic, [seed, number], limits);
+            Block::Growing(Box::new(chooser))
+        });
+        block.question((index % BLOCK) as usize)
     }
 
-    /// The place of a block, empty where nobody has asked for it.
-    fn place(&self, key: Key<L>) -> KeptBlock<Q> {
+    /// The block of a key, empty where nobody has asked for it.
+    fn place(&self, key: Key<L>) -> SharedBlock<Q, L> {
         let mut blocks = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, known)) = blocks.iter().find(|(known, _)| *known == key) {
-            return Arc::clone(known);
+        if let Some(known) = blocks.iter().find(|known| known.key == key) {
+            return Arc::clone(&known.block);
         }
-        let new = KeptBlock::default();
-        blocks.push((key, Arc::clone(&new)));
+        let new = SharedBlock::default();
+        blocks.push(KeptBlock { key, block: Arc::clone(&new) });
         if blocks.len() > KEPT {
             blocks.remove(0);
         }
@@ -431,7 +490,7 @@ mod tests {
         missing
     }
 
-    fn has_every_pair<Q: Clone, L>(topic: &Topic<Q, L>, limits: &L) {
+    fn has_every_pair<Q: Clone, L: Clone>(topic: &Topic<Q, L>, limits: &L) {
         for seed in 1..=3 {
             let mut table = Table::new(topic.count(), 3);
             note(&mut table, topic, limits, &block(topic, seed, 0, limits));
@@ -451,10 +510,29 @@ mod tests {
         has_every_pair(&design::TOPIC, &Coordinates::F64);
     }
 
+    /// A block that grows question by question, asked for in any order, is the one that is chosen at once.
+    #[test]
+    fn a_block_grows_to_the_same() {
+        let topic = near::TOPIC;
+        let limits = Limits::default();
+        for number in [0, 1] {
+            let whole = block(&topic, 7, number, &limits);
+            let blocks = Blocks::none();
+            for at in [0, 3, 160, 149, 999, 150, 0, 998] {
+                let index = number * BLOCK + at;
+                assert_eq!(
+                    blocks.question(&topic, 7, index, &limits),
+                    whole[at as usize],
+                    "{index}"
+                );
+            }
+        }
+    }
+
     /// How many quadruples the first block after those by triples has, chosen with some effort.
-    fn quadruples<Q: Clone, L>(topic: &Topic<Q, L>, effort: Effort, limits: &L) -> usize {
+    fn quadruples<Q: Clone, L: Clone>(topic: &Topic<Q, L>, effort: Effort, limits: &L) -> usize {
         let mut table = Table::new(topic.count(), 4);
-        let block = block_by(effort, &impossible(topic), topic, [1, BY_TRIPLES], limits);
+        let block = block_by(effort, impossible(topic), topic, [1, BY_TRIPLES], limits);
         note(&mut table, topic, limits, &block);
         table.count(4)
     }
@@ -473,11 +551,16 @@ mod tests {
     }
 
     #[allow(clippy::disallowed_methods, reason = "it renews the data of this crate")]
-    fn search_long<Q: Clone, L>(topic: &Topic<Q, L>, limits: &L) {
+    fn search_long<Q: Clone, L: Clone>(topic: &Topic<Q, L>, limits: &L) {
         let mut table = Table::new(topic.count(), 3);
         for seed in 100..140 {
             let effort = Effort::of_block(0, topic.count());
-            note(&mut table, topic, limits, &block_by(effort, &[], topic, [seed, 0], limits));
+            note(
+                &mut table,
+                topic,
+                limits,
+                &block_by(effort, Vec::new(), topic, [seed, 0], limits),
+            );
         }
         let missing = missing(topic, &table);
         if std::env::var_os("RASTERPROOF_RENEW").is_some() {
