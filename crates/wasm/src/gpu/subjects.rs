@@ -213,7 +213,7 @@ fn snapped(family: &Family, seed: u64, index: u64, step: i32, cell: i32) -> Opti
 /// A batch whose subjects a design chooses.
 struct Designed {
     topic: &'static facts::Topic,
-    /// Which of its batches.
+    /// Counts the batches of this check that the design chooses, from 0 on.
     batch: u64,
 }
 
@@ -248,7 +248,7 @@ pub(super) fn limits(check: Topic, step: i32, cell: i32) -> Limits {
     }
 }
 
-/// A subject that a design chose.
+/// The case of a design as the check draws it; nothing where it has no pixels to judge.
 fn of_design(check: Topic, case: Case, step: i32, cell: i32) -> Option<Drawing> {
     Some(Drawing(match (check, case.shape) {
         (_, Shape::Lines(list)) => vec![around_middle(list.first()?, cell)?],

@@ -4,7 +4,7 @@
 //! Cases come in blocks of [`BLOCK`]. The first block has every pair of classes that can occur. In block k some triples are
 //! looked for that hold a class of fact k - 1. A
 //! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it. Whoever asks for
-//! a few cases of a block waits for no more than these.
+//! a few cases of a block waits for 50 at most beyond these.
 //!
 //! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. After
 //! `BY_TRIPLES` blocks hardly a triple is missing, and the one is taken that has most quadruples. Some are drawn
@@ -23,6 +23,8 @@ use crate::cases::{Case, Limits};
 
 /// Cases of a block.
 pub const BLOCK: u64 = 1000;
+/// Cases that a block grows by, a part of [`BLOCK`].
+const GROWS_BY: usize = 50;
 /// Blocks whose cases are chosen by pairs and triples; those of later ones are chosen by quadruples.
 const BY_TRIPLES: u64 = 20;
 /// Cases of a block that are chosen before what is rare is looked for.
@@ -92,7 +94,7 @@ struct Chooser<Q: 'static, L: 'static> {
     effort: Effort,
     /// The fact of whose classes triples are looked for; pairs are, where there is none.
     third: Option<usize>,
-    /// Pairs that are not looked for.
+    /// Pairs that are not looked for, since a long search has not found them; in ascending order.
     impossible: Vec<[u16; 2]>,
     table: Table,
     /// The cases of the block so far.
@@ -382,13 +384,14 @@ enum Block<Q: 'static, L: 'static> {
 }
 
 impl<Q: Clone, L: Clone> Block<Q, L> {
-    /// The question at a place.
+    /// The question at a place, for which the block is chosen that far.
     fn question(&mut self, at: usize) -> Q {
         let chooser = match self {
             Self::Growing(chooser) => chooser,
             Self::Whole(all) => return all[at].clone(),
         };
-        chooser.grow(at + 1);
+        // A few more than that, so that several threads do not wait for each other at each question.
+        chooser.grow((at + 1).next_multiple_of(GROWS_BY));
         let question = chooser.chosen[at].clone();
         // Nothing more is chosen, so that what was missing is forgotten.
         if chooser.chosen.len() as u64 == BLOCK {
@@ -407,7 +410,7 @@ struct Key<L> {
     limits: L,
 }
 
-/// A block that several may ask for, empty where nobody has yet.
+/// A block that several threads may ask for; nothing before the first of them does.
 type SharedBlock<Q, L> = Arc<Mutex<Option<Block<Q, L>>>>;
 
 struct KeptBlock<Q: 'static, L: 'static> {
@@ -438,7 +441,7 @@ impl<Q: Clone, L: Clone + PartialEq> Blocks<Q, L> {
         block.question((index % BLOCK) as usize)
     }
 
-    /// The block of a key, empty where nobody has asked for it.
+    /// The block of a key; nothing in it before it is asked for.
     fn place(&self, key: Key<L>) -> SharedBlock<Q, L> {
         let mut blocks = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = blocks.iter().find(|known| known.key == key) {
